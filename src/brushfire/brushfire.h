@@ -1,0 +1,11 @@
+// Everything public, in one include.
+#pragma once
+
+#include <brushfire/core/error.h>
+#include <brushfire/core/progress.h>
+#include <brushfire/core/types.h>
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/report.h>
+#include <brushfire/mesh/surface_point.h>
+#include <brushfire/solvers/distance.h>
+#include <brushfire/version.h>

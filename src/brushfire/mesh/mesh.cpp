@@ -1,0 +1,265 @@
+// Mesh: validation, lazily derived arrays, intrinsic geometry.
+#include <brushfire/mesh/mesh.h>
+
+#include <brushfire/core/error.h>
+#include <brushfire/core/planar.h>
+#include <brushfire/mesh/detail/connectivity.h>
+#include <brushfire/mesh/detail/report.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <string>
+
+namespace brushfire {
+
+// A value that is computed on first use; safe from several threads.
+template <class T>
+class Lazy {
+ public:
+  template <class Make>
+  const T& get(Make&& make) const {
+    std::call_once(once_, [&] { value_ = make(); });
+    return value_;
+  }
+
+ private:
+  mutable std::once_flag once_;
+  mutable T value_;
+};
+
+namespace {
+
+struct Geometry {
+  double unit = 1;
+  std::vector<double> lengths;       // [halfedge_count]
+  std::vector<double> double_areas;  // [face_count]
+};
+
+void check_faces(Index vertex_count, std::span<const Face> faces) {
+  if (faces.size() > kNoIndex / 3) {
+    throw Error(ErrorCode::TooLarge, std::to_string(faces.size()) + " faces do not fit into 32-bit halfedge numbers");
+  }
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const Index v : faces[f]) {
+      if (v >= vertex_count) {
+        throw Error(ErrorCode::InvalidMesh, "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
+                                                ", but there are " + std::to_string(vertex_count) + " vertices");
+      }
+    }
+  }
+}
+
+// 2^k with 2^k <= x < 2^(k+1); 1 for 0.
+double power_of_two_below(double x) { return x > 0 ? std::ldexp(1.0, std::ilogb(x)) : 1.0; }
+
+// Twice the area from the two shorter edges: rounding of a cross product grows with the product of the lengths.
+double double_area_of(const std::array<Vec3, 3>& edge) {
+  const std::array<double, 3> squared{dot(edge[0], edge[0]), dot(edge[1], edge[1]), dot(edge[2], edge[2])};
+  const std::size_t longest =
+      static_cast<std::size_t>(std::max_element(squared.begin(), squared.end()) - squared.begin());
+  return norm(cross(edge[(longest + 1) % 3], edge[(longest + 2) % 3]));
+}
+
+std::array<Vec3, 3> scaled_edges(std::span<const Vec3> positions, const Face& t, double scale) {
+  std::array<Vec3, 3> edge;
+  for (std::size_t k = 0; k < 3; ++k) {
+    // Rounding of a difference is symmetric, so both sides of an edge get the same length to the bit.
+    edge[k] = scale * (positions[t[(k + 1) % 3]] - positions[t[k]]);
+  }
+  return edge;
+}
+
+// Differences of coordinates are scaled before they are squared, so that 1e-200 and 1e200 neither vanish nor overflow.
+double mean_edge_estimate(std::span<const Vec3> positions, std::span<const Face> faces) {
+  double largest = 0;
+  for (const Face& t : faces) {
+    for (const Index v : t) {
+      largest = std::max({largest, std::abs(positions[v].x), std::abs(positions[v].y), std::abs(positions[v].z)});
+    }
+  }
+  const double scale = 0.25 / power_of_two_below(largest);
+  double sum = 0;
+  for (const Face& t : faces) {
+    for (const Vec3& e : scaled_edges(positions, t, scale)) sum += norm(e);
+  }
+  return faces.empty() ? 0 : sum / (3.0 * static_cast<double>(faces.size())) / scale;
+}
+
+Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
+  Geometry g;
+  g.unit = power_of_two_below(mean_edge_estimate(positions, faces));
+  const double scale = 1 / g.unit;
+  g.lengths.resize(3 * faces.size());
+  g.double_areas.resize(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const std::array<Vec3, 3> edge = scaled_edges(positions, faces[f], scale);
+    for (std::size_t k = 0; k < 3; ++k) g.lengths[3 * f + k] = norm(edge[k]);
+    g.double_areas[f] = double_area_of(edge);
+  }
+  return g;
+}
+
+}  // namespace
+
+struct Mesh::Data {
+  Index vertex_count = 0;
+  bool has_positions = true;
+  std::vector<Vec3> positions;
+  std::vector<Face> faces;
+  std::vector<double> input_lengths;  // [halfedge_count], meshes from lengths only
+
+  Lazy<detail::VertexCorners> corners;
+  Lazy<std::vector<Index>> opposite;
+  Lazy<std::vector<Link>> links;
+  Lazy<Geometry> geometry;
+  Lazy<MeshReport> report;
+
+  const detail::VertexCorners& get_corners() const {
+    return corners.get([this] { return detail::build_corners(vertex_count, faces); });
+  }
+  const std::vector<Index>& get_opposite() const {
+    return opposite.get([this] { return detail::build_opposite(faces, get_corners()); });
+  }
+  const std::vector<Link>& get_links() const {
+    return links.get([this] { return detail::build_links(faces, get_corners(), get_opposite()); });
+  }
+  const Geometry& get_geometry() const {
+    return geometry.get(
+        [this] { return has_positions ? geometry_from_positions(positions, faces) : geometry_from_lengths(); });
+  }
+
+  void check_lengths() const;
+  Geometry geometry_from_lengths() const;
+};
+
+namespace {
+
+// How far two faces may disagree on an edge, and a triangle may miss closing, relative to the lengths: room for
+// lengths that were written with ten digits.
+constexpr double kLengthAgreement = 1e-9;
+
+[[noreturn]] void throw_length_error(Index f, const std::string& what) {
+  throw Error(ErrorCode::InvalidMesh, "face " + std::to_string(f) + ": " + what);
+}
+
+}  // namespace
+
+// Every face's own lengths; agreement across an edge is checked against the first face of its ring.
+void Mesh::Data::check_lengths() const {
+  const std::vector<Index>& ring = get_opposite();
+  for (Index f = 0; f < faces.size(); ++f) {
+    std::array<double, 3> l;
+    for (Index k = 0; k < 3; ++k) {
+      l[k] = input_lengths[3 * f + k];
+      const bool loop = faces[f][k] == faces[f][(k + 1) % 3];
+      if (!std::isfinite(l[k]) || l[k] < 0 || (loop && l[k] != 0)) {
+        throw_length_error(f, "length " + std::to_string(l[k]) + " of edge " + std::to_string(k) +
+                                  (loop ? " between a vertex and itself is not 0" : " is not finite and >= 0"));
+      }
+      const double other = input_lengths[ring[3 * f + k]];
+      if (std::abs(l[k] - other) > kLengthAgreement * std::max(l[k], other)) {
+        throw_length_error(f, "edge " + std::to_string(k) + " has length " + std::to_string(l[k]) + ", but " +
+                                  std::to_string(other) + " in face " + std::to_string(ring[3 * f + k] / 3));
+      }
+    }
+    std::sort(l.begin(), l.end());
+    if (l[2] - (l[0] + l[1]) > kLengthAgreement * l[2]) {
+      throw_length_error(f, "lengths break the triangle inequality");
+    }
+  }
+}
+
+Geometry Mesh::Data::geometry_from_lengths() const {
+  Geometry g;
+  double sum = 0, largest = 0;
+  for (const double l : input_lengths) largest = std::max(largest, l);
+  const double scale = 1 / power_of_two_below(largest);
+  for (const double l : input_lengths) sum += l * scale;
+  if (!input_lengths.empty()) g.unit = power_of_two_below(sum / static_cast<double>(input_lengths.size()) / scale);
+  g.lengths.resize(input_lengths.size());
+  const std::vector<Index>& ring = get_opposite();
+  for (Index h = 0; h < input_lengths.size(); ++h) {
+    Index lowest = h;  // one length for all faces of an edge: that of the ring's lowest halfedge
+    for (Index g2 = ring[h]; g2 != h; g2 = ring[g2]) lowest = std::min(lowest, g2);
+    g.lengths[h] = input_lengths[lowest] / g.unit;
+  }
+  g.double_areas.resize(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const double q = heron_sorted(g.lengths[3 * f], g.lengths[3 * f + 1], g.lengths[3 * f + 2]);
+    g.double_areas[f] = q > 0 ? 0.5 * std::sqrt(q) : 0.0;
+  }
+  return g;
+}
+
+Mesh::Mesh() : data_(std::make_shared<Data>()) {}
+Mesh::Mesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+Mesh::Mesh(std::span<const Vec3> positions, std::span<const Face> faces) {
+  if (positions.size() >= kNoIndex) {
+    throw Error(ErrorCode::TooLarge, std::to_string(positions.size()) + " vertices do not fit into 32-bit indices");
+  }
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const Vec3& p = positions[v];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw Error(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + " has a coordinate that is not finite: (" +
+                                              std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
+                                              std::to_string(p.z) + ")");
+    }
+  }
+  check_faces(static_cast<Index>(positions.size()), faces);
+  auto data = std::make_shared<Data>();
+  data->vertex_count = static_cast<Index>(positions.size());
+  data->positions.assign(positions.begin(), positions.end());
+  data->faces.assign(faces.begin(), faces.end());
+  data_ = std::move(data);
+}
+
+Mesh Mesh::from_lengths(Index vertex_count, std::span<const Face> faces,
+                        std::span<const std::array<double, 3>> lengths) {
+  if (lengths.size() != faces.size()) {
+    throw Error(ErrorCode::InvalidArgument, std::to_string(faces.size()) + " faces, but lengths for " +
+                                                std::to_string(lengths.size()) + ": one triple per face is needed");
+  }
+  check_faces(vertex_count, faces);
+  auto data = std::make_shared<Data>();
+  data->vertex_count = vertex_count;
+  data->has_positions = false;
+  data->faces.assign(faces.begin(), faces.end());
+  data->input_lengths.reserve(3 * lengths.size());
+  for (const auto& l : lengths) data->input_lengths.insert(data->input_lengths.end(), l.begin(), l.end());
+  data->check_lengths();
+  return Mesh(std::move(data));
+}
+
+Index Mesh::vertex_count() const noexcept { return data_->vertex_count; }
+Index Mesh::face_count() const noexcept { return static_cast<Index>(data_->faces.size()); }
+bool Mesh::has_positions() const noexcept { return data_->has_positions; }
+std::span<const Vec3> Mesh::positions() const noexcept { return data_->positions; }
+std::span<const Face> Mesh::faces() const noexcept { return data_->faces; }
+std::span<const Index> Mesh::opposite() const { return data_->get_opposite(); }
+std::span<const Link> Mesh::links() const { return data_->get_links(); }
+double Mesh::unit() const { return data_->get_geometry().unit; }
+std::span<const double> Mesh::lengths() const { return data_->get_geometry().lengths; }
+std::span<const double> Mesh::double_areas() const { return data_->get_geometry().double_areas; }
+
+std::span<const Index> Mesh::corners(Index v) const {
+  const detail::VertexCorners& c = data_->get_corners();
+  return std::span(c.corner).subspan(c.offset[v], c.offset[v + 1] - c.offset[v]);
+}
+
+double Mesh::corner_angle(Index h) const {
+  const std::span<const double> l = lengths();
+  const double a = l[h], b = l[previous(h)], c = l[next(h)];
+  // Both arguments are scaled by the same 2ab: cosine from lengths, sine from the area, so flat corners keep digits.
+  const double cosine = 0.5 * (a * a + b * b - c * c);
+  const double sine = double_areas()[face_of(h)];
+  if (cosine == 0 && sine == 0) return a == 0 && b == 0 ? kPi / 3 : 0.5 * kPi;
+  return std::atan2(sine, cosine);
+}
+
+const MeshReport& Mesh::report() const {
+  return data_->report.get([this] { return detail::build_report(*this); });
+}
+
+}  // namespace brushfire

@@ -1,0 +1,104 @@
+// Mesh: an immutable triangle complex, described for solvers by edge lengths, areas and which edges meet.
+#pragma once
+
+#include <brushfire/core/types.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace brushfire {
+
+struct MeshReport;
+
+// What the faces around a vertex form. Angles around a vertex ("saddle: more than 2 pi") mean something on a circle
+// or an arc only; anywhere else every fan has to be visited on its own.
+enum class Link : std::uint8_t {
+  Empty,   // no face (faces with a repeated vertex do not count)
+  Circle,  // one closed fan: an interior vertex
+  Arc,     // one open fan: a boundary vertex
+  Other,   // several fans (a bow-tie), or a fan with an edge of three and more faces
+};
+
+// Any set of triangles over a set of vertices: closed or not, manifold or not, consistently oriented or not, with
+// degenerate, duplicate and unreferenced parts. Nothing is repaired: distances are those of the given complex, and
+// report() says what is in it.
+//
+// Immutable after construction; copies share their data; safe to read from many threads at once. What is derived
+// (connectivity, lengths, links, the report) is built on first use, so that a solver pays for what it needs.
+//
+// Halfedges are arithmetic: face f has halfedges 3f, 3f+1, 3f+2; halfedge 3f+k runs from corner k to corner k+1 of its
+// face and also names that corner. A face whose three indices are not distinct has no area and no inside; it keeps
+// its number, and it conducts along its edges.
+//
+// Lengths and areas are in units of unit(), a power of two near the mean edge length, so that solvers see numbers near
+// one whatever the scale of the coordinates; multiplying by unit() is exact.
+class Mesh {
+ public:
+  // No vertices, no faces.
+  Mesh();
+
+  // Copies the arrays: positions[vertex_count], faces[face_count]. Throws Error(InvalidMesh) naming the first vertex
+  // with a coordinate that is not finite or the first face with an index >= vertex_count, and Error(TooLarge) beyond
+  // 2^32/3 faces. O(vertices + faces).
+  Mesh(std::span<const Vec3> positions, std::span<const Face> faces);
+
+  // A mesh that has lengths and no coordinates: lengths[f][k] is the length of the edge from corner k to corner k+1 of
+  // face f, finite and >= 0 (0 where the two corners are the same vertex). Throws Error(InvalidMesh) where faces
+  // disagree on a shared edge by more than 1e-9 of it or break the triangle inequality by more than that. Areas come
+  // from Kahan's formula; how many digits that costs on flat faces stands in report().length_precision.
+  static Mesh from_lengths(Index vertex_count, std::span<const Face> faces,
+                           std::span<const std::array<double, 3>> lengths);
+
+  Index vertex_count() const noexcept;
+  Index face_count() const noexcept;
+  Index halfedge_count() const noexcept { return 3 * face_count(); }
+
+  // False for a mesh from lengths; positions() is empty then.
+  bool has_positions() const noexcept;
+  std::span<const Vec3> positions() const noexcept;  // [vertex_count]
+  std::span<const Face> faces() const noexcept;      // [face_count]
+
+  static constexpr Index face_of(Index h) { return h / 3; }
+  static constexpr Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static constexpr Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  Index from(Index h) const { return faces()[h / 3][h % 3]; }
+  Index to(Index h) const { return from(next(h)); }
+
+  // opposite[h], [halfedge_count]: links the halfedges over one edge (one pair of vertices) in a ring. A boundary
+  // edge is its own opposite; two faces name each other; on a non-manifold edge following opposite visits all. Two
+  // faces lie the same way round where their halfedges run in opposite directions; where from(h) == from(opposite[h])
+  // the neighbour is mirrored. Halfedges of a face with a repeated vertex are not in any ring (their own opposite).
+  std::span<const Index> opposite() const;
+
+  // The corners (outgoing halfedges) at vertex v, ascending. Corners of faces with a repeated vertex are included.
+  std::span<const Index> corners(Index v) const;
+
+  // What the faces around each vertex form, [vertex_count].
+  std::span<const Link> links() const;
+
+  // A power of two within a factor 2 of the mean edge length; 1 where there is no edge or all have length 0.
+  double unit() const;
+  // Edge length of every halfedge, [halfedge_count], and twice the area of every face, [face_count], in unit() and
+  // unit()^2. Both sides of an edge have the same bits.
+  std::span<const double> lengths() const;
+  std::span<const double> double_areas() const;
+
+  // The angle at the corner that halfedge h starts from, in [0, pi]; pi/3 in a face whose vertices all coincide.
+  double corner_angle(Index h) const;
+
+  // What is in the mesh (see report.h). O(vertices + faces), once.
+  const MeshReport& report() const;
+
+  bool is_face_usable(Index f) const {  // three distinct vertices
+    const Face& t = faces()[f];
+    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+  }
+
+ private:
+  struct Data;
+  explicit Mesh(std::shared_ptr<const Data> data);
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace brushfire

@@ -1,0 +1,198 @@
+// Counts what is in a mesh, and says it.
+#include <brushfire/mesh/detail/report.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace brushfire {
+namespace {
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(Index n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+  Index find(Index a) {
+    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
+    return a;
+  }
+  void unite(Index a, Index b) {
+    a = find(a);
+    b = find(b);
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+Index count_components(const Mesh& mesh) {
+  DisjointSets sets(mesh.vertex_count());
+  for (const Face& t : mesh.faces()) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[1], t[2]);
+  }
+  Index count = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) count += sets.find(v) == v && !mesh.corners(v).empty();
+  return count;
+}
+
+// Faces that name the same three vertices as one before them, found by sorting.
+Index count_duplicate_faces(const Mesh& mesh) {
+  std::vector<Face> sorted(mesh.faces().begin(), mesh.faces().end());
+  for (Face& t : sorted) std::sort(t.begin(), t.end());
+  std::sort(sorted.begin(), sorted.end());
+  Index count = 0;
+  for (std::size_t f = 1; f < sorted.size(); ++f) count += sorted[f] == sorted[f - 1];
+  return count;
+}
+
+Index count_duplicate_positions(const Mesh& mesh) {
+  // Compared bit by bit after + 0.0, which turns -0 into 0.
+  std::vector<std::array<std::uint64_t, 3>> keys;
+  keys.reserve(mesh.positions().size());
+  for (const Vec3& p : mesh.positions()) {
+    keys.push_back({std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0),
+                    std::bit_cast<std::uint64_t>(p.z + 0.0)});
+  }
+  std::sort(keys.begin(), keys.end());
+  Index count = 0;
+  for (std::size_t v = 1; v < keys.size(); ++v) count += keys[v] == keys[v - 1];
+  return count;
+}
+
+void count_edges(const Mesh& mesh, MeshReport& r) {
+  const auto opposite = mesh.opposite();
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (!mesh.is_face_usable(Mesh::face_of(h))) continue;
+    Index faces = 1, lowest = h;
+    for (Index g = opposite[h]; g != h; g = opposite[g]) {
+      ++faces;
+      lowest = std::min(lowest, g);
+    }
+    if (lowest != h) continue;
+    ++r.edges;
+    r.boundary_edges += faces == 1;
+    r.nonmanifold_edges += faces > 2;
+    r.misoriented_edges += faces == 2 && mesh.from(h) == mesh.from(opposite[h]);
+  }
+}
+
+void measure_geometry(const Mesh& mesh, MeshReport& r) {
+  const auto lengths = mesh.lengths();
+  const auto areas = mesh.double_areas();
+  const double unit = mesh.unit();
+  double sum = 0, area = 0, shortest = kInfinity, longest = 0, flattest = 1;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (!mesh.is_face_usable(f)) {
+      ++r.repeated_index_faces;
+      continue;
+    }
+    double face_longest = 0;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      sum += lengths[h];
+      shortest = std::min(shortest, lengths[h]);
+      face_longest = std::max(face_longest, lengths[h]);
+      if (lengths[h] == 0) ++r.zero_length_edges;
+    }
+    longest = std::max(longest, face_longest);
+    area += 0.5 * areas[f];
+    if (areas[f] == 0) {
+      ++r.zero_area_faces;
+    } else {
+      flattest = std::min(flattest, areas[f] / (face_longest * face_longest));
+    }
+  }
+  const Index counted = r.faces - r.repeated_index_faces;
+  r.min_edge_length = counted > 0 ? shortest * unit : 0;
+  r.mean_edge_length = counted > 0 ? sum / (3.0 * counted) * unit : 0;
+  r.max_edge_length = longest * unit;
+  r.area = area * unit * unit;
+  constexpr double kPrecisionWithPositions = 1e-12;
+  r.length_precision =
+      mesh.has_positions() ? kPrecisionWithPositions : 64 * std::numeric_limits<double>::epsilon() / flattest;
+}
+
+std::string counted(Index n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+}  // namespace
+
+namespace detail {
+
+MeshReport build_report(const Mesh& mesh) {
+  MeshReport r;
+  r.vertices = mesh.vertex_count();
+  r.faces = mesh.face_count();
+  r.components = count_components(mesh);
+  count_edges(mesh, r);
+  measure_geometry(mesh, r);
+  // Each zero-length edge was met once per face.
+  if (r.zero_length_edges > 0) {
+    r.zero_length_edges = 0;
+    const auto opposite = mesh.opposite();
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+      if (mesh.lengths()[h] != 0 || !mesh.is_face_usable(Mesh::face_of(h))) continue;
+      Index lowest = h;
+      for (Index g = opposite[h]; g != h; g = opposite[g]) lowest = std::min(lowest, g);
+      r.zero_length_edges += lowest == h;
+    }
+  }
+  Index isolated = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    isolated += mesh.corners(v).empty();
+    r.nonmanifold_vertices += mesh.links()[v] == Link::Other;
+  }
+  r.isolated_vertices = isolated;
+  r.duplicate_faces = count_duplicate_faces(mesh);
+  r.duplicate_positions = count_duplicate_positions(mesh);
+  r.looks_like_soup = 2 * r.boundary_edges > r.edges && 2 * r.duplicate_positions > r.vertices;
+  r.euler_characteristic = static_cast<long long>(r.vertices - isolated) - static_cast<long long>(r.edges) +
+                           static_cast<long long>(r.faces - r.repeated_index_faces);
+  return r;
+}
+
+}  // namespace detail
+
+std::vector<std::string> MeshReport::remarks() const {
+  std::vector<std::string> out;
+  if (faces == 0) out.emplace_back("no faces: every distance is infinite");
+  if (looks_like_soup) {
+    out.emplace_back("looks like triangle soup (" + std::to_string(duplicate_positions) +
+                     " vertices repeat a position): weld equal positions first, or nothing is connected");
+  }
+  if (components > 1) {
+    out.push_back(std::to_string(components) + " components: distances between them are infinite");
+  }
+  if (isolated_vertices > 0) {
+    out.push_back(counted(isolated_vertices, "vertex is", "vertices are") + " in no face and cannot be reached");
+  }
+  if (nonmanifold_edges > 0) {
+    out.push_back(counted(nonmanifold_edges, "edge has", "edges have") + " three or more faces");
+  }
+  if (nonmanifold_vertices > 0) {
+    out.push_back(counted(nonmanifold_vertices, "vertex joins", "vertices join") + " several fans of faces");
+  }
+  if (boundary_edges > 0) out.push_back(counted(boundary_edges, "boundary edge", "boundary edges"));
+  if (misoriented_edges > 0) {
+    out.push_back(counted(misoriented_edges, "edge joins", "edges join") + " faces of opposite orientation (harmless)");
+  }
+  if (duplicate_faces > 0) out.push_back(counted(duplicate_faces, "duplicate face", "duplicate faces"));
+  if (repeated_index_faces > 0) {
+    out.push_back(counted(repeated_index_faces, "face names", "faces name") + " a vertex twice");
+  }
+  if (zero_area_faces > 0) out.push_back(counted(zero_area_faces, "face has", "faces have") + " no area");
+  if (zero_length_edges > 0) out.push_back(counted(zero_length_edges, "edge has", "edges have") + " no length");
+  if (!looks_like_soup && duplicate_positions > 0) {
+    out.push_back(counted(duplicate_positions, "vertex repeats", "vertices repeat") + " the position of another");
+  }
+  constexpr double kUnevenEdges = 1e6;
+  if (min_edge_length > 0 && max_edge_length > kUnevenEdges * min_edge_length) {
+    out.emplace_back("edge lengths differ by a factor of more than a million");
+  }
+  return out;
+}
+
+}  // namespace brushfire

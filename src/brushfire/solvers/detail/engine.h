@@ -1,0 +1,38 @@
+// What every solver implements, behind distance(): one class, made once per mesh, run many times.
+#pragma once
+
+#include <brushfire/solvers/distance.h>
+
+#include <span>
+#include <vector>
+
+namespace brushfire::detail {
+
+// A source after validation: where it lies, and its offset in mesh.unit().
+struct LocatedSource {
+  PointLocation at;
+  double offset = 0;
+  Index label = 0;  // position in the caller's list
+};
+
+// One run as an engine sees it: validated, in mesh.unit().
+struct Problem {
+  std::span<const LocatedSource> sources;    // not empty
+  std::span<const PointLocation> targets;    // may be empty
+  double max_distance = kInfinity;           // in mesh.unit()
+  const DistanceOptions* options = nullptr;  // for everything else: precision, progress, cancel
+};
+
+// Fills `field` in mesh.unit(): distance and source of every vertex ([vertex_count], already sized, +inf and kNoIndex),
+// target_distance and target_source ([targets], likewise), updates; values beyond max_distance may be left in,
+// distance() removes them. Throws Error(Cancelled).
+class Engine {
+ public:
+  Engine() = default;
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+  virtual ~Engine() = default;
+  virtual void solve(const Problem& problem, DistanceField& field) = 0;
+};
+
+}  // namespace brushfire::detail

@@ -1,0 +1,87 @@
+// Dijkstra's algorithm on the edge graph.
+#include <brushfire/solvers/detail/dijkstra.h>
+
+#include <brushfire/core/error.h>
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+namespace brushfire::detail {
+namespace {
+
+class Dijkstra final : public Engine {
+ public:
+  explicit Dijkstra(Mesh mesh) : mesh_(std::move(mesh)) {}
+
+  void solve(const Problem& problem, DistanceField& field) override {
+    queue_ = {};
+    for (const LocatedSource& s : problem.sources) start(s, field);
+    march(problem, field);
+    for (std::size_t i = 0; i < problem.targets.size(); ++i) evaluate(problem, i, field);
+  }
+
+ private:
+  using Entry = std::tuple<double, Index, Index>;  // value, source, vertex: equal values go to the lowest source
+
+  void offer(Index v, double value, Index label, DistanceField& field) {
+    if (std::tie(value, label) < std::tie(field.distance[v], field.source[v])) {
+      field.distance[v] = value;
+      field.source[v] = label;
+      queue_.emplace(value, label, v);
+    }
+  }
+
+  // The corners of every face that holds the source; on an edge that is all faces of the edge.
+  void start(const LocatedSource& s, DistanceField& field) {
+    if (s.at.on == PointLocation::On::Vertex) {
+      offer(s.at.vertex, s.offset, s.label, field);
+      return;
+    }
+    const std::array<double, 3> d = corner_distances(mesh_, s.at);
+    for (Index k = 0; k < 3; ++k) offer(mesh_.faces()[s.at.face][k], s.offset + d[k], s.label, field);
+  }
+
+  void march(const Problem& problem, DistanceField& field) {
+    constexpr std::uint64_t kPollInterval = 4096;
+    while (!queue_.empty()) {
+      const auto [value, label, v] = queue_.top();
+      queue_.pop();
+      if (value != field.distance[v] || label != field.source[v]) continue;
+      if (value > problem.max_distance) break;
+      if (++field.updates % kPollInterval == 0 && problem.options->cancel && problem.options->cancel->cancelled()) {
+        throw Error(ErrorCode::Cancelled, "cancelled");
+      }
+      for (const Index h : mesh_.corners(v)) {
+        offer(mesh_.to(h), value + mesh_.lengths()[h], label, field);
+        const Index back = Mesh::previous(h);
+        offer(mesh_.from(back), value + mesh_.lengths()[back], label, field);
+      }
+    }
+  }
+
+  // Along the edges to a corner of the target's face, then straight; or straight from a source in the same face.
+  void evaluate(const Problem& problem, std::size_t i, DistanceField& field) {
+    const PointLocation& at = problem.targets[i];
+    const std::array<double, 3> d = corner_distances(mesh_, at);
+    for (Index k = 0; k < 3; ++k) {
+      const Index v = mesh_.faces()[at.face][k];
+      if (std::pair(field.distance[v] + d[k], field.source[v]) <
+          std::pair(field.target_distance[i], field.target_source[i])) {
+        field.target_distance[i] = field.distance[v] + d[k];
+        field.target_source[i] = field.source[v];
+      }
+    }
+  }
+
+  Mesh mesh_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_dijkstra(const Mesh& mesh) { return std::make_unique<Dijkstra>(mesh); }
+
+}  // namespace brushfire::detail

@@ -1,0 +1,85 @@
+// distance(): from a mesh and sources to a distance field. The front door of all solvers.
+#pragma once
+
+#include <brushfire/core/progress.h>
+#include <brushfire/core/types.h>
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_point.h>
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace brushfire {
+
+enum class Method : std::uint8_t {
+  NovotniKlein,      // fast marching, circular update with the visibility test: the fastest; measured error stated
+  NovotniKlein2002,  // the update literally as printed in the paper, to show what it does
+  KimmelSethian,     // fast marching, planar update: the paper's baseline
+  Dijkstra,          // edge graph: an upper bound
+};
+
+// "novotni-klein", "novotni-klein-2002", "kimmel-sethian", "dijkstra": as on the command line.
+std::string_view name_of(Method method);
+// Throws Error(InvalidArgument) that lists the names.
+Method method_named(std::string_view name);
+// All of them, in the order of the enumeration.
+std::span<const Method> all_methods();
+
+// Arithmetic of the marching itself; lengths and results are double either way.
+enum class Precision : std::uint8_t { Float, Double };
+
+struct Source {
+  SurfacePoint point;
+  double offset = 0;  // the value the front starts with; finite, may be negative; in the mesh's units
+};
+
+struct DistanceOptions {
+  Method method = Method::NovotniKlein;
+  Precision precision = Precision::Double;  // methods that have only one ignore it
+  double max_distance = kInfinity;          // vertices farther than this read +inf; >= 0, may be +inf
+  std::vector<SurfacePoint> targets;        // where there are any, the solver may stop once all of them are final
+  Progress progress;                        // called now and then; may be empty
+  const CancelToken* cancel = nullptr;      // polled now and then; may be null
+};
+
+struct DistanceField {
+  std::vector<double>
+      distance;               // [vertex_count]; +inf: unreachable, beyond max_distance, or not final at an early stop
+  std::vector<Index> source;  // [vertex_count] position of the nearest source in the caller's list; kNoIndex: none
+  std::vector<double> target_distance;  // [targets]
+  std::vector<Index> target_source;     // [targets]
+  std::vector<double> error_bound;      // [vertex_count] absolute and proven; empty for methods without a bound
+  double max_error_bound = kInfinity;   // relative, over all reached vertices; +inf for methods without a bound
+  Method method = Method::NovotniKlein;
+  Index reached = 0;          // vertices with a finite distance
+  Index beyond_radius = 0;    // vertices that the front saw but that are farther than max_distance or not final
+  Index unreachable = 0;      // the rest (exact where neither radius nor targets stopped the front)
+  std::uint64_t updates = 0;  // vertices (marching) or window lists (windows) taken from the queue, with repetitions
+};
+
+// Distances from the nearest of the sources (least distance plus offset; equal: the lowest position) to every vertex.
+// A source that another one dominates reads less than its own offset. Throws Error(InvalidArgument) for an empty source
+// list, an offset that is not finite or a negative max_distance; Error(IndexOutOfRange) and Error(InvalidArgument) for
+// points that are not on the mesh; Error(Cancelled).
+DistanceField distance(const Mesh& mesh, std::span<const Source> sources, const DistanceOptions& options = {});
+
+// The same with its workspace kept between calls, for many sources on one mesh. Not for use from several threads at
+// once; solvers on the same mesh are independent of each other.
+class DistanceSolver {
+ public:
+  explicit DistanceSolver(Mesh mesh);
+  ~DistanceSolver();
+  DistanceSolver(DistanceSolver&&) noexcept;
+  DistanceSolver& operator=(DistanceSolver&&) noexcept;
+
+  const Mesh& mesh() const noexcept;
+  DistanceField distance(std::span<const Source> sources, const DistanceOptions& options = {});
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace brushfire

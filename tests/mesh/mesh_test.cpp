@@ -1,0 +1,171 @@
+// The mesh: connectivity, links, intrinsic geometry, report.
+#include <brushfire/core/error.h>
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/report.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace brushfire {
+namespace {
+
+const std::vector<Vec3> kSquare{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const std::vector<Face> kTwoTriangles{{0, 1, 2}, {0, 2, 3}};
+
+TEST(Mesh, EmptyMeshHasNothingAndAReport) {
+  const Mesh mesh;
+  EXPECT_EQ(mesh.vertex_count(), 0u);
+  EXPECT_EQ(mesh.face_count(), 0u);
+  EXPECT_EQ(mesh.unit(), 1.0);
+  EXPECT_EQ(mesh.report().components, 0u);
+}
+
+TEST(Mesh, FaceIndexBeyondTheVerticesIsAnErrorThatNamesTheFace) {
+  const std::vector<Face> faces{{0, 1, 2}, {0, 2, 4}};
+  try {
+    const Mesh mesh(kSquare, faces);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::InvalidMesh);
+    EXPECT_STREQ(e.what(), "face 1 names vertex 4, but there are 4 vertices");
+  }
+}
+
+TEST(Mesh, CoordinateThatIsNotFiniteIsAnErrorThatNamesTheVertex) {
+  std::vector<Vec3> positions = kSquare;
+  positions[2].y = std::nan("");
+  try {
+    const Mesh mesh(positions, kTwoTriangles);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::InvalidMesh);
+    EXPECT_NE(std::string(e.what()).find("vertex 2"), std::string::npos);
+  }
+}
+
+TEST(Mesh, OppositeJoinsTheTwoFacesOfAnEdgeAndLeavesTheBoundaryAlone) {
+  const Mesh mesh(kSquare, kTwoTriangles);
+  const auto opposite = mesh.opposite();
+  EXPECT_EQ(opposite[2], 3u);  // 2->0 of face 0 and 0->2 of face 1
+  EXPECT_EQ(opposite[3], 2u);
+  for (const Index h : {0u, 1u, 4u, 5u}) EXPECT_EQ(opposite[h], h);
+}
+
+TEST(Mesh, OppositeIsARingOverANonManifoldEdge) {
+  std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
+  const std::vector<Face> book{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+  const Mesh mesh(positions, book);
+  const auto opposite = mesh.opposite();
+  EXPECT_EQ(opposite[0], 3u);
+  EXPECT_EQ(opposite[3], 6u);
+  EXPECT_EQ(opposite[6], 0u);
+  EXPECT_EQ(mesh.links()[0], Link::Other);
+  EXPECT_EQ(mesh.links()[2], Link::Arc);
+  EXPECT_EQ(mesh.report().nonmanifold_edges, 1u);
+}
+
+TEST(Mesh, LinksTellInteriorBoundaryBowTieAndIsolatedVertices) {
+  std::vector<Vec3> positions;
+  for (int k = 0; k < 6; ++k) positions.push_back({std::cos(k * kPi / 3), std::sin(k * kPi / 3), 0});
+  positions.push_back({0, 0, 0});
+  positions.push_back({9, 9, 9});
+  std::vector<Face> disc;
+  for (Index k = 0; k < 6; ++k) disc.push_back({k, (k + 1) % 6, 6});
+  const Mesh closed(positions, disc);
+  EXPECT_EQ(closed.links()[6], Link::Circle);
+  EXPECT_EQ(closed.links()[0], Link::Arc);
+  EXPECT_EQ(closed.links()[7], Link::Empty);
+  const std::vector<Face> bow_tie{disc[0], disc[3]};
+  EXPECT_EQ(Mesh(positions, bow_tie).links()[6], Link::Other);
+}
+
+TEST(Mesh, LinkOfAVertexDoesNotDependOnTheOrientationOfItsFaces) {
+  std::vector<Vec3> positions;
+  for (int k = 0; k < 6; ++k) positions.push_back({std::cos(k * kPi / 3), std::sin(k * kPi / 3), 0});
+  positions.push_back({0, 0, 0});
+  std::vector<Face> disc;
+  for (Index k = 0; k < 6; ++k) disc.push_back(k % 2 == 0 ? Face{k, (k + 1) % 6, 6} : Face{(k + 1) % 6, k, 6});
+  const Mesh mesh(positions, disc);
+  EXPECT_EQ(mesh.links()[6], Link::Circle);
+  EXPECT_EQ(mesh.report().misoriented_edges, 6u);
+}
+
+TEST(Mesh, LengthsAndAreasScaleExactlyWithPowersOfTwo) {
+  for (const double scale : {0x1p-100, 0x1p-500, 1.0, 0x1p100, 0x1p500}) {
+    std::vector<Vec3> positions{{0.1, 0.2, 0.3}, {1.7, -0.4, 0.9}, {0.3, 1.1, -0.2}, {2, 2, 2}};
+    const Mesh mesh(positions, kTwoTriangles);
+    for (Vec3& p : positions) p = scale * p;
+    const Mesh scaled(positions, kTwoTriangles);
+    EXPECT_EQ(scaled.unit(), scale * mesh.unit());
+    for (Index h = 0; h < 6; ++h) EXPECT_EQ(scaled.lengths()[h], mesh.lengths()[h]);
+    for (Index f = 0; f < 2; ++f) EXPECT_EQ(scaled.double_areas()[f], mesh.double_areas()[f]);
+  }
+}
+
+TEST(Mesh, FromLengthsAgreesWithCoordinates) {
+  const Mesh with(kSquare, kTwoTriangles);
+  const double d = std::sqrt(2.0);
+  const std::vector<std::array<double, 3>> lengths{{1, 1, d}, {d, 1, 1}};
+  const Mesh without = Mesh::from_lengths(4, kTwoTriangles, lengths);
+  EXPECT_FALSE(without.has_positions());
+  EXPECT_EQ(with.unit(), without.unit());
+  for (Index h = 0; h < 6; ++h) EXPECT_DOUBLE_EQ(with.lengths()[h], without.lengths()[h]);
+  for (Index f = 0; f < 2; ++f) EXPECT_NEAR(with.double_areas()[f], without.double_areas()[f], 1e-15);
+}
+
+TEST(Mesh, FromLengthsRefusesFacesThatDisagreeOnAnEdge) {
+  const std::vector<std::array<double, 3>> lengths{{1, 1, 1.5}, {1.5001, 1, 1}};
+  EXPECT_THROW(Mesh::from_lengths(4, kTwoTriangles, lengths), Error);
+}
+
+TEST(Mesh, FromLengthsRefusesABrokenTriangleInequality) {
+  const std::vector<std::array<double, 3>> lengths{{1, 1, 2.5}, {2.5, 2, 2}};
+  EXPECT_THROW(Mesh::from_lengths(4, kTwoTriangles, lengths), Error);
+}
+
+TEST(Mesh, CornerAnglesSumToPi) {
+  const Mesh mesh(kSquare, kTwoTriangles);
+  EXPECT_DOUBLE_EQ(mesh.corner_angle(0), kPi / 4);
+  EXPECT_DOUBLE_EQ(mesh.corner_angle(1), kPi / 2);
+  EXPECT_DOUBLE_EQ(mesh.corner_angle(0) + mesh.corner_angle(1) + mesh.corner_angle(2), kPi);
+}
+
+TEST(Mesh, ReportCountsDegenerateDuplicateAndIsolatedParts) {
+  std::vector<Vec3> positions = kSquare;
+  positions.push_back({2, 0, 0});
+  positions.push_back({5, 5, 5});
+  const std::vector<Face> faces{{0, 1, 2}, {0, 2, 3}, {2, 0, 1}, {0, 1, 1}, {0, 1, 4}};
+  const MeshReport& r = Mesh(positions, faces).report();
+  EXPECT_EQ(r.duplicate_faces, 1u);
+  EXPECT_EQ(r.repeated_index_faces, 1u);
+  EXPECT_EQ(r.zero_area_faces, 1u);
+  EXPECT_EQ(r.isolated_vertices, 1u);
+  EXPECT_EQ(r.components, 1u);
+  EXPECT_FALSE(r.remarks().empty());
+}
+
+TEST(Mesh, ReportSaysSoupWhereTrianglesShareNoVertex) {
+  std::vector<Vec3> positions;
+  std::vector<Face> faces;
+  for (const Face& t : kTwoTriangles) {
+    const Index n = static_cast<Index>(positions.size());
+    for (const Index v : t) positions.push_back(kSquare[v]);
+    faces.push_back({n, n + 1, n + 2});
+  }
+  // Two triangles repeat two of six positions; four squares on top of each other repeat most.
+  EXPECT_FALSE(Mesh(positions, faces).report().looks_like_soup);
+  const std::vector<Vec3> once = positions;
+  for (int copy = 0; copy < 3; ++copy) {
+    const Index n = static_cast<Index>(positions.size());
+    positions.insert(positions.end(), once.begin(), once.end());
+    faces.push_back({n, n + 1, n + 2});
+    faces.push_back({n + 3, n + 4, n + 5});
+  }
+  const Mesh soup(positions, faces);
+  EXPECT_TRUE(soup.report().looks_like_soup);
+  EXPECT_NE(soup.report().remarks().front().find("soup"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace brushfire

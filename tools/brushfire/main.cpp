@@ -1,0 +1,2 @@
+#include <brushfire/brushfire.h>
+int main() { return 0; }
