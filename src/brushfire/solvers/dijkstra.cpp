@@ -16,8 +16,11 @@ class Dijkstra final : public Engine {
  public:
   explicit Dijkstra(Mesh mesh) : mesh_(std::move(mesh)) {}
 
+  bool lists_touched() const override { return true; }
+
   void solve(const Problem& problem, DistanceField& field) override {
     queue_ = {};
+    touched_ = problem.touched;
     for (const LocatedSource& s : problem.sources) start(s, field);
     march(problem, field);
     for (std::size_t i = 0; i < problem.targets.size(); ++i) evaluate(problem, i, field);
@@ -28,6 +31,7 @@ class Dijkstra final : public Engine {
 
   void offer(Index v, double value, Index label, DistanceField& field) {
     if (std::tie(value, label) < std::tie(field.distance[v], field.source[v])) {
+      if (touched_ && field.source[v] == kNoIndex) touched_->push_back(v);
       field.distance[v] = value;
       field.source[v] = label;
       queue_.emplace(value, label, v);
@@ -77,6 +81,7 @@ class Dijkstra final : public Engine {
   }
 
   Mesh mesh_;
+  std::vector<Index>* touched_ = nullptr;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 

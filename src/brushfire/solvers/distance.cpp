@@ -5,6 +5,7 @@
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -40,10 +41,27 @@ std::vector<detail::LocatedSource> locate_sources(const Mesh& mesh, std::span<co
   return located;
 }
 
+std::vector<PointLocation> locate_targets(const Mesh& mesh, const DistanceOptions& options) {
+  std::vector<PointLocation> located;
+  located.reserve(options.targets.size());
+  for (const SurfacePoint& t : options.targets) located.push_back(locate(mesh, t));
+  return located;
+}
+
 void check(const DistanceOptions& options) {
   if (!(options.max_distance >= 0)) {
     throw Error(ErrorCode::InvalidArgument,
                 "max_distance " + std::to_string(options.max_distance) + " is not a number >= 0");
+  }
+}
+
+void finish_targets(double unit, const DistanceOptions& options, DistanceField& field) {
+  for (std::size_t i = 0; i < field.target_distance.size(); ++i) {
+    field.target_distance[i] *= unit;
+    if (field.target_distance[i] > options.max_distance) {
+      field.target_distance[i] = kInfinity;
+      field.target_source[i] = kNoIndex;
+    }
   }
 }
 
@@ -65,13 +83,27 @@ void finish(const Mesh& mesh, const DistanceOptions& options, DistanceField& fie
     }
   }
   field.unreachable = mesh.vertex_count() - field.reached - field.beyond_radius;
-  for (std::size_t i = 0; i < field.target_distance.size(); ++i) {
-    field.target_distance[i] *= unit;
-    if (field.target_distance[i] > options.max_distance) {
-      field.target_distance[i] = kInfinity;
-      field.target_source[i] = kNoIndex;
-    }
+  finish_targets(unit, options, field);
+}
+
+// The touched vertices within the radius, ascending, in the mesh's units. `touched` is sorted on the way.
+SparseField collect(double unit, const DistanceOptions& options, DistanceField& field, std::vector<Index>& touched) {
+  std::sort(touched.begin(), touched.end());
+  SparseField result;
+  result.vertex.reserve(touched.size());
+  result.distance.reserve(touched.size());
+  result.source.reserve(touched.size());
+  for (const Index v : touched) {
+    const double d = field.distance[v] * unit;
+    if (d == kInfinity || d > options.max_distance) continue;
+    result.vertex.push_back(v);
+    result.distance.push_back(d);
+    result.source.push_back(field.source[v]);
   }
+  finish_targets(unit, options, field);
+  result.target_distance = std::move(field.target_distance);
+  result.target_source = std::move(field.target_source);
+  return result;
 }
 
 }  // namespace
@@ -104,7 +136,30 @@ std::span<const Method> all_methods() { return kMethods; }
 struct DistanceSolver::Workspace {
   Mesh mesh;
   std::map<Method, std::unique_ptr<detail::Engine>> engines;
+  DistanceField scratch;       // of distance_sparse(): +inf and kNoIndex everywhere between calls
+  std::vector<Index> touched;  // what a run has changed in it
+
+  detail::Engine& engine(Method method);
+  void clean(bool everything);
 };
+
+detail::Engine& DistanceSolver::Workspace::engine(Method method) {
+  std::unique_ptr<detail::Engine>& engine = engines[method];
+  if (!engine) engine = make_engine(mesh, method);
+  return *engine;
+}
+
+void DistanceSolver::Workspace::clean(bool everything) {
+  if (everything || scratch.distance.size() != mesh.vertex_count()) {
+    scratch.distance.assign(mesh.vertex_count(), kInfinity);
+    scratch.source.assign(mesh.vertex_count(), kNoIndex);
+  }
+  for (const Index v : touched) {
+    scratch.distance[v] = kInfinity;
+    scratch.source[v] = kNoIndex;
+  }
+  touched.clear();
+}
 
 DistanceSolver::DistanceSolver(Mesh mesh) : workspace_(std::make_unique<Workspace>()) {
   workspace_->mesh = std::move(mesh);
@@ -118,19 +173,44 @@ DistanceField DistanceSolver::distance(std::span<const Source> sources, const Di
   const Mesh& mesh = workspace_->mesh;
   check(options);
   const std::vector<detail::LocatedSource> located = locate_sources(mesh, sources);
-  std::vector<PointLocation> targets;
-  for (const SurfacePoint& t : options.targets) targets.push_back(locate(mesh, t));
-
-  std::unique_ptr<detail::Engine>& engine = workspace_->engines[options.method];
-  if (!engine) engine = make_engine(mesh, options.method);
-
+  const std::vector<PointLocation> targets = locate_targets(mesh, options);
   DistanceField field;
   field.distance.assign(mesh.vertex_count(), kInfinity);
   field.source.assign(mesh.vertex_count(), kNoIndex);
   field.target_distance.assign(targets.size(), kInfinity);
   field.target_source.assign(targets.size(), kNoIndex);
-  engine->solve({located, targets, options.max_distance / mesh.unit(), &options}, field);
+  workspace_->engine(options.method)
+      .solve({located, targets, options.max_distance / mesh.unit(), &options, nullptr}, field);
   finish(mesh, options, field);
+  return field;
+}
+
+SparseField DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options) {
+  Workspace& w = *workspace_;
+  check(options);
+  const std::vector<detail::LocatedSource> located = locate_sources(w.mesh, sources);
+  const std::vector<PointLocation> targets = locate_targets(w.mesh, options);
+  detail::Engine& engine = w.engine(options.method);
+  const bool listed = engine.lists_touched();
+
+  w.clean(false);
+  w.scratch.target_distance.assign(targets.size(), kInfinity);
+  w.scratch.target_source.assign(targets.size(), kNoIndex);
+  w.scratch.error_bound.clear();
+  try {
+    engine.solve({located, targets, options.max_distance / w.mesh.unit(), &options, listed ? &w.touched : nullptr},
+                 w.scratch);
+  } catch (...) {
+    w.clean(!listed);
+    throw;
+  }
+  if (!listed) {
+    for (Index v = 0; v < w.mesh.vertex_count(); ++v) {
+      if (w.scratch.distance[v] != kInfinity) w.touched.push_back(v);
+    }
+  }
+  SparseField field = collect(w.mesh.unit(), options, w.scratch, w.touched);
+  w.clean(!listed);
   return field;
 }
 

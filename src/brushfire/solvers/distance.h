@@ -59,6 +59,15 @@ struct DistanceField {
   std::uint64_t updates = 0;  // vertices (marching) or window lists (windows) taken from the queue, with repetitions
 };
 
+// A field that says nothing of the vertices that it did not reach. The vertices ascend.
+struct SparseField {
+  std::vector<Index> vertex;            // [reached]
+  std::vector<double> distance;         // [reached], finite
+  std::vector<Index> source;            // [reached]
+  std::vector<double> target_distance;  // [targets]
+  std::vector<Index> target_source;     // [targets]
+};
+
 // Distances from the nearest of the sources (least distance plus offset; equal: the lowest position) to every vertex.
 // A source that another one dominates reads less than its own offset. Throws Error(InvalidArgument) for an empty source
 // list, an offset that is not finite or a negative max_distance; Error(IndexOutOfRange) and Error(InvalidArgument) for
@@ -76,6 +85,10 @@ class DistanceSolver {
 
   const Mesh& mesh() const noexcept;
   DistanceField distance(std::span<const Source> sources, const DistanceOptions& options = {});
+
+  // The same numbers, of the reached vertices only: costs what it reaches, whatever the size of the mesh (after the
+  // first call; for methods that keep no list of what they touched, one look at every vertex more).
+  SparseField distance_sparse(std::span<const Source> sources, const DistanceOptions& options = {});
 
  private:
   struct Workspace;

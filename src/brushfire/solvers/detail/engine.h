@@ -21,6 +21,10 @@ struct Problem {
   std::span<const PointLocation> targets;    // may be empty
   double max_distance = kInfinity;           // in mesh.unit()
   const DistanceOptions* options = nullptr;  // for everything else: precision, progress, cancel
+  // Where set, the run must cost what it reaches: nothing may be done for all vertices. The engine appends every vertex
+  // whose entry in the field it changed, once each, in any order and also when it throws; error_bound stays empty.
+  // Only given to an engine that lists_touched().
+  std::vector<Index>* touched = nullptr;
 };
 
 // Fills `field` in mesh.unit(): distance and source of every vertex ([vertex_count], already sized, +inf and kNoIndex),
@@ -33,6 +37,8 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine() = default;
   virtual void solve(const Problem& problem, DistanceField& field) = 0;
+  // True where solve() honours Problem::touched; otherwise distance_sparse() looks at all vertices.
+  virtual bool lists_touched() const { return false; }
 };
 
 }  // namespace brushfire::detail
