@@ -1,0 +1,101 @@
+// Wavefront OBJ: v and f lines; texture coordinates, normals, groups and materials are passed over.
+#include <brushfire/io/detail/formats.h>
+#include <brushfire/io/detail/text.h>
+
+#include <fast_float/fast_float.h>
+
+namespace brushfire::detail {
+
+namespace {
+
+class ObjReader {
+ public:
+  explicit ObjReader(const Input& input) : text_(input, input.bytes(), 1, '#') {}
+
+  MeshParts read() {
+    while (true) {
+      if (text_.to_word_on_line()) read_line();
+      if (!text_.next_line()) break;
+    }
+    if (lines_ != 0) parts_.remarks.push_back(counted(lines_, "line or point element", "line and point elements") + " left out");
+    return std::move(parts_);
+  }
+
+ private:
+  void read_line() {
+    const std::string_view keyword = text_.word_here();
+    if (keyword == "v") {
+      read_vertex();
+    } else if (keyword == "f" || keyword == "fo") {
+      read_face();
+    } else if (keyword == "l" || keyword == "p") {
+      ++lines_;
+    }
+  }
+
+  // What follows the three coordinates is a weight for curves or a colour.
+  void read_vertex() {
+    double c[3];
+    for (double& x : c) {
+      to_word_of_statement();
+      x = text_.coordinate_here();
+    }
+    parts_.positions.push_back({c[0], c[1], c[2]});
+  }
+
+  void read_face() {
+    const std::size_t line = text_.line();
+    corners_.clear();
+    while (to_word_of_statement()) {
+      corners_.push_back(vertex_of(text_.digits_here("a vertex number")));
+      // "7", "7/1", "7/1/3", "7//3": what follows the vertex has the same form and does not matter here.
+      for (int k = 0; k < 2 && text_.accept('/'); ++k) {
+        if (!text_.at_end() && text_.peek() != '/' && !TextCursor::is_space(text_.peek())) text_.digits_here("an index");
+      }
+      if (!text_.at_end() && !TextCursor::is_space(text_.peek())) text_.fail_word("a vertex number");
+    }
+    parts_.faces.add(corners_, line);
+  }
+
+  // A backslash at the end of a line continues the statement on the next.
+  bool to_word_of_statement() {
+    while (text_.to_word_on_line()) {
+      if (text_.peek() != '\\') return true;
+      text_.accept('\\');
+      if (text_.to_word_on_line()) text_.fail("a backslash within a line");
+      if (!text_.next_line()) return false;
+    }
+    return false;
+  }
+
+  // Numbers count from 1, or backwards from the latest vertex.
+  Index vertex_of(std::int64_t number) {
+    const auto so_far = static_cast<std::int64_t>(parts_.positions.size());
+    if (number == 0) text_.fail("vertex number 0, but they count from 1");
+    if (number < -so_far) {
+      text_.fail("vertex number " + std::to_string(number) + " reaches back beyond the " + std::to_string(so_far) +
+                 " vertices so far");
+    }
+    if (number > static_cast<std::int64_t>(kNoIndex)) {
+      text_.fail("vertex number " + std::to_string(number) + " is beyond 32 bits");
+    }
+    return static_cast<Index>(number > 0 ? number - 1 : so_far + number);
+  }
+
+  TextCursor text_;
+  MeshParts parts_;
+  std::vector<Index> corners_;
+  std::size_t lines_ = 0;
+};
+
+}  // namespace
+
+MeshParts read_obj(const Input& input) {
+  MeshParts parts = ObjReader(input).read();
+  if (parts.positions.empty() && parts.faces.count() == 0 && input.size() != 0) {
+    input.fail("has neither a vertex nor a face: no OBJ file");
+  }
+  return parts;
+}
+
+}  // namespace brushfire::detail

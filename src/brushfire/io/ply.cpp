@@ -1,0 +1,465 @@
+// PLY: ascii and binary of both byte orders, any property types, faces and triangle strips.
+#include <brushfire/io/detail/binary.h>
+#include <brushfire/io/detail/formats.h>
+#include <brushfire/io/detail/ply.h>
+#include <brushfire/io/detail/text.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace brushfire::detail {
+
+namespace ply {
+
+namespace {
+
+std::optional<Type> type_of(std::string_view name) {
+  struct Name {
+    std::string_view name;
+    Type type;
+  };
+  static constexpr Name kNames[]{
+      {"char", Type::Int8},     {"int8", Type::Int8},       {"uchar", Type::UInt8},    {"uint8", Type::UInt8},
+      {"short", Type::Int16},   {"int16", Type::Int16},     {"ushort", Type::UInt16},  {"uint16", Type::UInt16},
+      {"int", Type::Int32},     {"int32", Type::Int32},     {"uint", Type::UInt32},    {"uint32", Type::UInt32},
+      {"float", Type::Float32}, {"float32", Type::Float32}, {"double", Type::Float64}, {"float64", Type::Float64}};
+  for (const Name& n : kNames) {
+    if (n.name == name) return n.type;
+  }
+  return std::nullopt;
+}
+
+Type read_type(TextCursor& text) {
+  if (!text.to_word_on_line()) text.fail_word("a type");
+  TextCursor here = text;
+  const std::optional<Type> type = type_of(text.word_here());
+  if (!type) here.fail_word("a type (char, uchar, short, ushort, int, uint, float, double)");
+  return *type;
+}
+
+std::string read_name(TextCursor& text, const char* what) {
+  if (!text.to_word_on_line()) text.fail_word(what);
+  return std::string(text.word_here());
+}
+
+Property read_property(TextCursor& text) {
+  Property p;
+  TextCursor ahead = text;
+  if (ahead.to_word_on_line() && ahead.word_here() == "list") {
+    text = ahead;
+    p.is_list = true;
+    p.count_type = read_type(text);
+    if (!is_integer(p.count_type)) text.fail("the length of a list cannot be a floating-point number");
+  }
+  p.type = read_type(text);
+  p.name = read_name(text, "a property's name");
+  return p;
+}
+
+Encoding read_encoding(TextCursor& text) {
+  TextCursor here = text;
+  const std::string name = read_name(text, "ascii, binary_little_endian or binary_big_endian");
+  if (name == "ascii") return Encoding::Ascii;
+  if (name == "binary_little_endian") return Encoding::Little;
+  if (name == "binary_big_endian") return Encoding::Big;
+  here.to_word_on_line();
+  here.fail_word("ascii, binary_little_endian or binary_big_endian");
+}
+
+}  // namespace
+
+const Property* Element::find(std::string_view property) const {
+  for (const Property& p : properties) {
+    if (p.name == property) return &p;
+  }
+  return nullptr;
+}
+
+Header read_header(const Input& input) {
+  TextCursor text(input, input.bytes());
+  if (text.word() != "ply") input.fail_line(1, "the file does not start with 'ply'");
+  Header header;
+  bool has_format = false;
+  while (true) {
+    if (!text.next_line()) text.fail("the file ends within the header: no end_header");
+    if (!text.to_word_on_line()) continue;
+    TextCursor here = text;
+    const std::string_view keyword = text.word_here();
+    if (keyword == "format") {
+      header.encoding = read_encoding(text);
+      has_format = true;
+    } else if (keyword == "element") {
+      Element e;
+      e.line = text.line();
+      e.name = read_name(text, "an element's name");
+      const std::int64_t count = text.integer("the number of rows");
+      if (count < 0) text.fail("element " + quoted(e.name) + " has " + std::to_string(count) + " rows");
+      e.count = static_cast<std::uint64_t>(count);
+      header.elements.push_back(std::move(e));
+    } else if (keyword == "property") {
+      if (header.elements.empty()) text.fail("a property before the first element");
+      header.elements.back().properties.push_back(read_property(text));
+    } else if (keyword == "end_header") {
+      break;
+    } else if (keyword != "comment" && keyword != "obj_info") {
+      here.fail_word("a keyword of a PLY header");
+    }
+  }
+  if (!has_format) text.fail("the header has no format line");
+  if (!text.next_line()) text.skip_to_end_of_line();
+  header.size = static_cast<std::size_t>(text.position() - input.bytes().data());
+  header.lines = text.line() - 1;
+  return header;
+}
+
+}  // namespace ply
+
+namespace {
+
+using ply::Element;
+using ply::Encoding;
+using ply::Header;
+using ply::Property;
+using ply::Type;
+
+double load_number(Type type, const char* p, std::endian order) {
+  switch (type) {
+    case Type::Int8:
+      return load<std::int8_t>(p, order);
+    case Type::UInt8:
+      return load<std::uint8_t>(p, order);
+    case Type::Int16:
+      return load<std::int16_t>(p, order);
+    case Type::UInt16:
+      return load<std::uint16_t>(p, order);
+    case Type::Int32:
+      return load<std::int32_t>(p, order);
+    case Type::UInt32:
+      return load<std::uint32_t>(p, order);
+    case Type::Float32:
+      return static_cast<double>(load<float>(p, order));
+    case Type::Float64:
+      return load<double>(p, order);
+  }
+  return 0;
+}
+
+// Rows of binary elements: a bounds-checked walk over bytes.
+class BinaryRows {
+ public:
+  BinaryRows(const Input& input, const Header& header)
+      : input_(&input), order_(header.order()), at_(header.size) {}
+
+  std::size_t place() const { return at_; }
+  std::endian order() const { return order_; }
+
+  // `size` bytes, which must be there.
+  const char* take(std::size_t size, const Element& e, std::uint64_t row) {
+    if (size > input_->size() - at_) {
+      input_->fail_byte(input_->size(), "the file ends in row " + std::to_string(row) + " of the " +
+                                            std::to_string(e.count) + " of element " + quoted(e.name));
+    }
+    const char* p = input_->bytes().data() + at_;
+    at_ += size;
+    return p;
+  }
+
+  // The same where they are there; nullptr otherwise, and nothing is taken.
+  const char* peek(std::size_t size) const {
+    return size <= input_->size() - at_ ? input_->bytes().data() + at_ : nullptr;
+  }
+
+  double number(Type type, const Element& e, std::uint64_t row) {
+    return load_number(type, take(ply::size_of(type), e, row), order_);
+  }
+
+  // What the header promises must be there, at the shortest: every number, and no entries in lists.
+  void check_promise(const Element& e, std::size_t shortest_row) const {
+    if (shortest_row != 0 && e.count > (input_->size() - at_) / shortest_row) {
+      input_->fail_line(e.line, "the header promises " + std::to_string(e.count) + " rows of element " +
+                                    quoted(e.name) + " of at least " + std::to_string(shortest_row) +
+                                    " bytes, but only " + std::to_string(input_->size() - at_) + " bytes follow");
+    }
+  }
+  static std::size_t shortest(const Property& p) { return ply::size_of(p.is_list ? p.count_type : p.type); }
+
+  [[noreturn]] void fail(std::size_t place, const std::string& cause) const { input_->fail_byte(place, cause); }
+
+ private:
+  const Input* input_;
+  std::endian order_;
+  std::size_t at_;
+};
+
+// The same over text.
+class AsciiRows {
+ public:
+  AsciiRows(const Input& input, const Header& header)
+      : input_(&input), text_(input, input.bytes().substr(header.size), header.lines + 1) {}
+
+  std::size_t place() const { return text_.line(); }
+  double number(Type, const Element&, std::uint64_t) { return text_.number("a number"); }
+
+  void check_promise(const Element& e, std::size_t shortest_row) const {
+    if (shortest_row != 0 && e.count > (text_.left() + 1) / shortest_row) {
+      input_->fail_line(e.line, "the header promises " + std::to_string(e.count) + " rows of element " +
+                                    quoted(e.name) + ", but only " + std::to_string(text_.left()) + " bytes follow");
+    }
+  }
+  static std::size_t shortest(const Property&) { return 2; }  // a digit and what ends it
+
+  [[noreturn]] void fail(std::size_t place, const std::string& cause) const { input_->fail_line(place, cause); }
+
+ private:
+  const Input* input_;
+  TextCursor text_;
+};
+
+template <class Rows>
+class PlyReader {
+ public:
+  PlyReader(const Input& input, const Header& header) : rows_(input, header), header_(&header) {}
+
+  MeshParts read() {
+    parts_.places_are_lines = header_->encoding == Encoding::Ascii;
+    bool has_vertices = false;
+    for (const Element& e : header_->elements) {
+      std::size_t shortest_row = 0;
+      for (const Property& p : e.properties) shortest_row += Rows::shortest(p);
+      if (shortest_row == 0) continue;  // rows without properties are nothing
+      rows_.check_promise(e, shortest_row);
+      if (e.name == "vertex") {
+        read_vertices(e);
+        has_vertices = true;
+      } else if (const Property* p = corner_list(e); p != nullptr && e.name == "face") {
+        read_faces(e, *p);
+      } else if (p != nullptr && e.name == "tristrips") {
+        read_strips(e, *p);
+      } else {
+        skip(e);
+      }
+    }
+    if (!has_vertices) rows_.fail(rows_.place(), "the file has no vertices");
+    return std::move(parts_);
+  }
+
+ private:
+  static const Property* corner_list(const Element& e) {
+    const Property* p = e.find("vertex_indices");
+    if (p == nullptr) p = e.find("vertex_index");
+    return p != nullptr && p->is_list ? p : nullptr;
+  }
+
+  void read_vertices(const Element& e) {
+    std::array<std::size_t, 3> axis{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const char name[]{static_cast<char>('x' + k), 0};
+      const Property* p = e.find(name);
+      if (p == nullptr || p->is_list) rows_.fail(rows_.place(), std::string("the vertices have no property ") + name);
+      axis[k] = static_cast<std::size_t>(p - e.properties.data());
+    }
+    parts_.positions.reserve(e.count);
+    if constexpr (std::is_same_v<Rows, BinaryRows>) {
+      if (read_vertices_of_fixed_size(e, axis)) return;
+    }
+    std::vector<double> row(e.properties.size());
+    for (std::uint64_t v = 0; v < e.count; ++v) {
+      const std::size_t place = rows_.place();
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        if (e.properties[k].is_list) {
+          skip_list(e, v, e.properties[k]);
+        } else {
+          row[k] = rows_.number(e.properties[k].type, e, v);
+        }
+      }
+      add_vertex({row[axis[0]], row[axis[1]], row[axis[2]]}, place);
+    }
+  }
+
+  void add_vertex(const Vec3& p, std::size_t place) {
+    check_finite(p, parts_.positions.size(), place);
+    parts_.positions.push_back(p);
+  }
+
+  void check_finite(const Vec3& p, std::size_t v, std::size_t place) const {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      rows_.fail(place, "vertex " + std::to_string(v) + " has a coordinate that is not finite");
+    }
+  }
+
+  // The common case, all vertices in one stride: one block of bytes, each coordinate converted in a loop of its own.
+  bool read_vertices_of_fixed_size(const Element& e, const std::array<std::size_t, 3>& axis) {
+    std::size_t stride = 0;
+    std::array<std::size_t, 3> offset{};
+    for (std::size_t k = 0; k < e.properties.size(); ++k) {
+      if (e.properties[k].is_list) return false;
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (axis[a] == k) offset[a] = stride;
+      }
+      stride += ply::size_of(e.properties[k].type);
+    }
+    const std::size_t begin = rows_.place();
+    const char* block = rows_.take(stride * e.count, e, e.count);
+    const std::array<Type, 3> type{e.properties[axis[0]].type, e.properties[axis[1]].type, e.properties[axis[2]].type};
+    const std::size_t first = parts_.positions.size();
+    parts_.positions.resize(first + e.count);
+    Vec3* out = parts_.positions.data() + first;
+    const std::endian order = rows_.order();
+    const auto convert = [&]<class T>(T) {
+      for (std::uint64_t v = 0; v < e.count; ++v) {
+        const char* p = block + v * stride;
+        out[v] = {static_cast<double>(load<T>(p + offset[0], order)), static_cast<double>(load<T>(p + offset[1], order)),
+                  static_cast<double>(load<T>(p + offset[2], order))};
+      }
+    };
+    if (type == std::array{Type::Float64, Type::Float64, Type::Float64}) {
+      convert(double{});
+    } else if (type == std::array{Type::Float32, Type::Float32, Type::Float32}) {
+      convert(float{});
+    } else {
+      for (std::uint64_t v = 0; v < e.count; ++v) {
+        const char* p = block + v * stride;
+        out[v] = {load_number(type[0], p + offset[0], order), load_number(type[1], p + offset[1], order),
+                  load_number(type[2], p + offset[2], order)};
+      }
+    }
+    for (std::uint64_t v = 0; v < e.count; ++v) check_finite(out[v], first + v, begin + v * stride);
+    return true;
+  }
+
+  // The entries of the list property at hand.
+  std::size_t list_length(const Element& e, std::uint64_t row, const Property& p) {
+    const std::size_t place = rows_.place();
+    const double n = rows_.number(p.count_type, e, row);
+    // In text a list may claim any length; each entry has to follow, so nothing is taken on trust.
+    if (!(n >= 0) || n != std::floor(n) || n > 4294967295.0) {
+      rows_.fail(place, "a list of element " + quoted(e.name) + " has " + text_of(n) + " entries");
+    }
+    return static_cast<std::size_t>(n);
+  }
+
+  static std::string text_of(double n) {
+    if (n == std::floor(n) && std::abs(n) < 1e15) return std::to_string(static_cast<std::int64_t>(n));
+    return std::to_string(n);
+  }
+
+  void skip_list(const Element& e, std::uint64_t row, const Property& p) {
+    const std::size_t n = list_length(e, row, p);
+    if constexpr (std::is_same_v<Rows, BinaryRows>) {
+      rows_.take(n * ply::size_of(p.type), e, row);
+    } else {
+      for (std::size_t k = 0; k < n; ++k) rows_.number(p.type, e, row);
+    }
+  }
+
+  void skip_property(const Element& e, std::uint64_t row, const Property& p) {
+    if (p.is_list) {
+      skip_list(e, row, p);
+    } else {
+      rows_.number(p.type, e, row);
+    }
+  }
+
+  void skip(const Element& e) {
+    for (std::uint64_t row = 0; row < e.count; ++row) {
+      for (const Property& p : e.properties) skip_property(e, row, p);
+    }
+  }
+
+  // Calls use(entries, place) for the list `wanted` of every row.
+  template <class Use>
+  void for_each_list(const Element& e, const Property& wanted, double lowest, Use use) {
+    std::vector<double> entries;
+    for (std::uint64_t row = 0; row < e.count; ++row) {
+      const std::size_t place = rows_.place();
+      for (const Property& p : e.properties) {
+        if (&p != &wanted) {
+          skip_property(e, row, p);
+          continue;
+        }
+        const std::size_t n = list_length(e, row, p);
+        entries.clear();
+        for (std::size_t k = 0; k < n; ++k) {
+          const double v = rows_.number(p.type, e, row);
+          if (!(v >= lowest) || v != std::floor(v) || v >= static_cast<double>(kNoIndex)) {
+            rows_.fail(place, "row " + std::to_string(row) + " of element " + quoted(e.name) + " names vertex " +
+                                  text_of(v));
+          }
+          entries.push_back(v);
+        }
+        use(entries, place);
+      }
+    }
+  }
+
+  void read_faces(const Element& e, const Property& list) {
+    parts_.faces.reserve(e.count);
+    std::uint64_t done = 0;
+    if constexpr (std::is_same_v<Rows, BinaryRows>) {
+      if (e.properties.size() == 1 && list.count_type <= Type::UInt8 &&
+          (list.type == Type::Int32 || list.type == Type::UInt32)) {
+        done = read_leading_triangles(e);
+      }
+    }
+    std::vector<Index> corners;
+    Element rest = e;  // the rows that are left
+    rest.count -= done;
+    const Property& same = *corner_list(rest);
+    for_each_list(rest, same, 0, [&](const std::vector<double>& entries, std::size_t place) {
+      corners.resize(entries.size());
+      for (std::size_t k = 0; k < entries.size(); ++k) corners[k] = static_cast<Index>(entries[k]);
+      parts_.faces.add(corners, place);
+    });
+  }
+
+  // Rows "3 a b c" of 13 bytes, up to the first that is something else.
+  std::uint64_t read_leading_triangles(const Element& e) {
+    constexpr std::size_t kRow = 13;
+    const std::endian order = rows_.order();
+    std::uint64_t row = 0;
+    for (; row < e.count; ++row) {
+      const std::size_t place = rows_.place();
+      const char* p = rows_.peek(kRow);
+      if (p == nullptr || *p != 3) break;
+      const Index a = load<Index>(p + 1, order), b = load<Index>(p + 5, order), c = load<Index>(p + 9, order);
+      if (std::max({a, b, c}) == kNoIndex) break;
+      parts_.faces.add_triangle(a, b, c, place);
+      rows_.take(kRow, e, row);
+    }
+    return row;
+  }
+
+  // Strips of triangles, -1 ends one; every other triangle is turned round. Triangles that repeat a vertex only steer
+  // the strip and are left out.
+  void read_strips(const Element& e, const Property& list) {
+    for_each_list(e, list, -1, [&](const std::vector<double>& entries, std::size_t place) {
+      std::size_t begin = 0;
+      for (std::size_t k = 0; k < entries.size(); ++k) {
+        if (entries[k] < 0) {
+          begin = k + 1;
+        } else if (k >= begin + 2) {
+          const auto a = static_cast<Index>(entries[k - 2]), b = static_cast<Index>(entries[k - 1]),
+                     c = static_cast<Index>(entries[k]);
+          if (a == b || b == c || c == a) continue;
+          const bool turned = (k - begin) % 2 != 0;
+          parts_.faces.add_triangle(turned ? b : a, turned ? a : b, c, place);
+        }
+      }
+    });
+  }
+
+  Rows rows_;
+  const Header* header_;
+  MeshParts parts_;
+};
+
+}  // namespace
+
+MeshParts read_ply(const Input& input) {
+  const Header header = ply::read_header(input);
+  if (header.encoding == Encoding::Ascii) return PlyReader<AsciiRows>(input, header).read();
+  return PlyReader<BinaryRows>(input, header).read();
+}
+
+}  // namespace brushfire::detail

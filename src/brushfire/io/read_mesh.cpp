@@ -1,0 +1,79 @@
+// Which format a file has, and the way from its reader to a mesh.
+#include <brushfire/core/error.h>
+#include <brushfire/io/detail/formats.h>
+#include <brushfire/io/read_mesh.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+
+namespace brushfire {
+
+namespace detail {
+
+namespace {
+
+bool starts_with(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+
+bool is_ply(std::string_view b) { return starts_with(b, "ply\n") || starts_with(b, "ply\r") || starts_with(b, "ply "); }
+bool is_off(std::string_view b) {
+  return starts_with(b, "OFF") || starts_with(b, "COFF") || starts_with(b, "NOFF") || starts_with(b, "CNOFF") ||
+         starts_with(b, "STOFF");
+}
+bool is_unmarked(std::string_view) { return false; }
+
+struct Format {
+  const char* name;
+  std::initializer_list<std::string_view> extensions;
+  bool (*is_marked)(std::string_view bytes);  // the content says so itself
+  MeshParts (*read)(const Input& input);
+};
+
+// A new reader is one line here.
+const Format kFormats[]{
+    {"PLY", {"ply"}, is_ply, read_ply},
+    {"OBJ", {"obj"}, is_unmarked, read_obj},
+    {"OFF", {"off", "coff", "noff", "cnoff"}, is_off, read_off},
+};
+
+const Format& format_of(const Input& input, std::vector<std::string>& remarks) {
+  const std::string extension = input.extension();
+  const Format* by_name = nullptr;
+  const Format* by_content = nullptr;
+  for (const Format& f : kFormats) {
+    if (std::find(f.extensions.begin(), f.extensions.end(), extension) != f.extensions.end()) by_name = &f;
+    if (by_content == nullptr && f.is_marked(input.bytes())) by_content = &f;
+  }
+  if (by_content != nullptr) {
+    if (by_name != nullptr && by_name != by_content) {
+      remarks.push_back("the name says " + std::string(by_name->name) + ", but the content is " + by_content->name);
+    }
+    return *by_content;
+  }
+  if (by_name != nullptr) return *by_name;
+  std::string known;
+  for (const Format& f : kFormats) known += std::string(known.empty() ? "" : ", ") + f.name;
+  throw Error(ErrorCode::UnknownFormat, printable(input.name()) + ": neither name nor content tell the format (known: " + known + ")");
+}
+
+LoadedMesh read(const Input& input) {
+  if (input.size() == 0) input.fail("the file is empty");
+  std::vector<std::string> remarks;
+  const Format& format = format_of(input, remarks);
+  LoadedMesh loaded = finish(input, format.read(input), format.name);
+  loaded.remarks.insert(loaded.remarks.begin(), remarks.begin(), remarks.end());
+  return loaded;
+}
+
+}  // namespace
+
+}  // namespace detail
+
+LoadedMesh read_mesh(const std::string& path) { return detail::read(detail::Input::from_file(path)); }
+
+LoadedMesh read_mesh(std::span<const std::byte> content, const std::string& name) {
+  return detail::read(
+      detail::Input::from_memory({reinterpret_cast<const char*>(content.data()), content.size()}, name));
+}
+
+}  // namespace brushfire
