@@ -3,3 +3,24 @@
 
 # Boost headers (Polygon, Geometry, Multiprecision) as system headers: their warnings are not ours.
 find_package(Boost 1.74 REQUIRED)
+find_path(BRUSHFIRE_FAST_FLOAT_DIR fast_float/fast_float.h REQUIRED DOC "fast_float's headers (libfast-float-dev)")
+
+# Compiled ones are optional: without them the library says which files it cannot read. A static brushfire passes them
+# on to whoever links it, so the installed package looks for the same ones.
+option(BRUSHFIRE_WITH_ZLIB "Read and write compressed files" ON)
+set(BRUSHFIRE_FIND_DEPENDENCIES "")
+if(BRUSHFIRE_WITH_ZLIB)
+  find_package(ZLIB)
+  if(ZLIB_FOUND)
+    string(APPEND BRUSHFIRE_FIND_DEPENDENCIES "find_dependency(ZLIB)\n")
+  endif()
+endif()
+
+# Links what was found to the library, privately.
+function(brushfire_link_dependencies target)
+  target_include_directories(${target} SYSTEM PRIVATE ${BRUSHFIRE_FAST_FLOAT_DIR})
+  if(BRUSHFIRE_WITH_ZLIB AND ZLIB_FOUND)
+    target_link_libraries(${target} PRIVATE ZLIB::ZLIB)
+    target_compile_definitions(${target} PRIVATE BRUSHFIRE_HAS_ZLIB)
+  endif()
+endfunction()

@@ -4,6 +4,8 @@
 #include <brushfire/core/error.h>
 #include <brushfire/core/progress.h>
 #include <brushfire/core/types.h>
+#include <brushfire/io/npy.h>
+#include <brushfire/io/read_mesh.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/surface_point.h>

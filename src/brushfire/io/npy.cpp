@@ -14,7 +14,7 @@ namespace {
 
 using detail::Input;
 using detail::load;
-using detail::quoted;
+using detail::quote;
 
 constexpr std::string_view kMagic{"\x93NUMPY", 6};
 constexpr double kLargestExactInteger = 9007199254740992.0;  // 2^53
@@ -49,7 +49,7 @@ class HeaderParser {
         header.shape = tuple();
         has_shape = true;
       } else {
-        fail("the header has the key " + quoted(key));
+        fail("the header has the key " + quote(key));
       }
       accept(',');
     }
@@ -68,13 +68,13 @@ class HeaderParser {
     return true;
   }
   void expect(char c) {
-    if (!accept(c)) fail(quoted(text_.substr(at_, 1)) + " where '" + c + "' is expected");
+    if (!accept(c)) fail(quote(text_.substr(at_, 1)) + " where '" + c + "' is expected");
   }
   std::string string() {
-    const char quote = peek();
-    if (quote != '\'' && quote != '"') fail("a string is expected");
+    const char mark = peek();
+    if (mark != '\'' && mark != '"') fail("a string is expected");
     const std::size_t begin = ++at_;
-    while (at_ < end_ && text_[at_] != quote) ++at_;
+    while (at_ < end_ && text_[at_] != mark) ++at_;
     if (at_ >= end_) fail("the header ends within a string");
     return std::string(text_.substr(begin, at_++ - begin));
   }
@@ -216,8 +216,9 @@ NpyArray read(const Input& input) {
   array.type = header.descr;
   const char mark = header.descr.empty() ? '?' : header.descr[0];
   const std::string kind = header.descr.size() == 3 ? header.descr.substr(1) : "";
-  const std::string unknown = "numbers of type " + quoted(header.descr) + " are not read";
-  if (kind.empty() || kind[1] < '1' || kind[1] > '8' || std::strchr("<>|=", mark) == nullptr) input.fail_byte(10, unknown);
+  const std::string unknown = "numbers of type " + quote(header.descr) + " are not read";
+  if (kind.empty() || kind[1] < '1' || kind[1] > '8' || std::strchr("<>|=", mark) == nullptr)
+    input.fail_byte(10, unknown);
   const auto item = static_cast<std::size_t>(kind[1] - '0');
   const std::size_t left = input.size() - header.size;
   std::size_t count = 1;
@@ -229,10 +230,12 @@ NpyArray read(const Input& input) {
   }
   if (nothing) count = 0;
   if (too_many || count > left / item) {
-    input.fail_byte(header.size, "the shape asks for more values than the " + std::to_string(left) + " bytes that follow");
+    input.fail_byte(header.size,
+                    "the shape asks for more values than the " + std::to_string(left) + " bytes that follow");
   }
   if (count * item != left) {
-    input.fail_byte(header.size, std::to_string(left) + " bytes follow, but the shape asks for " + std::to_string(count * item));
+    input.fail_byte(header.size,
+                    std::to_string(left) + " bytes follow, but the shape asks for " + std::to_string(count * item));
   }
   array.values.resize(count);
   if (!convert(input, kind, header.size, mark == '>' ? std::endian::big : std::endian::little, array.values)) {
@@ -247,8 +250,8 @@ void write(const std::string& path, std::span<const T> values, std::span<const s
   std::size_t product = 1;
   for (const std::size_t n : shape) product *= n;
   if (!shape.empty() && product != values.size()) {
-    throw Error(ErrorCode::InvalidArgument, "the shape asks for " + std::to_string(product) + " values, but there are " +
-                                                std::to_string(values.size()));
+    throw Error(ErrorCode::InvalidArgument, "the shape asks for " + std::to_string(product) +
+                                                " values, but there are " + std::to_string(values.size()));
   }
   std::string tuple;
   const std::size_t whole = values.size();

@@ -17,7 +17,8 @@ class ObjReader {
       if (text_.to_word_on_line()) read_line();
       if (!text_.next_line()) break;
     }
-    if (lines_ != 0) parts_.remarks.push_back(counted(lines_, "line or point element", "line and point elements") + " left out");
+    if (lines_ != 0)
+      parts_.remarks.push_back(counted(lines_, "line or point element", "line and point elements") + " left out");
     return std::move(parts_);
   }
 
@@ -50,7 +51,8 @@ class ObjReader {
       corners_.push_back(vertex_of(text_.digits_here("a vertex number")));
       // "7", "7/1", "7/1/3", "7//3": what follows the vertex has the same form and does not matter here.
       for (int k = 0; k < 2 && text_.accept('/'); ++k) {
-        if (!text_.at_end() && text_.peek() != '/' && !TextCursor::is_space(text_.peek())) text_.digits_here("an index");
+        if (!text_.at_end() && text_.peek() != '/' && !TextCursor::is_space(text_.peek()))
+          text_.digits_here("an index");
       }
       if (!text_.at_end() && !TextCursor::is_space(text_.peek())) text_.fail_word("a vertex number");
     }

@@ -24,7 +24,7 @@ MeshParts read_off(const Input& input) {
   if (is_header(word)) {
     text = header;
   } else if (word.find_first_not_of("0123456789") != std::string_view::npos) {
-    text.fail(quoted(word) + " where OFF is expected");
+    text.fail(quote(word) + " where OFF is expected");
   }
   if (text.to_word_on_line() && text.peek() == 'B') text.fail("binary OFF is not read");
 

@@ -94,7 +94,7 @@ Header read_header(const Input& input) {
       e.line = text.line();
       e.name = read_name(text, "an element's name");
       const std::int64_t count = text.integer("the number of rows");
-      if (count < 0) text.fail("element " + quoted(e.name) + " has " + std::to_string(count) + " rows");
+      if (count < 0) text.fail("element " + quote(e.name) + " has " + std::to_string(count) + " rows");
       e.count = static_cast<std::uint64_t>(count);
       header.elements.push_back(std::move(e));
     } else if (keyword == "property") {
@@ -148,8 +148,7 @@ double load_number(Type type, const char* p, std::endian order) {
 // Rows of binary elements: a bounds-checked walk over bytes.
 class BinaryRows {
  public:
-  BinaryRows(const Input& input, const Header& header)
-      : input_(&input), order_(header.order()), at_(header.size) {}
+  BinaryRows(const Input& input, const Header& header) : input_(&input), order_(header.order()), at_(header.size) {}
 
   std::size_t place() const { return at_; }
   std::endian order() const { return order_; }
@@ -158,7 +157,7 @@ class BinaryRows {
   const char* take(std::size_t size, const Element& e, std::uint64_t row) {
     if (size > input_->size() - at_) {
       input_->fail_byte(input_->size(), "the file ends in row " + std::to_string(row) + " of the " +
-                                            std::to_string(e.count) + " of element " + quoted(e.name));
+                                            std::to_string(e.count) + " of element " + quote(e.name));
     }
     const char* p = input_->bytes().data() + at_;
     at_ += size;
@@ -177,9 +176,9 @@ class BinaryRows {
   // What the header promises must be there, at the shortest: every number, and no entries in lists.
   void check_promise(const Element& e, std::size_t shortest_row) const {
     if (shortest_row != 0 && e.count > (input_->size() - at_) / shortest_row) {
-      input_->fail_line(e.line, "the header promises " + std::to_string(e.count) + " rows of element " +
-                                    quoted(e.name) + " of at least " + std::to_string(shortest_row) +
-                                    " bytes, but only " + std::to_string(input_->size() - at_) + " bytes follow");
+      input_->fail_line(e.line, "the header promises " + std::to_string(e.count) + " rows of element " + quote(e.name) +
+                                    " of at least " + std::to_string(shortest_row) + " bytes, but only " +
+                                    std::to_string(input_->size() - at_) + " bytes follow");
     }
   }
   static std::size_t shortest(const Property& p) { return ply::size_of(p.is_list ? p.count_type : p.type); }
@@ -203,8 +202,8 @@ class AsciiRows {
 
   void check_promise(const Element& e, std::size_t shortest_row) const {
     if (shortest_row != 0 && e.count > (text_.left() + 1) / shortest_row) {
-      input_->fail_line(e.line, "the header promises " + std::to_string(e.count) + " rows of element " +
-                                    quoted(e.name) + ", but only " + std::to_string(text_.left()) + " bytes follow");
+      input_->fail_line(e.line, "the header promises " + std::to_string(e.count) + " rows of element " + quote(e.name) +
+                                    ", but only " + std::to_string(text_.left()) + " bytes follow");
     }
   }
   static std::size_t shortest(const Property&) { return 2; }  // a digit and what ends it
@@ -309,7 +308,8 @@ class PlyReader {
     const auto convert = [&]<class T>(T) {
       for (std::uint64_t v = 0; v < e.count; ++v) {
         const char* p = block + v * stride;
-        out[v] = {static_cast<double>(load<T>(p + offset[0], order)), static_cast<double>(load<T>(p + offset[1], order)),
+        out[v] = {static_cast<double>(load<T>(p + offset[0], order)),
+                  static_cast<double>(load<T>(p + offset[1], order)),
                   static_cast<double>(load<T>(p + offset[2], order))};
       }
     };
@@ -334,7 +334,7 @@ class PlyReader {
     const double n = rows_.number(p.count_type, e, row);
     // In text a list may claim any length; each entry has to follow, so nothing is taken on trust.
     if (!(n >= 0) || n != std::floor(n) || n > 4294967295.0) {
-      rows_.fail(place, "a list of element " + quoted(e.name) + " has " + text_of(n) + " entries");
+      rows_.fail(place, "a list of element " + quote(e.name) + " has " + text_of(n) + " entries");
     }
     return static_cast<std::size_t>(n);
   }
@@ -383,8 +383,8 @@ class PlyReader {
         for (std::size_t k = 0; k < n; ++k) {
           const double v = rows_.number(p.type, e, row);
           if (!(v >= lowest) || v != std::floor(v) || v >= static_cast<double>(kNoIndex)) {
-            rows_.fail(place, "row " + std::to_string(row) + " of element " + quoted(e.name) + " names vertex " +
-                                  text_of(v));
+            rows_.fail(place,
+                       "row " + std::to_string(row) + " of element " + quote(e.name) + " names vertex " + text_of(v));
           }
           entries.push_back(v);
         }

@@ -53,7 +53,8 @@ const Format& format_of(const Input& input, std::vector<std::string>& remarks) {
   if (by_name != nullptr) return *by_name;
   std::string known;
   for (const Format& f : kFormats) known += std::string(known.empty() ? "" : ", ") + f.name;
-  throw Error(ErrorCode::UnknownFormat, printable(input.name()) + ": neither name nor content tell the format (known: " + known + ")");
+  throw Error(ErrorCode::UnknownFormat,
+              printable(input.name()) + ": neither name nor content tell the format (known: " + known + ")");
 }
 
 LoadedMesh read(const Input& input) {

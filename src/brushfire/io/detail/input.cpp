@@ -116,7 +116,7 @@ std::string escape(std::string_view text) {
 
 std::string printable(std::string_view text) { return escape(text); }
 
-std::string quoted(std::string_view text) {
+std::string quote(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string out = "'";
   for (const char c : text.substr(0, kLongest)) {
@@ -186,9 +186,9 @@ Input Input::companion(const std::string& relative, std::size_t line) const {
   const fs::path path(relative);
   const bool outside = path.is_absolute() || path.has_root_name() ||
                        std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
-  if (!has_folder_) fail_line(line, "refers to the file " + quoted(relative) + ", which is out of reach from here");
+  if (!has_folder_) fail_line(line, "refers to the file " + quote(relative) + ", which is out of reach from here");
   if (outside || relative.empty() || relative == "-") {
-    fail_line(line, "refers to the file " + quoted(relative) + ", which is not in its own folder or below");
+    fail_line(line, "refers to the file " + quote(relative) + ", which is not in its own folder or below");
   }
   return from_file((fs::path(folder_) / path).string());
 }

@@ -51,7 +51,7 @@ std::size_t inflate_budget(std::size_t size);
 std::string inflate_exactly(std::string_view compressed, char* target, std::size_t expected);
 
 // Text for an error message: at most 40 characters, quoted, control characters and foreign bytes as \xNN.
-std::string quoted(std::string_view text);
+std::string quote(std::string_view text);
 
 // The same without quotes or limit: for names.
 std::string printable(std::string_view text);

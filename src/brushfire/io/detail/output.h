@@ -26,8 +26,8 @@ class Output {
 
   void write(std::string_view bytes);
   void write(char c) { write(std::string_view(&c, 1)); }
-  void number(double value);         // the shortest text that reads back as the same double; inf, -inf, nan
-  void number(float value);          // the same for float
+  void number(double value);  // the shortest text that reads back as the same double; inf, -inf, nan
+  void number(float value);   // the same for float
   void number(std::int64_t value);
   void number(std::uint32_t value) { number(static_cast<std::int64_t>(value)); }
   void number(std::int32_t value) { number(static_cast<std::int64_t>(value)); }

@@ -4,10 +4,10 @@
 #include <brushfire/core/types.h>
 #include <brushfire/io/detail/input.h>
 
+#include <fast_float/fast_float.h>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fast_float/fast_float.h>
 #include <string>
 #include <string_view>
 
@@ -107,7 +107,7 @@ class TextCursor {
     const double value = number_here("a coordinate");
     if (!std::isfinite(value)) {
       at_ = begin;
-      fail("coordinate " + quoted(word_here()) + " is not finite");
+      fail("coordinate " + quote(word_here()) + " is not finite");
     }
     return value;
   }
@@ -188,11 +188,13 @@ class TextCursor {
   char peek() const { return *at_; }
 
   [[noreturn]] void fail(const std::string& cause) const { input_->fail_line(line_, cause); }
-  [[noreturn]] void fail_end(const char* what) const { fail(std::string("the file ends where ") + what + " is expected"); }
+  [[noreturn]] void fail_end(const char* what) const {
+    fail(std::string("the file ends where ") + what + " is expected");
+  }
   [[noreturn]] void fail_word(const char* what) {
     if (at_ == end_) fail_end(what);
     if (*at_ == '\n') fail(std::string("the line ends where ") + what + " is expected");
-    fail(quoted(word_here()) + " where " + what + " is expected");
+    fail(quote(word_here()) + " where " + what + " is expected");
   }
 
  private:
