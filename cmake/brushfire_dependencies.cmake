@@ -5,6 +5,9 @@
 find_package(Boost 1.74 REQUIRED)
 find_path(BRUSHFIRE_FAST_FLOAT_DIR fast_float/fast_float.h REQUIRED DOC "fast_float's headers (libfast-float-dev)")
 
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+
 # Compiled ones are optional: without them the library says which files it cannot read. A static brushfire passes them
 # on to whoever links it, so the installed package looks for the same ones.
 option(BRUSHFIRE_WITH_ZLIB "Read and write compressed files" ON)
@@ -19,6 +22,7 @@ endif()
 # Links what was found to the library, privately.
 function(brushfire_link_dependencies target)
   target_include_directories(${target} SYSTEM PRIVATE ${BRUSHFIRE_FAST_FLOAT_DIR})
+  target_link_libraries(${target} PRIVATE Threads::Threads)
   if(BRUSHFIRE_WITH_ZLIB AND ZLIB_FOUND)
     target_link_libraries(${target} PRIVATE ZLIB::ZLIB)
     target_compile_definitions(${target} PRIVATE BRUSHFIRE_HAS_ZLIB)

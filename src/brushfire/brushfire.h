@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/core/error.h>
+#include <brushfire/core/parallel.h>
 #include <brushfire/core/progress.h>
 #include <brushfire/core/types.h>
 #include <brushfire/io/npy.h>
@@ -9,5 +10,6 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/surface_point.h>
+#include <brushfire/queries/distance_matrix.h>
 #include <brushfire/solvers/distance.h>
 #include <brushfire/version.h>

@@ -55,8 +55,14 @@ void check(const DistanceOptions& options) {
   }
 }
 
-void finish_targets(double unit, const DistanceOptions& options, DistanceField& field) {
+// A target at a vertex reads what the field reads there, to the bit.
+void finish_targets(double unit, std::span<const PointLocation> targets, const DistanceOptions& options,
+                    DistanceField& field) {
   for (std::size_t i = 0; i < field.target_distance.size(); ++i) {
+    if (targets[i].on == PointLocation::On::Vertex) {
+      field.target_distance[i] = field.distance[targets[i].vertex];
+      field.target_source[i] = field.source[targets[i].vertex];
+    }
     field.target_distance[i] *= unit;
     if (field.target_distance[i] > options.max_distance) {
       field.target_distance[i] = kInfinity;
@@ -66,8 +72,10 @@ void finish_targets(double unit, const DistanceOptions& options, DistanceField& 
 }
 
 // Applies the radius, goes back to the mesh's units, counts.
-void finish(const Mesh& mesh, const DistanceOptions& options, DistanceField& field) {
+void finish(const Mesh& mesh, std::span<const PointLocation> targets, const DistanceOptions& options,
+            DistanceField& field) {
   const double unit = mesh.unit();
+  finish_targets(unit, targets, options, field);
   field.method = options.method;
   field.reached = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -83,12 +91,20 @@ void finish(const Mesh& mesh, const DistanceOptions& options, DistanceField& fie
     }
   }
   field.unreachable = mesh.vertex_count() - field.reached - field.beyond_radius;
-  finish_targets(unit, options, field);
 }
 
 // The touched vertices within the radius, ascending, in the mesh's units. `touched` is sorted on the way.
-SparseField collect(double unit, const DistanceOptions& options, DistanceField& field, std::vector<Index>& touched) {
-  std::sort(touched.begin(), touched.end());
+SparseField collect(double unit, std::span<const PointLocation> targets, const DistanceOptions& options,
+                    DistanceField& field, std::vector<Index>& touched) {
+  constexpr std::size_t kScanShare = 16;  // looking at this many vertices costs about as much as sorting in one
+  if (touched.size() > field.distance.size() / kScanShare) {
+    touched.clear();
+    for (Index v = 0; v < field.distance.size(); ++v) {
+      if (field.distance[v] != kInfinity || field.source[v] != kNoIndex) touched.push_back(v);
+    }
+  } else {
+    std::sort(touched.begin(), touched.end());
+  }
   SparseField result;
   result.vertex.reserve(touched.size());
   result.distance.reserve(touched.size());
@@ -100,7 +116,7 @@ SparseField collect(double unit, const DistanceOptions& options, DistanceField& 
     result.distance.push_back(d);
     result.source.push_back(field.source[v]);
   }
-  finish_targets(unit, options, field);
+  finish_targets(unit, targets, options, field);
   result.target_distance = std::move(field.target_distance);
   result.target_source = std::move(field.target_source);
   return result;
@@ -181,7 +197,7 @@ DistanceField DistanceSolver::distance(std::span<const Source> sources, const Di
   field.target_source.assign(targets.size(), kNoIndex);
   workspace_->engine(options.method)
       .solve({located, targets, options.max_distance / mesh.unit(), &options, nullptr}, field);
-  finish(mesh, options, field);
+  finish(mesh, targets, options, field);
   return field;
 }
 
@@ -204,12 +220,8 @@ SparseField DistanceSolver::distance_sparse(std::span<const Source> sources, con
     w.clean(!listed);
     throw;
   }
-  if (!listed) {
-    for (Index v = 0; v < w.mesh.vertex_count(); ++v) {
-      if (w.scratch.distance[v] != kInfinity) w.touched.push_back(v);
-    }
-  }
-  SparseField field = collect(w.mesh.unit(), options, w.scratch, w.touched);
+  if (!listed) w.touched.resize(w.mesh.vertex_count());  // any of them
+  SparseField field = collect(w.mesh.unit(), targets, options, w.scratch, w.touched);
   w.clean(!listed);
   return field;
 }

@@ -1,0 +1,46 @@
+// Parallel loops: a team of threads that shares out the numbers 0, 1, 2, ... and sleeps in between.
+#pragma once
+
+#include <brushfire/core/progress.h>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace brushfire {
+
+// The threads that a caller's number means: 0 is one per processor; at least 1, and 1 where there are no threads.
+unsigned thread_count(unsigned requested) noexcept;
+
+// A fixed number of threads, the calling one among them, for one loop after the other. Between loops the others block;
+// nobody spins. Where the platform has no threads (WebAssembly without them) everything runs in the caller.
+class ThreadTeam {
+ public:
+  // worker < size() numbers the thread, index the piece of work.
+  using Body = std::function<void(unsigned worker, std::size_t index)>;
+
+  explicit ThreadTeam(unsigned threads);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  unsigned size() const noexcept;  // threads, the caller counted
+
+  // Calls body once for every index in [0, count), and returns when all are done. The indices are given out one by
+  // one, ascending; who gets which is left to chance, so whatever body computes must depend on the index alone, and
+  // the result is then the same for any number of threads. The caller is worker 0 and works too.
+  //
+  // When a body throws, or `cancel` is set, no further index is given out; once the running ones are done the exception
+  // of the lowest index is thrown, or else Error(Cancelled). Everything written in a body is visible afterwards.
+  void run(std::size_t count, const Body& body, const CancelToken* cancel = nullptr);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// One loop on a team of its own. Costs some 20 us per thread.
+void parallel_for(std::size_t count, unsigned threads, const ThreadTeam::Body& body,
+                  const CancelToken* cancel = nullptr);
+
+}  // namespace brushfire

@@ -1,0 +1,49 @@
+// The loop under all distance matrices: checked places, a solver per thread, one row after the other.
+#pragma once
+
+#include <brushfire/core/parallel.h>
+#include <brushfire/queries/distance_matrix.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace brushfire::detail {
+
+class Rows {
+ public:
+  // Checks all places and options. Throws as distance_matrix() does.
+  Rows(const Mesh& mesh, Places rows, Places columns, const MatrixOptions& options);
+
+  std::size_t count() const noexcept { return row_count_; }
+  std::size_t columns() const noexcept { return column_count_; }
+
+  // Computes the rows with the given numbers and hands each to `take`, on the thread that computed it. `worker` numbers
+  // that thread; `progress` may be empty and is called from the calling thread.
+  using TakeSparse = std::function<void(unsigned worker, std::size_t i, const SparseField& field)>;
+  void run_sparse(std::span<const std::size_t> numbers, const Progress& progress, const TakeSparse& take);
+
+  // The same as a row of columns() values, +inf where nothing was reached; valid during the call.
+  using TakeDense = std::function<void(unsigned worker, std::size_t i, std::span<const double> values)>;
+  void run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense& take);
+
+ private:
+  std::optional<SurfacePoint> place(std::size_t i) const;
+  SparseField row(unsigned worker, std::size_t i);
+  void fill(const SparseField& field, std::span<double> values) const;
+
+  Mesh mesh_;
+  Places rows_;
+  std::size_t row_count_ = 0, column_count_ = 0;
+  bool all_columns_ = true;
+  std::vector<std::size_t> target_column_;  // which column each target is; columns in no face are not among them
+  DistanceOptions options_;                 // of one row
+  ThreadTeam team_;
+  std::vector<std::unique_ptr<DistanceSolver>> solvers_;  // one per thread, made when it gets its first row
+};
+
+// 0, 1, ..., count - 1.
+std::vector<std::size_t> numbers_below(std::size_t count);
+
+}  // namespace brushfire::detail
