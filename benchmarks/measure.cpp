@@ -1,0 +1,97 @@
+// Clock, memory, medians, raw arrays and errors for the measurements.
+#include "measure.h"
+
+#include <brushfire/core/error.h>
+
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace brushfire::benchmark {
+namespace {
+
+template <class T>
+std::vector<T> read_array(const std::string& path) {
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  if (!in) throw Error(ErrorCode::FileNotReadable, path + ": cannot be read");
+  const auto size = static_cast<std::size_t>(in.tellg());
+  if (size % sizeof(T) != 0) {
+    throw Error(ErrorCode::FileMalformed,
+                path + ": " + std::to_string(size) + " bytes are no multiple of " + std::to_string(sizeof(T)));
+  }
+  std::vector<T> values(size / sizeof(T));
+  in.seekg(0);
+  in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(size));
+  return values;
+}
+
+template <class T>
+void write_array(const std::string& path, std::span<const T> values) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size_bytes()));
+  out.flush();
+  if (!out) throw Error(ErrorCode::FileNotWritable, path + ": cannot be written");
+}
+
+}  // namespace
+
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double memory_mib() {
+  std::ifstream in("/proc/self/statm");
+  double total = 0, resident = 0;
+  in >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+double peak_memory_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+std::vector<Vec3> read_positions(const std::string& path) { return read_array<Vec3>(path); }
+std::vector<Face> read_faces(const std::string& path) { return read_array<Face>(path); }
+void write_positions(const std::string& path, std::span<const Vec3> positions) { write_array(path, positions); }
+void write_faces(const std::string& path, std::span<const Face> faces) { write_array(path, faces); }
+void write_doubles(const std::string& path, std::span<const double> values) { write_array(path, values); }
+
+RelativeError relative_error(std::span<const double> distance, std::span<const double> truth) {
+  RelativeError e;
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < truth.size(); ++v) {
+    if (!(truth[v] > 0) || !std::isfinite(truth[v])) continue;
+    if (!std::isfinite(distance[v])) {
+      ++e.not_finite;
+      continue;
+    }
+    const double relative = (distance[v] - truth[v]) / truth[v];
+    sum += std::abs(relative);
+    ++count;
+    e.shortest = std::min(e.shortest, relative);
+    if (std::abs(relative) > e.maximum) {
+      e.maximum = std::abs(relative);
+      e.worst = static_cast<Index>(v);
+    }
+  }
+  e.mean = count == 0 ? 0 : sum / static_cast<double>(count);
+  return e;
+}
+
+}  // namespace brushfire::benchmark

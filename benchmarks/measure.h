@@ -1,0 +1,40 @@
+// What every measurement here shares: the clock, the memory of the process, medians, raw arrays, errors.
+#pragma once
+
+#include <brushfire/core/types.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace brushfire::benchmark {
+
+// Processor time of this process in seconds, all threads together. Other programs on the machine do not show in it,
+// except through shared caches and memory.
+double cpu_seconds();
+
+// Resident memory in MiB: now, and the most there has been.
+double memory_mib();
+double peak_memory_mib();
+
+// The middle value (the mean of the two middle ones); 0 of nothing.
+double median(std::vector<double> values);
+
+// Raw little-endian arrays without a header: what numpy's tofile() and fromfile() write and read.
+// Throws Error(FileNotReadable), Error(FileMalformed) where the size does not divide.
+std::vector<Vec3> read_positions(const std::string& path);
+std::vector<Face> read_faces(const std::string& path);
+void write_positions(const std::string& path, std::span<const Vec3> positions);
+void write_faces(const std::string& path, std::span<const Face> faces);
+void write_doubles(const std::string& path, std::span<const double> values);
+
+// Relative errors |d - t| / t over the vertices with 0 < t < inf.
+struct RelativeError {
+  double mean = 0, maximum = 0;
+  Index worst = kNoIndex;      // the vertex of the maximum
+  double shortest = 0;         // the most negative (d - t) / t: how far below the true distance it falls
+  std::size_t not_finite = 0;  // vertices whose d is infinite or NaN where t is not: left out above
+};
+RelativeError relative_error(std::span<const double> distance, std::span<const double> truth);
+
+}  // namespace brushfire::benchmark

@@ -1,0 +1,85 @@
+// Times one method on one mesh, from the arrays to the field: one round, and one line of JSON, per line of input.
+//
+//   time_solver VERTICES FACES SOURCE METHOD [DISTANCES]
+//
+// VERTICES holds float64 x y z, FACES int32 triples (raw, little endian). A round builds the mesh from the arrays and
+// solves once, then solves again with the same solver:
+//   first_s    arrays to first field;   solve_s   the second field, with everything built;   set_up_s  the difference
+// in seconds of processor time. memory_mib is the peak above the arrays in the first round. The first round also writes
+// the field to DISTANCES (raw float64). Rounds begin when a line comes, so that a driver can interleave programs.
+#include <brushfire/core/error.h>
+#include <brushfire/solvers/distance.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "measure.h"
+
+namespace brushfire::benchmark {
+namespace {
+
+DistanceOptions options_named(const std::string& name) {
+  DistanceOptions options;
+  const std::size_t colon = name.find(':');
+  options.method = method_named(name.substr(0, colon));
+  if (colon != std::string::npos && name.substr(colon + 1) == "float") options.precision = Precision::Float;
+  return options;
+}
+
+// One round: what the header of this file says.
+std::string round(std::span<const Vec3> positions, std::span<const Face> faces, Index vertex,
+                  const DistanceOptions& options, DistanceField& field) {
+  const double begin = cpu_seconds();
+  DistanceSolver solver{Mesh(positions, faces)};
+  const Source source{vertex_point(solver.mesh(), vertex)};
+  field = solver.distance({&source, 1}, options);
+  const double first = cpu_seconds();
+  const DistanceField again = solver.distance({&source, 1}, options);
+  const double end = cpu_seconds();
+  if (again.distance != field.distance) throw Error(ErrorCode::InvalidArgument, "two solves gave different fields");
+
+  const double solve_s = end - first, first_s = first - begin;
+  char line[200];
+  std::snprintf(line, sizeof line, "\"first_s\": %.9f, \"set_up_s\": %.9f, \"solve_s\": %.9f, \"updates\": %.0f",
+                first_s, std::max(0.0, first_s - solve_s), solve_s, static_cast<double>(field.updates));
+  return line;
+}
+
+int run(int count, char** arguments) {
+  if (count < 5) {
+    std::fprintf(stderr, "usage: time_solver VERTICES FACES SOURCE METHOD [DISTANCES]\n");
+    return 2;
+  }
+  const std::vector<Vec3> positions = read_positions(arguments[1]);
+  const std::vector<Face> faces = read_faces(arguments[2]);
+  const auto vertex = static_cast<Index>(std::stoul(arguments[3]));
+  const DistanceOptions options = options_named(arguments[4]);
+  const double arrays_mib = memory_mib();
+  double memory = -1;
+  for (std::string request; std::getline(std::cin, request);) {
+    DistanceField field;
+    const std::string times = round(positions, faces, vertex, options, field);
+    if (memory < 0) {
+      memory = peak_memory_mib() - arrays_mib;
+      if (count > 5) write_doubles(arguments[5], field.distance);
+    }
+    std::printf("{%s, \"memory_mib\": %.2f}\n", times.c_str(), memory);
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace brushfire::benchmark
+
+int main(int count, char** arguments) {
+  try {
+    return brushfire::benchmark::run(count, arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "time_solver: %s\n", error.what());
+    return 1;
+  }
+}
