@@ -1,0 +1,39 @@
+// Titles, colour bars and legends: where they go and what they say, for pixels and for SVG alike.
+#pragma once
+
+#include <brushfire/figure/detail/panel.h>
+#include <brushfire/figure/detail/text.h>
+
+#include <string>
+#include <vector>
+
+namespace brushfire::detail {
+
+struct TextAt {
+  double x, y, height;  // left end of the baseline, pixels
+  std::string text;
+};
+
+struct Swatch {
+  Rectangle at;
+  Color color;
+};
+
+// The picture's frame around its panels.
+struct Layout {
+  int width = 0, height = 0;
+  std::vector<Rectangle> panels;
+  std::vector<TextAt> texts;
+  std::vector<Swatch> swatches;  // of labels
+  Rectangle bar;                 // width 0: none
+  std::vector<double> ticks;     // rows at which the bar has a mark
+};
+
+// Throws Error(InvalidArgument) for anything in the request that render() refuses.
+void check_request(std::span<const Panel> panels, const RenderOptions& options);
+
+ScalarRange range_of(std::span<const Panel> panels, const RenderOptions& options);
+Layout lay_out(std::span<const Panel> panels, const RenderOptions& options, ScalarRange range, const Font& font);
+void paint(const Layout& layout, const RenderOptions& options, const Font& font, Image& picture);
+
+}  // namespace brushfire::detail

@@ -1,0 +1,58 @@
+// The colour of a mesh's surface at a sample: map, bands, isolines, wireframe, light.
+#pragma once
+
+#include <brushfire/figure/detail/raster.h>
+#include <brushfire/figure/render.h>
+
+#include <span>
+#include <vector>
+
+namespace brushfire::detail {
+
+struct ScalarRange {
+  double low = 0, high = 1;
+};
+
+// Everything about one panel's surface that does not depend on the sample. Keeps references to its arguments.
+class Surface {
+ public:
+  Surface(const Panel& panel, const RenderOptions& options, const Projection& projection, ScalarRange range);
+
+  const Mesh& mesh() const { return panel_.mesh; }
+  std::span<const ScreenVertex> vertices() const { return vertices_; }
+  const RenderOptions& options() const { return options_; }
+
+ private:
+  friend class SurfaceShader;
+  const Panel& panel_;
+  const RenderOptions& options_;
+  ScalarRange range_;
+  std::vector<ScreenVertex> vertices_;
+  std::vector<std::array<float, 3>> corner_normals_;  // [halfedge_count], in the camera's axes
+};
+
+// Shades samples, remembering what belongs to the current face: cheap where neighbours share their face.
+class SurfaceShader {
+ public:
+  explicit SurfaceShader(const Surface& surface) : surface_(surface) {}
+  Color color_at(Index face, int column, int row);
+  // Depth that the current face has at an offset from the last sample.
+  float depth_step(int columns, int rows) const;
+
+ private:
+  void enter(Index face);
+  Color base_color(double value, std::array<float, 3> w) const;
+  Color with_isoline(Color c, double value, double gradient) const;
+  Color with_wireframe(Color c, std::array<float, 3> screen_weights) const;
+  float light(std::array<float, 3> w) const;
+
+  const Surface& surface_;
+  Index face_ = kNoIndex;
+  std::array<ScreenVertex, 3> corner_;
+  std::optional<ScreenTriangle> triangle_;
+  std::array<float, 3> dx_{}, dy_{};
+  std::array<double, 3> value_{};
+  bool has_value_ = false;
+};
+
+}  // namespace brushfire::detail

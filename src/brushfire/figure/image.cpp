@@ -1,0 +1,117 @@
+// Blending, PNG by stb_image_write (compressed by zlib where there is one), WebP by libwebp.
+#include <brushfire/figure/image.h>
+
+#include <brushfire/core/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <memory>
+
+#ifdef BRUSHFIRE_WITH_ZLIB
+#include <zlib.h>
+
+namespace {
+// stb's own compressor is slower and leaves files a fifth larger.
+unsigned char* compress_for_stb(unsigned char* data, int size, int* out_size, int quality) {
+  uLongf length = compressBound(static_cast<uLong>(size));
+  auto* out = static_cast<unsigned char*>(std::malloc(length));
+  if (out == nullptr) return nullptr;
+  constexpr int kBestUsefulLevel = 6;
+  if (compress2(out, &length, data, static_cast<uLong>(size), std::min(quality, kBestUsefulLevel)) != Z_OK) {
+    std::free(out);
+    return nullptr;
+  }
+  *out_size = static_cast<int>(length);
+  return out;
+}
+}  // namespace
+#define STBIW_ZLIB_COMPRESS compress_for_stb
+#endif
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#include <stb_image_write.h>
+
+#ifdef BRUSHFIRE_WITH_WEBP
+#include <webp/encode.h>
+#include <webp/mux.h>
+#endif
+
+namespace brushfire {
+
+void blend_over(std::uint8_t* pixel, Color color, float alpha) {
+  const float below = static_cast<float>(pixel[3]) / 255.0F * (1 - alpha);
+  const float total = alpha + below;
+  if (!(total > 0)) return;
+  const std::array<float, 3> over{color.r, color.g, color.b};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float value = (alpha * over[k] + below * static_cast<float>(pixel[k]) / 255.0F) / total;
+    pixel[k] = static_cast<std::uint8_t>(std::clamp(255.0F * value + 0.5F, 0.0F, 255.0F));
+  }
+  pixel[3] = static_cast<std::uint8_t>(255.0F * total + 0.5F);
+}
+
+std::vector<std::uint8_t> encode_png(const Image& image) {
+  std::vector<std::uint8_t> bytes;
+  const auto append = [](void* to, void* data, int size) {
+    auto* out = static_cast<std::vector<std::uint8_t>*>(to);
+    const auto* from = static_cast<const std::uint8_t*>(data);
+    out->insert(out->end(), from, from + size);
+  };
+  constexpr int kChannels = 4;
+  if (stbi_write_png_to_func(append, &bytes, image.width, image.height, kChannels, image.rgba.data(),
+                             kChannels * image.width) == 0) {
+    throw Error(ErrorCode::InvalidArgument, "an image of " + std::to_string(image.width) + " x " +
+                                                std::to_string(image.height) + " pixels cannot be written as PNG");
+  }
+  return bytes;
+}
+
+std::vector<std::uint8_t> encode_webp(std::span<const Image> frames, int milliseconds) {
+  if (frames.empty()) throw Error(ErrorCode::InvalidArgument, "an animation needs at least one frame");
+  for (const Image& f : frames) {
+    if (f.width != frames[0].width || f.height != frames[0].height) {
+      throw Error(ErrorCode::InvalidArgument, "the frames of an animation must have one size");
+    }
+  }
+#ifdef BRUSHFIRE_WITH_WEBP
+  WebPAnimEncoderOptions animation;
+  WebPConfig config;
+  if (WebPAnimEncoderOptionsInit(&animation) == 0 || WebPConfigInit(&config) == 0) {
+    throw Error(ErrorCode::InvalidArgument, "the WebP library is of another version than its headers");
+  }
+  animation.allow_mixed = 1;
+  config.quality = 82;
+  config.method = 4;
+  const std::unique_ptr<WebPAnimEncoder, decltype(&WebPAnimEncoderDelete)> encoder(
+      WebPAnimEncoderNew(frames[0].width, frames[0].height, &animation), &WebPAnimEncoderDelete);
+  int time = 0;
+  bool good = encoder != nullptr;
+  for (const Image& f : frames) {
+    WebPPicture picture;
+    good = good && WebPPictureInit(&picture) != 0;
+    if (!good) break;
+    picture.width = f.width;
+    picture.height = f.height;
+    picture.use_argb = 1;
+    good = WebPPictureImportRGBA(&picture, f.rgba.data(), 4 * f.width) != 0 &&
+           WebPAnimEncoderAdd(encoder.get(), &picture, time, &config) != 0;
+    WebPPictureFree(&picture);
+    time += milliseconds;
+  }
+  WebPData data;
+  WebPDataInit(&data);
+  good = good && WebPAnimEncoderAdd(encoder.get(), nullptr, time, nullptr) != 0 &&
+         WebPAnimEncoderAssemble(encoder.get(), &data) != 0;
+  std::vector<std::uint8_t> bytes(data.bytes, data.bytes + data.size);
+  WebPDataClear(&data);
+  if (!good) throw Error(ErrorCode::InvalidArgument, "the frames could not be encoded as WebP");
+  return bytes;
+#else
+  (void)milliseconds;
+  throw Error(ErrorCode::InvalidArgument, "this build has no WebP: write numbered PNG files instead");
+#endif
+}
+
+}  // namespace brushfire

@@ -1,0 +1,202 @@
+// Layout of the picture around its panels.
+#include <brushfire/figure/detail/legend.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+namespace brushfire::detail {
+namespace {
+
+constexpr Color kInk{0.12F, 0.12F, 0.14F};
+constexpr int kPad = 12;
+
+double text_height(const RenderOptions& options) {
+  constexpr double kSmallest = 13, kShareOfHeight = 0.028;
+  return std::max(kSmallest, kShareOfHeight * options.height);
+}
+
+// 1, 2 or 5 times a power of ten: the step that gives about `count` ticks.
+double nice_step(double span, int count) {
+  const double raw = span / count;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  const double lead = raw / power;
+  return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
+}
+
+std::string number(double x, double step) {
+  char text[64];
+  const double magnitude = std::max(std::abs(x), step);
+  constexpr double kLargePlain = 1e5, kSmallPlain = 1e-4;
+  if (magnitude >= kLargePlain || step < kSmallPlain) {
+    std::snprintf(text, sizeof text, "%.3g", x);
+  } else {
+    const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+    std::snprintf(text, sizeof text, "%.*f", decimals, x == 0 ? 0.0 : x);
+  }
+  return text;
+}
+
+struct Tick {
+  double value;
+  std::string text;
+};
+
+std::vector<Tick> ticks_of(ScalarRange range) {
+  const double span = range.high - range.low;
+  if (!(span > 0)) return {{range.low, number(range.low, std::max(std::abs(range.low), 1e-4))}};
+  constexpr int kTicks = 6;
+  const double step = nice_step(span, kTicks);
+  std::vector<Tick> ticks;
+  for (double k = std::ceil(range.low / step - 1e-9); k * step <= range.high + 1e-9 * span; ++k) {
+    ticks.push_back({k * step, number(k * step, step)});
+  }
+  return ticks;
+}
+
+bool has_scalar(std::span<const Panel> panels) {
+  return std::any_of(panels.begin(), panels.end(),
+                     [](const Panel& p) { return !p.scalar.empty() && p.labels.empty(); });
+}
+
+// The labels in use, with a name each.
+std::vector<std::pair<Index, std::string>> legend_entries(std::span<const Panel> panels) {
+  std::set<Index> used;
+  for (const Panel& p : panels) used.insert(p.labels.begin(), p.labels.end());
+  used.erase(kNoIndex);
+  std::vector<std::pair<Index, std::string>> entries;
+  for (const Index label : used) {
+    std::string name = std::to_string(label);
+    for (const Panel& p : panels) {
+      if (label < p.label_names.size()) name = p.label_names[label];
+    }
+    entries.emplace_back(label, std::move(name));
+  }
+  return entries;
+}
+
+class Builder {
+ public:
+  Builder(std::span<const Panel> panels, const RenderOptions& options, const Font& font)
+      : panels_(panels), options_(options), font_(font), size_(text_height(options)) {
+    const bool titled =
+        std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return !p.title.empty(); });
+    top_ = titled && !font.empty() ? static_cast<int>(1.9 * size_) : 0;
+    layout_.height = options.height + top_;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      const int x = static_cast<int>(i) * options.width;
+      layout_.panels.push_back({x, top_, options.width, options.height});
+      add_title(panels[i].title, x);
+    }
+    layout_.width = static_cast<int>(panels.size()) * options.width;
+  }
+
+  void add_bar(ScalarRange range) {
+    const int x = layout_.width + kPad, width = static_cast<int>(std::max(14.0, 0.9 * size_));
+    const int unit_room = options_.unit.empty() ? 0 : static_cast<int>(1.6 * size_);
+    const int height = std::max(16, static_cast<int>(0.82 * options_.height) - unit_room);
+    layout_.bar = {x, top_ + unit_room + (options_.height - height - unit_room) / 2, width, height};
+    double right = layout_.bar.x + width;
+    const double span = range.high - range.low;
+    for (const Tick& tick : ticks_of(range)) {
+      const double share = span > 0 ? (tick.value - range.low) / span : 0.5;
+      const double row = layout_.bar.y + (1 - share) * (layout_.bar.height - 1);
+      layout_.ticks.push_back(row);
+      right = std::max(right, add_text(layout_.bar.x + width + 7, row + 0.32 * size_, tick.text));
+    }
+    if (unit_room > 0) right = std::max(right, add_text(x, layout_.bar.y - 0.6 * size_, options_.unit));
+    layout_.width = static_cast<int>(std::ceil(right)) + kPad;
+  }
+
+  void add_legend(const std::vector<std::pair<Index, std::string>>& entries) {
+    const int x = layout_.width + kPad, side = static_cast<int>(size_);
+    const double row_height = 1.45 * size_;
+    const auto room = static_cast<std::size_t>(std::max(1.0, (options_.height - 2 * kPad) / row_height));
+    double right = x + side, y = top_ + kPad;
+    for (std::size_t i = 0; i < entries.size(); ++i, y += row_height) {
+      if (i + 1 == room && entries.size() > room) {
+        right = std::max(right, add_text(x, y + 0.85 * size_, "+ " + std::to_string(entries.size() - i) + " more"));
+        break;
+      }
+      layout_.swatches.push_back({{x, static_cast<int>(y), side, side}, label_color(entries[i].first)});
+      right = std::max(right, add_text(x + side + 7, y + 0.85 * size_, entries[i].second));
+    }
+    layout_.width = static_cast<int>(std::ceil(right)) + kPad;
+  }
+
+  Layout take() { return std::move(layout_); }
+
+ private:
+  // Returns where the text ends.
+  double add_text(double x, double y, const std::string& text) {
+    layout_.texts.push_back({x, y, size_, text});
+    return x + font_.width(text, size_);
+  }
+
+  void add_title(const std::string& title, int panel_x) {
+    if (title.empty()) return;
+    // Too long for its panel: smaller, so that nothing is cut.
+    const double wide = font_.width(title, size_ * 1.15);
+    const double fit = std::min(1.0, (options_.width - 2.0 * kPad) / std::max(wide, 1.0));
+    const double size = size_ * 1.15 * fit;
+    const double x = panel_x + 0.5 * (options_.width - font_.width(title, size));
+    layout_.texts.push_back({x, 0.72 * top_, size, title});
+  }
+
+  std::span<const Panel> panels_;
+  const RenderOptions& options_;
+  const Font& font_;
+  double size_;
+  int top_ = 0;
+  Layout layout_;
+};
+
+void fill(Image& picture, Rectangle r, Color c) {
+  for (int y = std::max(0, r.y); y < std::min(picture.height, r.y + r.height); ++y) {
+    for (int x = std::max(0, r.x); x < std::min(picture.width, r.x + r.width); ++x) {
+      blend_over(picture.pixel(x, y), c, 1);
+    }
+  }
+}
+
+}  // namespace
+
+ScalarRange range_of(std::span<const Panel> panels, const RenderOptions& options) {
+  double low = kInfinity, high = -kInfinity;
+  for (const Panel& p : panels) {
+    for (const double x : p.scalar) {
+      if (!std::isfinite(x)) continue;
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+  }
+  if (low > high) low = high = 0;
+  return {options.low.value_or(low), options.high.value_or(high)};
+}
+
+Layout lay_out(std::span<const Panel> panels, const RenderOptions& options, ScalarRange range, const Font& font) {
+  Builder builder(panels, options, font);
+  if (options.colour_bar) {
+    if (has_scalar(panels)) builder.add_bar(range);
+    const auto entries = legend_entries(panels);
+    if (!entries.empty()) builder.add_legend(entries);
+  }
+  return builder.take();
+}
+
+void paint(const Layout& layout, const RenderOptions& options, const Font& font, Image& picture) {
+  const Rectangle& bar = layout.bar;
+  for (int row = 0; row < bar.height; ++row) {
+    const double share = 1 - static_cast<double>(row) / std::max(1, bar.height - 1);
+    fill(picture, {bar.x, bar.y + row, bar.width, 1}, color_of(options.colormap, share));
+  }
+  for (const double row : layout.ticks) {
+    constexpr int kTickLength = 4;
+    fill(picture, {bar.x + bar.width, static_cast<int>(std::lround(row)), kTickLength, 1}, kInk);
+  }
+  for (const Swatch& s : layout.swatches) fill(picture, s.at, s.color);
+  for (const TextAt& t : layout.texts) font.write(picture, t.x, t.y, t.height, t.text, kInk);
+}
+
+}  // namespace brushfire::detail

@@ -1,0 +1,69 @@
+// Pictures of meshes and of what was computed on them, without a display, a window system or a GPU.
+#pragma once
+
+#include <brushfire/figure/camera.h>
+#include <brushfire/figure/colormap.h>
+#include <brushfire/figure/image.h>
+#include <brushfire/mesh/mesh.h>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace brushfire {
+
+// A curve on (or near) the surface, drawn as a tube of constant width on the screen.
+struct Polyline {
+  std::vector<Vec3> points;
+  bool closed = false;
+};
+
+// One mesh and what is shown on it. All that is empty is not shown.
+struct Panel {
+  Mesh mesh;                            // with positions
+  std::vector<double> scalar;           // [vertex_count]; faces with a value that is not finite are grey
+  std::vector<Index> labels;            // [vertex_count]; coloured by label instead of by scalar; kNoIndex is grey
+  std::vector<std::string> label_names; // for the legend; by number where there are none
+  std::vector<double> isolines;         // levels of `scalar`, ascending; drawn as lines of constant screen width
+  std::vector<Polyline> paths;
+  std::vector<Vec3> dots;               // sources
+  std::string title;
+};
+
+enum class Fill : std::uint8_t {
+  Smooth,  // the colour map, continuously
+  Bands,   // alternating darker and lighter bands between consecutive isolines (figure 8 of Novotni & Klein 2002)
+};
+
+struct RenderOptions {
+  int width = 1024, height = 768;  // of each panel, pixels; 16 to 16384
+  Camera camera;
+  Colormap colormap = Colormap::Viridis;
+  Fill fill = Fill::Smooth;
+  std::optional<double> low, high;  // range of the colours; from the finite scalars of all panels otherwise
+  std::string unit;                 // written above the colour bar
+  bool colour_bar = true;           // shown where a panel has a scalar, or labels
+  bool wireframe = false;
+  bool silhouettes = true;          // dark lines where the surface ends or steps back
+  bool transparent = false;         // background; otherwise white
+  double line_width = 1.6;          // of isolines, pixels
+  double path_width = 5;            // pixels
+  double dot_size = 13;             // pixels
+  int samples = 3;                  // per pixel and direction, 1 to 8
+  unsigned threads = 0;             // 0: one per processor; the pixels are the same for any number
+  std::string font;                 // a TrueType file; empty: DejaVu Sans or the like, where the system has one
+};
+
+// The panels side by side, in one picture with one range of colours and one colour bar. The same input gives the same
+// pixels. Throws Error(InvalidArgument) for sizes that do not match the mesh or lie out of range, a mesh without
+// positions, and a font that cannot be read; a system without any font gives a picture without text.
+// O(faces + pixels) time; 36 bytes a sample for a strip of the picture, not the whole.
+Image render(std::span<const Panel> panels, const RenderOptions& options = {});
+
+// The same as SVG: the shaded surfaces as an embedded PNG; isolines (given as Panel::paths of `lines`, one entry per
+// panel), paths, dots, text and colour bar as vectors, hidden parts left out.
+std::string render_svg(std::span<const Panel> panels, std::span<const std::vector<Polyline>> lines,
+                       const RenderOptions& options = {});
+
+}  // namespace brushfire

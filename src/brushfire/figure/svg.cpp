@@ -1,0 +1,207 @@
+// SVG: the shaded surface as a picture, everything thin as vectors, hidden parts left out.
+#include <brushfire/figure/render.h>
+
+#include <brushfire/core/error.h>
+#include <brushfire/figure/detail/legend.h>
+#include <brushfire/figure/detail/panel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace brushfire {
+namespace {
+
+using detail::Projection;
+using detail::Rectangle;
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", x);
+  return text;
+}
+
+std::string hex(Color c) {
+  const auto byte = [](float x) { return static_cast<unsigned>(std::clamp(255.0F * x + 0.5F, 0.0F, 255.0F)); };
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(c.r), byte(c.g), byte(c.b));
+  return text;
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '&': out += "&amp;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve(4 * (bytes.size() + 2) / 3);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? static_cast<unsigned>(bytes[i + k]) : 0U; };
+    const unsigned group = byte(0) << 16 | byte(1) << 8 | byte(2);
+    for (unsigned k = 0; k < 4; ++k) out += i + k > bytes.size() ? '=' : kDigits[group >> (18 - 6 * k) & 63U];
+  }
+  return out;
+}
+
+// Draws polylines of one panel, leaving out what lies behind the surface.
+class VisibleLines {
+ public:
+  VisibleLines(const Projection& projection, Rectangle at, std::span<const float> depth)
+      : projection_(projection), at_(at), depth_(depth) {}
+
+  // The `d` attribute of an SVG path.
+  std::string trace(std::span<const Polyline> lines) const {
+    std::string d;
+    for (const Polyline& line : lines) {
+      bool pen_down = false;
+      const std::size_t n = line.points.size();
+      for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
+        trace_segment(projection_(line.points[i]), projection_(line.points[(i + 1) % n]), pen_down, d);
+      }
+    }
+    return d;
+  }
+
+  bool visible(const Projection::Screen& s) const {
+    // The surface's own depth is known to a pixel only: within two pixels' worth of depth a point lies on it, and the
+    // nearest of the pixels around it may be in front of it on a steep face.
+    const int x = static_cast<int>(std::floor(s.x)), y = static_cast<int>(std::floor(s.y));
+    const double slack = 2.5 / projection_.pixels_per_unit() * projection_.depth_per_unit(s.depth);
+    for (int row = y - 1; row <= y + 1; ++row) {
+      for (int column = x - 1; column <= x + 1; ++column) {
+        if (column < 0 || row < 0 || column >= at_.width || row >= at_.height) continue;
+        if (s.depth + slack >= static_cast<double>(depth_[static_cast<std::size_t>(row) * at_.width + column])) return true;
+      }
+    }
+    return false;
+  }
+
+  std::string place(double x, double y) const { return number(at_.x + x) + " " + number(at_.y + y); }
+
+ private:
+  void trace_segment(const Projection::Screen& a, const Projection::Screen& b, bool& pen_down, std::string& d) const {
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::hypot(b.x - a.x, b.y - a.y))));
+    const auto along = [&](int i) {
+      const double t = static_cast<double>(i) / steps;
+      return Projection::Screen{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.depth + t * (b.depth - a.depth), 1};
+    };
+    int last_written = -1;
+    for (int i = 0; i <= steps; ++i) {
+      const Projection::Screen s = along(i);
+      if (visible(s)) {
+        if (!pen_down) {
+          d += "M" + place(s.x, s.y);
+          last_written = i;
+        }
+        pen_down = true;
+      } else if (pen_down) {
+        if (i > 0 && last_written != i - 1) d += "L" + place(along(i - 1).x, along(i - 1).y);
+        pen_down = false;
+      }
+    }
+    if (pen_down && last_written != steps) d += "L" + place(b.x, b.y);
+  }
+
+  const Projection& projection_;
+  Rectangle at_;
+  std::span<const float> depth_;
+};
+
+std::string stroke(const std::string& d, const char* color, double width) {
+  if (d.empty()) return {};
+  return "<path d=\"" + d + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" + number(width) +
+         "\" stroke-linecap=\"round\" stroke-linejoin=\"round\"/>\n";
+}
+
+std::string draw_panel(const Panel& panel, std::span<const Polyline> lines, const RenderOptions& options,
+                       detail::ScalarRange range, Rectangle at) {
+  Image picture(at.width, at.height);
+  std::vector<float> depth(static_cast<std::size_t>(at.width) * at.height);
+  Panel surface = panel;
+  if (options.fill == Fill::Smooth) surface.isolines.clear();
+  detail::paint_panel(surface, options, range, {0, 0, at.width, at.height}, false, picture, depth);
+  const Projection projection = detail::projection_of(panel, options);
+  const VisibleLines visible(projection, at, depth);
+  std::string out = "<image x=\"" + std::to_string(at.x) + "\" y=\"" + std::to_string(at.y) + "\" width=\"" +
+                    std::to_string(at.width) + "\" height=\"" + std::to_string(at.height) +
+                    "\" href=\"data:image/png;base64," + base64(encode_png(picture)) + "\"/>\n";
+  out += stroke(visible.trace(lines), "#14141a", options.line_width);
+  out += stroke(visible.trace(panel.paths), "#ed4229", options.path_width);
+  for (const Vec3& p : panel.dots) {
+    const Projection::Screen s = projection(p);
+    if (!visible.visible(s)) continue;
+    out += "<circle cx=\"" + number(at.x + s.x) + "\" cy=\"" + number(at.y + s.y) + "\" r=\"" +
+           number(0.43 * options.dot_size) + "\" fill=\"#ffffff\" stroke=\"#1a1a1f\" stroke-width=\"" +
+           number(0.14 * options.dot_size) + "\"/>\n";
+  }
+  return out;
+}
+
+std::string draw_frame(const detail::Layout& layout, const RenderOptions& options) {
+  std::string out;
+  const Rectangle& bar = layout.bar;
+  if (bar.width > 0) {
+    out += "<defs><linearGradient id=\"bar\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">";
+    constexpr int kStops = 33;
+    for (int i = 0; i < kStops; ++i) {
+      const double share = static_cast<double>(i) / (kStops - 1);
+      out += "<stop offset=\"" + number(share) + "\" stop-color=\"" + hex(color_of(options.colormap, share)) + "\"/>";
+    }
+    out += "</linearGradient></defs>\n<rect x=\"" + std::to_string(bar.x) + "\" y=\"" + std::to_string(bar.y) +
+           "\" width=\"" + std::to_string(bar.width) + "\" height=\"" + std::to_string(bar.height) +
+           "\" fill=\"url(#bar)\"/>\n";
+  }
+  for (const double row : layout.ticks) {
+    const std::string x = std::to_string(bar.x + bar.width), y = number(row);
+    out += "<path d=\"M" + x + " " + y + "h4\" stroke=\"#1f1f24\"/>\n";
+  }
+  for (const detail::Swatch& s : layout.swatches) {
+    out += "<rect x=\"" + std::to_string(s.at.x) + "\" y=\"" + std::to_string(s.at.y) + "\" width=\"" +
+           std::to_string(s.at.width) + "\" height=\"" + std::to_string(s.at.height) + "\" fill=\"" + hex(s.color) +
+           "\"/>\n";
+  }
+  for (const detail::TextAt& t : layout.texts) {
+    // stb's height is from ascender to descender; a font-size is the em, some 1.16 times smaller in DejaVu Sans.
+    constexpr double kHeightPerEm = 1.164;
+    out += "<text x=\"" + number(t.x) + "\" y=\"" + number(t.y) + "\" font-family=\"DejaVu Sans, sans-serif\"" +
+           " font-size=\"" + number(t.height / kHeightPerEm) + "\" fill=\"#1f1f24\">" + escaped(t.text) + "</text>\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string render_svg(std::span<const Panel> panels, std::span<const std::vector<Polyline>> lines,
+                       const RenderOptions& options) {
+  detail::check_request(panels, options);
+  if (!lines.empty() && lines.size() != panels.size()) {
+    throw Error(ErrorCode::InvalidArgument, std::to_string(lines.size()) + " sets of lines for " +
+                                                std::to_string(panels.size()) + " panels: one per panel is needed");
+  }
+  const detail::Font font(options.font);
+  const detail::ScalarRange range = detail::range_of(panels, options);
+  const detail::Layout layout = detail::lay_out(panels, options, range, font);
+  const std::string size = std::to_string(layout.width) + "\" height=\"" + std::to_string(layout.height);
+  std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size + "\" viewBox=\"0 0 " +
+                    std::to_string(layout.width) + " " + std::to_string(layout.height) + "\">\n";
+  if (!options.transparent) out += "<rect width=\"" + size + "\" fill=\"#ffffff\"/>\n";
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const std::span<const Polyline> own = lines.empty() ? std::span<const Polyline>{} : std::span(lines[i]);
+    out += draw_panel(panels[i], own, options, range, layout.panels[i]);
+  }
+  return out + draw_frame(layout, options) + "</svg>\n";
+}
+
+}  // namespace brushfire
