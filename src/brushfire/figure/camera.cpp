@@ -40,9 +40,12 @@ namespace {
 // From axes in which y is up to those of the mesh.
 Vec3 with_up(Axis up, const Vec3& d) {
   switch (up) {
-    case Axis::X: return {d.y, d.z, d.x};
-    case Axis::Z: return {d.x, -d.z, d.y};
-    case Axis::Y: break;
+    case Axis::X:
+      return {d.y, d.z, d.x};
+    case Axis::Z:
+      return {d.x, -d.z, d.y};
+    case Axis::Y:
+      break;
   }
   return d;
 }
@@ -88,7 +91,7 @@ Projection::Projection(const Camera& camera, std::span<const Vec3> points, doubl
     horizontal.add(s.x);
     vertical.add(s.y);
   }
-  constexpr double kMargin = 0.94;  // of the rectangle is used
+  constexpr double kMargin = 0.94;         // of the rectangle is used
   const double smallest = 1e-9 * radius_;  // a line seen from its end still gets a scale
   scale_ = kMargin * camera.zoom *
            std::min(width / std::max(horizontal.extent(), smallest), height / std::max(vertical.extent(), smallest));

@@ -24,8 +24,8 @@ class PanelPainter {
         picture_(picture),
         depth_(depth),
         samples_(surface.options().samples),
-        bands_(sort_into_bands(surface.mesh().faces(), surface.vertices(), at.height * samples_,
-                               kBandPixels * samples_, samples_)) {}
+        bands_(sort_into_bands(surface.mesh().faces(), surface.vertices(), at.height * samples_, kBandPixels * samples_,
+                               samples_)) {}
 
   std::size_t band_count() const { return bands_.offset.size() - 1; }
 
@@ -101,7 +101,7 @@ class PanelPainter {
         if (!depth_.empty()) depth_[static_cast<std::size_t>(y) * at_.width + x] = nearest;
         if (covered == 0) continue;
         blend_over(picture_.pixel(at_.x + x, at_.y + y), scaled(sum, 1.0F / static_cast<float>(covered)),
-              static_cast<float>(covered) * share);
+                   static_cast<float>(covered) * share);
       }
     }
   }

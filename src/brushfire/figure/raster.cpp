@@ -17,9 +17,7 @@ std::int32_t to_grid(double samples) {
   return static_cast<std::int32_t>(std::lround(std::clamp(samples * kSubsample, -kFarOff, kFarOff)));
 }
 
-constexpr std::int64_t centre_of(int sample) {
-  return static_cast<std::int64_t>(sample) * kSubsample + kSubsample / 2;
-}
+constexpr std::int64_t centre_of(int sample) { return static_cast<std::int64_t>(sample) * kSubsample + kSubsample / 2; }
 
 // The first sample whose centre is at or beyond the coordinate, and the last that is not beyond it.
 int first_sample(std::int32_t x) { return static_cast<int>((x + kSubsample / 2 - 1) >> 8); }

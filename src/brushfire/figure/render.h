@@ -21,13 +21,13 @@ struct Polyline {
 
 // One mesh and what is shown on it. All that is empty is not shown.
 struct Panel {
-  Mesh mesh;                            // with positions
-  std::vector<double> scalar;           // [vertex_count]; faces with a value that is not finite are grey
-  std::vector<Index> labels;            // [vertex_count]; coloured by label instead of by scalar; kNoIndex is grey
-  std::vector<std::string> label_names; // for the legend; by number where there are none
-  std::vector<double> isolines;         // levels of `scalar`, ascending; drawn as lines of constant screen width
+  Mesh mesh;                             // with positions
+  std::vector<double> scalar;            // [vertex_count]; faces with a value that is not finite are grey
+  std::vector<Index> labels;             // [vertex_count]; coloured by label instead of by scalar; kNoIndex is grey
+  std::vector<std::string> label_names;  // for the legend; by number where there are none
+  std::vector<double> isolines;          // levels of `scalar`, ascending; drawn as lines of constant screen width
   std::vector<Polyline> paths;
-  std::vector<Vec3> dots;               // sources
+  std::vector<Vec3> dots;  // sources
   std::string title;
 };
 
@@ -45,14 +45,14 @@ struct RenderOptions {
   std::string unit;                 // written above the colour bar
   bool colour_bar = true;           // shown where a panel has a scalar, or labels
   bool wireframe = false;
-  bool silhouettes = true;          // dark lines where the surface ends or steps back
-  bool transparent = false;         // background; otherwise white
-  double line_width = 1.6;          // of isolines, pixels
-  double path_width = 5;            // pixels
-  double dot_size = 13;             // pixels
-  int samples = 3;                  // per pixel and direction, 1 to 8
-  unsigned threads = 0;             // 0: one per processor; the pixels are the same for any number
-  std::string font;                 // a TrueType file; empty: DejaVu Sans or the like, where the system has one
+  bool silhouettes = true;   // dark lines where the surface ends or steps back
+  bool transparent = false;  // background; otherwise white
+  double line_width = 1.6;   // of isolines, pixels
+  double path_width = 5;     // pixels
+  double dot_size = 13;      // pixels
+  int samples = 3;           // per pixel and direction, 1 to 8
+  unsigned threads = 0;      // 0: one per processor; the pixels are the same for any number
+  std::string font;          // a TrueType file; empty: DejaVu Sans or the like, where the system has one
 };
 
 // The panels side by side, in one picture with one range of colours and one colour bar. The same input gives the same

@@ -7,8 +7,8 @@
 namespace brushfire::detail {
 namespace {
 
-constexpr Color kGrey{0.72F, 0.72F, 0.72F};     // no value: unreachable, unlabelled
-constexpr Color kPlain{0.80F, 0.82F, 0.85F};    // nothing to show but the shape
+constexpr Color kGrey{0.72F, 0.72F, 0.72F};   // no value: unreachable, unlabelled
+constexpr Color kPlain{0.80F, 0.82F, 0.85F};  // nothing to show but the shape
 constexpr Color kLineColor{0.08F, 0.08F, 0.10F};
 
 // Faces that meet at a sharper angle than this keep separate normals: an edge of a machine part stays an edge.
@@ -48,8 +48,8 @@ std::vector<std::array<float, 3>> smooth_corner_normals(const Mesh& mesh, const 
       }
       const Vec3 n = projection.direction(sum);
       normals[h] = {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
-      const float length = std::sqrt(normals[h][0] * normals[h][0] + normals[h][1] * normals[h][1] +
-                                     normals[h][2] * normals[h][2]);
+      const float length =
+          std::sqrt(normals[h][0] * normals[h][0] + normals[h][1] * normals[h][1] + normals[h][2] * normals[h][2]);
       if (length > 0) {
         for (float& x : normals[h]) x /= length;
       }

@@ -33,11 +33,20 @@ std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '&': out += "&amp;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '&':
+        out += "&amp;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -82,7 +91,8 @@ class VisibleLines {
     for (int row = y - 1; row <= y + 1; ++row) {
       for (int column = x - 1; column <= x + 1; ++column) {
         if (column < 0 || row < 0 || column >= at_.width || row >= at_.height) continue;
-        if (s.depth + slack >= static_cast<double>(depth_[static_cast<std::size_t>(row) * at_.width + column])) return true;
+        if (s.depth + slack >= static_cast<double>(depth_[static_cast<std::size_t>(row) * at_.width + column]))
+          return true;
       }
     }
     return false;

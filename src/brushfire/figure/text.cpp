@@ -79,7 +79,9 @@ struct Font::State {
     }
     return x;
   }
-  double scale(double height) const { return static_cast<double>(stbtt_ScaleForPixelHeight(&info, static_cast<float>(height))); }
+  double scale(double height) const {
+    return static_cast<double>(stbtt_ScaleForPixelHeight(&info, static_cast<float>(height)));
+  }
 };
 
 Font::Font(const std::string& file) {
@@ -88,7 +90,8 @@ Font::Font(const std::string& file) {
     state->bytes = read_file(file);
     if (state->bytes.empty()) throw Error(ErrorCode::FileNotReadable, file + ": cannot be read as a font");
   }
-  for (std::size_t i = 0; i < kUsualPlaces.size() && state->bytes.empty(); ++i) state->bytes = read_file(kUsualPlaces[i]);
+  for (std::size_t i = 0; i < kUsualPlaces.size() && state->bytes.empty(); ++i)
+    state->bytes = read_file(kUsualPlaces[i]);
   if (state->bytes.empty()) return;
   const int offset = stbtt_GetFontOffsetForIndex(state->bytes.data(), 0);
   if (offset < 0 || stbtt_InitFont(&state->info, state->bytes.data(), offset) == 0) {

@@ -12,9 +12,9 @@ namespace brushfire::detail {
 // A capsule on the screen, in samples: a piece of a tube, or (where both ends agree) a ball.
 struct Capsule {
   float x0, y0, depth0, x1, y1, depth1;
-  float radius;      // samples
-  float lift;        // how much nearer than its axis its front is, in depth
-  float rim = 0;     // share of the radius that is drawn in the rim colour
+  float radius;   // samples
+  float lift;     // how much nearer than its axis its front is, in depth
+  float rim = 0;  // share of the radius that is drawn in the rim colour
   Color color, rim_color;
 };
 

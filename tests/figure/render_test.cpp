@@ -1,0 +1,240 @@
+// Whole pictures: what is seen where, refusals, the same pixels for any number of threads.
+#include <brushfire/core/error.h>
+#include <brushfire/figure/detail/legend.h>
+#include <brushfire/figure/render.h>
+#include <brushfire/mesh/shapes.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace brushfire {
+namespace {
+
+// The unit square seen from the front: the screen shows x to the right and y up.
+Panel square(Index cells = 8) {
+  Panel panel;
+  panel.mesh = shapes::plane(cells, cells).mesh();
+  for (const Vec3& p : panel.mesh.positions()) panel.scalar.push_back(p.x);
+  return panel;
+}
+
+RenderOptions front(int size) {
+  RenderOptions options;
+  options.width = options.height = size;
+  options.camera = named_view("front");
+  options.colour_bar = false;
+  options.silhouettes = false;
+  return options;
+}
+
+Image render_one(const Panel& panel, const RenderOptions& options) { return render(std::span(&panel, 1), options); }
+
+double brightness(const Image& image, int x, int y) {
+  const std::uint8_t* p = image.pixel(x, y);
+  return (p[0] + p[1] + p[2]) / 3.0;
+}
+
+TEST(Render, ColourFollowsTheScalarFromLeftToRight) {
+  const Image image = render_one(square(), front(100));
+  EXPECT_GT(image.pixel(8, 50)[2], image.pixel(8, 50)[1]);    // viridis begins violet
+  EXPECT_GT(image.pixel(90, 50)[1], image.pixel(90, 50)[2]);  // and ends yellow
+  EXPECT_EQ(image.pixel(0, 0)[0], 255);                       // the margin is background
+}
+
+TEST(Render, IsolineIsADarkLineOfItsWidthAtItsLevel) {
+  Panel panel = square();
+  panel.isolines = {0.5};
+  RenderOptions options = front(200);
+  options.line_width = 4;
+  const Image image = render_one(panel, options);
+  const Image without = render_one(square(), options);
+  int dark = 0;
+  for (int x = 0; x < 200; ++x) dark += brightness(image, x, 77) < 0.6 * brightness(without, x, 77);
+  EXPECT_NEAR(dark, 4, 1);
+  EXPECT_LT(brightness(image, 100, 77), 0.5 * brightness(without, 100, 77));
+  EXPECT_EQ(image.pixel(94, 77)[1], without.pixel(94, 77)[1]);
+}
+
+TEST(Render, IsolinesKeepTheirWidthOnTheScreenWhateverTheSlopeOfTheScalar) {
+  for (const double slope : {0.2, 1.0, 30.0}) {
+    Panel panel = square();
+    for (double& x : panel.scalar) x = slope * x;
+    panel.isolines = {0.5 * slope};
+    RenderOptions options = front(200);
+    options.line_width = 6;
+    const Image image = render_one(panel, options);
+    const Image without = render_one(square(), options);
+    int dark = 0;
+    for (int x = 0; x < 200; ++x) dark += brightness(image, x, 77) < 0.6 * brightness(without, x, 77);
+    EXPECT_NEAR(dark, 6, 1) << "slope " << slope;
+  }
+}
+
+TEST(Render, BandsAlternateBetweenConsecutiveLevels) {
+  Panel panel = square();
+  panel.isolines = {0.25, 0.5, 0.75};
+  RenderOptions options = front(200);
+  options.fill = Fill::Bands;
+  options.low = -1;  // one colour throughout, so that only the bands differ
+  options.high = 1000;
+  const Image image = render_one(panel, options);
+  const double first = brightness(image, 30, 90), second = brightness(image, 75, 90), third = brightness(image, 120, 90);
+  EXPECT_GT(second, 1.5 * first);
+  EXPECT_GT(second, 1.5 * third);
+}
+
+TEST(Render, FacesWithAnInfiniteValueAreGreyAndDoNotStretchTheRange) {
+  Panel panel = square();
+  for (std::size_t v = 0; v < panel.scalar.size(); ++v) {
+    if (panel.mesh.positions()[v].x > 0.8) panel.scalar[v] = kInfinity;
+  }
+  const Image image = render_one(panel, front(100));
+  const std::uint8_t* p = image.pixel(90, 50);
+  EXPECT_EQ(p[0], p[1]);
+  EXPECT_EQ(p[1], p[2]);
+  EXPECT_LT(p[0], 250);
+  EXPECT_GT(image.pixel(66, 50)[1], image.pixel(66, 50)[2]);  // near the largest finite value: the map's far end
+}
+
+TEST(Render, DotsAndPathsOnTheFarSideAreHidden) {
+  Panel panel;
+  panel.mesh = shapes::icosphere(4).mesh();
+  const Image bare = render_one(panel, front(120));
+  panel.dots = {{0, 0, -1}};
+  panel.paths = {{{{-0.3, 0, -0.95}, {0.3, 0, -0.95}}, false}};
+  EXPECT_EQ(render_one(panel, front(120)).rgba, bare.rgba);
+  panel.dots = {{0, 0, 1}};
+  EXPECT_NE(render_one(panel, front(120)).rgba, bare.rgba);
+}
+
+TEST(Render, PathIsSeenAlongItsWholeLength) {
+  Panel panel;
+  panel.mesh = shapes::icosphere(4).mesh();
+  for (int i = 0; i <= 20; ++i) {
+    const double a = (i - 10) * 0.1;
+    panel.paths.resize(1);
+    panel.paths[0].points.push_back({std::sin(a), 0, std::cos(a)});
+  }
+  const Image image = render_one(panel, front(200));
+  for (int x = 30; x <= 170; ++x) {
+    const std::uint8_t* p = image.pixel(x, 100);
+    EXPECT_GT(p[0], p[2] + 60) << "at column " << x;  // red
+  }
+}
+
+TEST(Render, TransparentBackgroundHasNoOpacity) {
+  RenderOptions options = front(64);
+  options.transparent = true;
+  const Image image = render_one(square(), options);
+  EXPECT_EQ(image.pixel(0, 0)[3], 0);
+  EXPECT_EQ(image.pixel(32, 32)[3], 255);
+}
+
+TEST(Render, SamePixelsForAnyNumberOfThreads) {
+  Panel panel;
+  panel.mesh = shapes::folded_sphere(4).mesh();
+  for (const Vec3& p : panel.mesh.positions()) panel.scalar.push_back(p.x + p.y);
+  panel.isolines = {-0.5, 0, 0.5};
+  panel.dots = {{0, 0, 1.2}};
+  RenderOptions options;
+  options.width = 300;
+  options.height = 200;
+  options.threads = 1;
+  const Image one = render_one(panel, options);
+  options.threads = 3;
+  EXPECT_EQ(render_one(panel, options).rgba, one.rgba);
+}
+
+TEST(Render, PanelsShareOneRangeOfColours) {
+  Panel low = square(), high = square();
+  for (double& x : high.scalar) x += 9;
+  const std::vector<Panel> panels{low, high};
+  const auto range = detail::range_of(panels, {});
+  EXPECT_EQ(range.low, 0);
+  EXPECT_EQ(range.high, 10);
+  const Image image = render(panels, front(100));
+  EXPECT_EQ(image.width, 200);
+  EXPECT_GT(image.pixel(90, 50)[2], image.pixel(90, 50)[1]);  // still violet: a tenth of the range
+}
+
+TEST(Render, TextOfTheFrameStaysInsideThePicture) {
+  const detail::Font font("");
+  if (font.empty()) GTEST_SKIP() << "no TrueType font on this system";
+  Panel panel = square();
+  panel.title = "A title that is far too long for a panel of one hundred and sixty pixels, and goes on";
+  for (double& x : panel.scalar) x *= 123456.789;
+  RenderOptions options;
+  options.width = 160;
+  options.height = 120;
+  options.unit = "geodesic distance, in units of the mesh";
+  const std::vector<Panel> panels{panel};
+  const auto layout = detail::lay_out(panels, options, detail::range_of(panels, options), font);
+  EXPECT_GE(layout.texts.size(), 4u);
+  for (const detail::TextAt& t : layout.texts) {
+    EXPECT_GE(t.x, 0) << t.text;
+    EXPECT_LE(t.x + font.width(t.text, t.height), layout.width) << t.text;
+    EXPECT_GE(t.y - t.height, -1) << t.text;
+    EXPECT_LE(t.y, layout.height) << t.text;
+  }
+}
+
+TEST(Render, LabelsGetALegendAndDistinctColours) {
+  Panel panel = square();
+  panel.scalar.clear();
+  for (const Vec3& p : panel.mesh.positions()) panel.labels.push_back(p.x < 0.5 ? 0 : 3);
+  panel.label_names = {"left", "", "", "right"};
+  RenderOptions options = front(100);
+  options.colour_bar = true;
+  const std::vector<Panel> panels{panel};
+  const auto layout = detail::lay_out(panels, options, {}, detail::Font(""));
+  ASSERT_EQ(layout.swatches.size(), 2u);
+  EXPECT_TRUE(layout.swatches[1].color == label_color(3));
+  const Image image = render(panels, options);
+  EXPECT_NE(image.pixel(20, 50)[0], image.pixel(80, 50)[0]);
+}
+
+TEST(Render, BadRequestsAreErrorsThatSayWhatIsWrong) {
+  const auto message = [](const Panel& panel, const RenderOptions& options) -> std::string {
+    try {
+      render_one(panel, options);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  Panel panel = square();
+  RenderOptions options = front(100);
+  panel.scalar.pop_back();
+  EXPECT_NE(message(panel, options).find("80 values for a mesh of 81 vertices"), std::string::npos);
+  panel = square();
+  panel.isolines = {0.5, 0.2};
+  EXPECT_NE(message(panel, options).find("ascend"), std::string::npos);
+  panel = square();
+  options.width = 5;
+  EXPECT_NE(message(panel, options).find("5 x 100"), std::string::npos);
+  options = front(100);
+  options.low = 2;
+  options.high = 1;
+  EXPECT_NE(message(panel, options).find("range"), std::string::npos);
+  options = front(100);
+  options.samples = 0;
+  EXPECT_NE(message(panel, options).find("samples"), std::string::npos);
+  options = front(100);
+  options.font = "/no/such/font.ttf";
+  EXPECT_NE(message(panel, options).find("/no/such/font.ttf"), std::string::npos);
+  EXPECT_THROW(render({}, front(100)), Error);
+}
+
+TEST(Render, EmptyAndDegenerateMeshesGiveABlankPictureNotACrash) {
+  Panel empty;
+  EXPECT_EQ(render_one(empty, front(32)).pixel(16, 16)[0], 255);
+  const std::vector<Vec3> positions{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  const std::vector<Face> faces{{0, 1, 2}, {0, 0, 1}};
+  Panel point;
+  point.mesh = Mesh(positions, faces);
+  EXPECT_EQ(render_one(point, front(32)).width, 32);
+}
+
+}  // namespace
+}  // namespace brushfire
