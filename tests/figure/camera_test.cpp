@@ -1,6 +1,6 @@
 // Cameras: where named views look from, and that what is shown fits.
 #include <brushfire/core/error.h>
-#include <brushfire/figure/camera.h>
+#include <brushfire/figure/detail/projection.h>
 #include <brushfire/mesh/shapes.h>
 
 #include <gtest/gtest.h>

@@ -56,7 +56,7 @@ TEST(Image, AnimationNeedsFramesOfOneSize) {
   EXPECT_THROW(encode_webp(frames, 40), Error);
 }
 
-#ifdef BRUSHFIRE_WITH_WEBP
+#ifdef BRUSHFIRE_HAS_WEBP
 TEST(Image, AnimationIsAWebPFileWithItsFrames) {
   std::vector<Image> frames{checkered(16, 16), Image(16, 16), checkered(16, 16)};
   const std::vector<std::uint8_t> bytes = encode_webp(frames, 40);

@@ -38,7 +38,8 @@ TEST(Raster, ConvexSolidHasNoHolesFromAnySide) {
         last = column;
       }
       for (int column = first; column <= last; ++column) {
-        ASSERT_NE(strip.face[strip.at(column, row)], kNoIndex) << "hole at " << column << ", " << row << ", turn " << turn;
+        ASSERT_NE(strip.face[strip.at(column, row)], kNoIndex)
+            << "hole at " << column << ", " << row << ", turn " << turn;
       }
     }
   }

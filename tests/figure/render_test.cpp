@@ -79,7 +79,8 @@ TEST(Render, BandsAlternateBetweenConsecutiveLevels) {
   options.low = -1;  // one colour throughout, so that only the bands differ
   options.high = 1000;
   const Image image = render_one(panel, options);
-  const double first = brightness(image, 30, 90), second = brightness(image, 75, 90), third = brightness(image, 120, 90);
+  const double first = brightness(image, 30, 90), second = brightness(image, 75, 90),
+               third = brightness(image, 120, 90);
   EXPECT_GT(second, 1.5 * first);
   EXPECT_GT(second, 1.5 * third);
 }

@@ -2,6 +2,7 @@
 #include <brushfire/figure/camera.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/figure/detail/projection.h>
 
 #include <algorithm>
 #include <array>

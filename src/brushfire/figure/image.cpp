@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <memory>
 
-#ifdef BRUSHFIRE_WITH_ZLIB
+#ifdef BRUSHFIRE_HAS_ZLIB
 #include <zlib.h>
 
 namespace {
@@ -33,7 +33,7 @@ unsigned char* compress_for_stb(unsigned char* data, int size, int* out_size, in
 #define STBI_WRITE_NO_STDIO
 #include <stb_image_write.h>
 
-#ifdef BRUSHFIRE_WITH_WEBP
+#ifdef BRUSHFIRE_HAS_WEBP
 #include <webp/encode.h>
 #include <webp/mux.h>
 #endif
@@ -75,7 +75,7 @@ std::vector<std::uint8_t> encode_webp(std::span<const Image> frames, int millise
       throw Error(ErrorCode::InvalidArgument, "the frames of an animation must have one size");
     }
   }
-#ifdef BRUSHFIRE_WITH_WEBP
+#ifdef BRUSHFIRE_HAS_WEBP
   WebPAnimEncoderOptions animation;
   WebPConfig config;
   if (WebPAnimEncoderOptionsInit(&animation) == 0 || WebPConfigInit(&config) == 0) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <brushfire/core/types.h>
-#include <brushfire/figure/camera.h>
+#include <brushfire/figure/detail/projection.h>
 
 #include <span>
 #include <vector>
