@@ -12,4 +12,5 @@
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/queries/distance_matrix.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>

@@ -4,6 +4,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
+#include <brushfire/solvers/windows/detail/engine.h>
 
 #include <algorithm>
 #include <array>
@@ -15,10 +16,12 @@
 namespace brushfire {
 namespace {
 
-constexpr std::array kMethods{Method::Dijkstra};
+constexpr std::array kMethods{Method::Exact, Method::Dijkstra};
 
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
   switch (method) {
+    case Method::Exact:
+      return detail::make_windows(mesh);
     case Method::Dijkstra:
       return detail::make_dijkstra(mesh);
     default:
@@ -126,6 +129,8 @@ SparseField collect(double unit, std::span<const PointLocation> targets, const D
 
 std::string_view name_of(Method method) {
   switch (method) {
+    case Method::Exact:
+      return "exact";
     case Method::NovotniKlein:
       return "novotni-klein";
     case Method::NovotniKlein2002:

@@ -5,6 +5,7 @@
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
+#include <brushfire/solvers/window_field.h>
 
 #include <memory>
 #include <span>
@@ -14,13 +15,14 @@
 namespace brushfire {
 
 enum class Method : std::uint8_t {
+  Exact,             // window propagation: the polyhedral distance, to rounding
   NovotniKlein,      // fast marching, circular update with the visibility test: the fastest; measured error stated
   NovotniKlein2002,  // the update literally as printed in the paper, to show what it does
   KimmelSethian,     // fast marching, planar update: the paper's baseline
   Dijkstra,          // edge graph: an upper bound
 };
 
-// "novotni-klein", "novotni-klein-2002", "kimmel-sethian", "dijkstra": as on the command line.
+// "exact", "novotni-klein", "novotni-klein-2002", "kimmel-sethian", "dijkstra": as on the command line.
 std::string_view name_of(Method method);
 // Throws Error(InvalidArgument) that lists the names.
 Method method_named(std::string_view name);
@@ -40,6 +42,8 @@ struct DistanceOptions {
   Precision precision = Precision::Double;  // methods that have only one ignore it
   double max_distance = kInfinity;          // vertices farther than this read +inf; >= 0, may be +inf
   std::vector<SurfacePoint> targets;        // where there are any, the solver may stop once all of them are final
+  bool keep_paths = false;                  // fill DistanceField::windows, for paths to vertices and targets (exact)
+  bool keep_windows = false;                // the same for every surface point: all windows are kept, some kB a vertex
   Progress progress;                        // called now and then; may be empty
   const CancelToken* cancel = nullptr;      // polled now and then; may be null
 };
@@ -48,10 +52,11 @@ struct DistanceField {
   std::vector<double>
       distance;               // [vertex_count]; +inf: unreachable, beyond max_distance, or not final at an early stop
   std::vector<Index> source;  // [vertex_count] position of the nearest source in the caller's list; kNoIndex: none
-  std::vector<double> target_distance;  // [targets]
-  std::vector<Index> target_source;     // [targets]
-  std::vector<double> error_bound;      // [vertex_count] absolute and proven; empty for methods without a bound
-  double max_error_bound = kInfinity;   // relative, over all reached vertices; +inf for methods without a bound
+  std::vector<double> target_distance;         // [targets]
+  std::vector<Index> target_source;            // [targets]
+  std::vector<double> error_bound;             // [vertex_count] absolute and proven; empty for methods without a bound
+  double max_error_bound = kInfinity;          // relative, over all reached vertices; +inf for methods without a bound
+  std::shared_ptr<const WindowField> windows;  // where keep_paths or keep_windows was set and the method has windows
   Method method = Method::NovotniKlein;
   Index reached = 0;          // vertices with a finite distance
   Index beyond_radius = 0;    // vertices that the front saw but that are farther than max_distance or not final

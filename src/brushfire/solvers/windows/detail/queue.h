@@ -1,0 +1,116 @@
+// The order of events: buckets of equal width over the distance, first in first out within a bucket.
+#pragma once
+
+#include <brushfire/core/types.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace brushfire::detail {
+
+// Two kinds of events: window lists (by halfedge) and vertices at which paths bend. A bucket's vertices come after its
+// lists, so that they see final values and directions. Nothing depends on the order but speed: an event may come too
+// early or twice. Keys below the current bucket go into it.
+class EventQueue {
+ public:
+  EventQueue() : buckets_(kBuckets) {}
+
+  void reset(double width) {
+    if (!empty()) {  // left over from a run that was stopped
+      for (Bucket& b : buckets_) b.clear();
+      far_.clear();
+    }
+    buckets_[current_ % kBuckets].clear();  // events that were taken stay until their bucket is done
+    inverse_width_ = 1 / width;
+    current_ = 0;
+    near_count_ = 0;
+    list_position_ = vertex_position_ = 0;
+  }
+
+  bool empty() const { return near_count_ == 0 && far_.empty(); }
+  // Whether the two keys fall into one bucket.
+  bool same_bucket(double a, double b) const { return number(a) == number(b); }
+  // No event that is still to come was pushed with a key below this one (but for those that were late already).
+  double current_key() const { return static_cast<double>(current_) / inverse_width_; }
+
+  void push_list(Index h, double key) { push({key, h, true}); }
+  void push_vertex(Index v, double key) { push({key, v, false}); }
+
+  struct Event {
+    double key;
+    Index index;
+    bool is_list;
+  };
+  // Takes the next event; the queue must not be empty.
+  Event pop() {
+    while (true) {
+      Bucket& b = buckets_[current_ % kBuckets];
+      if (list_position_ < b.lists.size()) {
+        --near_count_;
+        return {0, b.lists[list_position_++], true};
+      }
+      if (vertex_position_ < b.vertices.size()) {
+        --near_count_;
+        return {0, b.vertices[vertex_position_++], false};
+      }
+      b.clear();
+      list_position_ = vertex_position_ = 0;
+      advance();
+    }
+  }
+  // The halfedge of the list event that is `ahead` places behind the next one, where known; for prefetching.
+  Index peek_list(std::size_t ahead) const {
+    const Bucket& b = buckets_[current_ % kBuckets];
+    return list_position_ + ahead < b.lists.size() ? b.lists[list_position_ + ahead] : kNoIndex;
+  }
+
+ private:
+  static constexpr std::int64_t kBuckets = 1 << 12;
+  struct Bucket {
+    std::vector<Index> lists, vertices;
+    void clear() {
+      lists.clear();
+      vertices.clear();
+    }
+  };
+
+  std::int64_t number(double key) const {
+    constexpr double kMost = 4e18;  // keys beyond what 64 bits count share the last bucket
+    return static_cast<std::int64_t>(std::min(key * inverse_width_, kMost));
+  }
+
+  void push(const Event& e) {
+    const std::int64_t n = std::max(number(e.key), current_);
+    if (n - current_ >= kBuckets) {
+      far_.push_back(e);
+      return;
+    }
+    Bucket& b = buckets_[n % kBuckets];
+    (e.is_list ? b.lists : b.vertices).push_back(e.index);
+    ++near_count_;
+  }
+
+  // The ring of buckets begins anew at multiples of its size, or where the next far event is if the ring is empty.
+  void advance() {
+    ++current_;
+    if (far_.empty() || (near_count_ > 0 && current_ % (kBuckets / 2) != 0)) return;
+    if (near_count_ == 0) {
+      double least = kInfinity;
+      for (const Event& e : far_) least = std::min(least, e.key);
+      current_ = std::max(current_, number(least));
+    }
+    moving_.swap(far_);
+    for (const Event& e : moving_) push(e);
+    moving_.clear();
+  }
+
+  std::vector<Bucket> buckets_;
+  std::vector<Event> far_, moving_;
+  std::int64_t current_ = 0;
+  std::int64_t near_count_ = 0;
+  std::size_t list_position_ = 0, vertex_position_ = 0;
+  double inverse_width_ = 1;
+};
+
+}  // namespace brushfire::detail

@@ -1,0 +1,56 @@
+// The ray that brought a point its value: what paths and paths' bends are made from.
+#pragma once
+
+#include <brushfire/mesh/surface_point.h>
+#include <brushfire/solvers/detail/engine.h>
+#include <brushfire/solvers/windows/detail/face.h>
+#include <brushfire/solvers/windows/detail/window.h>
+
+#include <vector>
+
+namespace brushfire::detail {
+
+// The ray comes over `halfedge` from `source` (in the halfedge's frame; y >= 0: from inside of the halfedge's face or
+// its edge). kNoIndex: along an edge of a face with a repeated vertex, or the point is the source itself.
+struct Ray {
+  Vec2 source;
+  Index halfedge = kNoIndex;
+  Index root = kNoIndex;  // vertex, or vertex count + position of the source
+  WindowKind kind = WindowKind::Circular;
+};
+
+struct PointRecord {
+  double value = kInfinity;  // mesh.unit(), offsets included
+  Index label = kNoIndex;
+  Ray ray;
+};
+
+struct KeptWindow {
+  Index halfedge;
+  Window window;
+};
+
+struct WindowFieldData {
+  Mesh mesh;
+  std::vector<LocatedSource> sources;
+  double shift = 0;   // what was added to every value so that none is negative
+  bool exact = true;  // no merging: rays lead back to roots
+  bool all_points = false;
+  std::vector<PointRecord> vertices;    // [vertex_count]
+  std::vector<PointLocation> targets;   // where not all_points
+  std::vector<PointRecord> target;      // [targets]
+  std::vector<std::size_t> first_kept;  // [halfedge_count + 1] where all_points
+  std::vector<Window> kept;             // by halfedge
+};
+
+// A point of a face in the frame of the face's halfedge k; weights by corner.
+Vec2 in_frame(const Frame& frame, Index k, const std::array<double, 3>& weights);
+
+// All descriptions of a point by faces that contain it: itself, and for a point on an edge, the edge's other faces.
+struct FaceWeights {
+  Index face;
+  std::array<double, 3> weights;
+};
+std::vector<FaceWeights> faces_around(const Mesh& mesh, const PointLocation& at);
+
+}  // namespace brushfire::detail

@@ -1,0 +1,37 @@
+// What a run needs to know of the mesh: face records, and at which vertices paths may bend.
+#pragma once
+
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/windows/detail/face.h>
+
+#include <vector>
+
+namespace brushfire::detail {
+
+// How a vertex that is reached sends light on. A shortest path bends at a vertex only where it leaves at an angle of pi
+// or more on either side, so a Saddle lights what lies between. Full lights everything: that is more than needed, but
+// every ray that leaves a vertex is a real path, so it is always right; it is used where angles mean nothing or are
+// not known well enough.
+enum class Bend : std::uint8_t { None, Saddle, Boundary, Full };
+
+struct WindowStructure {
+  explicit WindowStructure(const Mesh& mesh);
+
+  Mesh mesh;
+  std::vector<WindowFace> faces;    // [face_count]
+  std::vector<Bend> bend;           // [vertex_count]
+  std::vector<double> total_angle;  // [vertex_count]
+  double bucket_width = 1;          // half a typical edge
+};
+
+// The angle at corner i.
+double angle_at(const WindowFace& f, Index i);
+
+// A corner whose edges differ by more than this factor: rounding of the lengths turns directions there by up to
+// kUnevenEdges epsilons, too much to tell what is in a shadow.
+inline constexpr double kUnevenEdges = 1e3;
+// Angle sums beyond 2 pi (pi on a boundary) by less than this are rounding; a shadow so narrow hides nothing for longer
+// than that share of the distance.
+inline constexpr double kFlat = 1e-13;
+
+}  // namespace brushfire::detail

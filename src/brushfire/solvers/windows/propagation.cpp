@@ -1,0 +1,454 @@
+// The driver: sources, events, windows from edge to edge, light from vertices, and what is read off at the end.
+//
+// Every write to a vertex is the length of a real path (to rounding), and a window or a part of one is dropped only
+// where another real path is shown to be shorter; so order does not matter to the result, only to the time.
+#include <brushfire/core/error.h>
+#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/detail/envelope.h>
+#include <brushfire/solvers/windows/detail/fan.h>
+#include <brushfire/solvers/windows/detail/lists.h>
+#include <brushfire/solvers/windows/detail/propagate.h>
+#include <brushfire/solvers/windows/detail/queue.h>
+#include <brushfire/solvers/windows/detail/record.h>
+#include <brushfire/solvers/windows/detail/structure.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace brushfire::detail {
+namespace {
+
+// A window is dropped where another path is shorter by more than this share: far more than rounding, so that a window
+// is never dropped for the sake of a value that it made itself.
+constexpr double kDominated = 1 - 1e-12;
+// A vertex this little (relative) off a window's limit ray counts as seen, with the length of the path that bends.
+constexpr double kSeen = 1e-10;
+// A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
+// directions: limit rays through the corner are known to epsilon / share only.
+constexpr double kNear = 1e-3;
+
+struct VertexState {
+  double lower = kInfinity;    // least value of the windows that see the vertex
+  double emitted = kInfinity;  // the value with which it last sent light on
+  Ray ray;
+  Index label = kNoIndex;
+  bool all_around = false;  // sends light in all directions, whatever its faces are like
+};
+
+struct TargetInFace {
+  Index face;
+  Index target;
+  std::array<double, 3> weights;
+};
+
+struct TargetState {
+  double lower = kInfinity;
+  double upper = kInfinity;
+  Ray ray;
+};
+
+class WindowEngine final : public Engine {
+ public:
+  explicit WindowEngine(const Mesh& mesh) : structure_(mesh), lists_(mesh.halfedge_count()) {
+    if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
+    upper_.assign(mesh.vertex_count(), kInfinity);
+    state_.resize(mesh.vertex_count());
+  }
+
+  bool lists_touched() const override { return true; }
+
+  void solve(const Problem& problem, DistanceField& field) override {
+    problem_ = &problem;
+    field_ = &field;
+    clean();
+    shift_ = -std::min_element(problem.sources.begin(), problem.sources.end(), [](const auto& a, const auto& b) {
+                return a.offset < b.offset;
+              })->offset;
+    radius_ = problem.max_distance + shift_;
+    queue_.reset(structure_.bucket_width);
+    place_targets();
+    for (const LocatedSource& s : problem.sources) start(s);
+    drain();
+    finish();
+  }
+
+ private:
+  // ---- set-up and reset
+
+  void clean() {
+    for (const Index v : touched_) {
+      upper_[v] = kInfinity;
+      state_[v] = {};
+    }
+    touched_.clear();
+    if (!queue_.empty()) lists_.clear();
+    for (const TargetInFace& t : targets_in_faces_) structure_.faces[t.face].has_target = false;
+    targets_in_faces_.clear();
+    kept_.clear();
+  }
+
+  void place_targets() {
+    targets_.assign(problem_->targets.size(), {});
+    for (Index i = 0; i < targets_.size(); ++i) {
+      if (problem_->targets[i].on == PointLocation::On::Vertex) continue;
+      for (const FaceWeights& f : faces_around(structure_.mesh, problem_->targets[i])) {
+        targets_in_faces_.push_back({f.face, i, f.weights});
+        structure_.faces[f.face].has_target = true;
+      }
+    }
+    std::sort(targets_in_faces_.begin(), targets_in_faces_.end(), [](const TargetInFace& a, const TargetInFace& b) {
+      return std::tie(a.face, a.target) < std::tie(b.face, b.target);
+    });
+    next_target_check_ = targets_.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;
+  }
+
+  template <class Visit>
+  void for_each_target_in(Index face, Visit&& visit) const {
+    auto t = std::lower_bound(targets_in_faces_.begin(), targets_in_faces_.end(), face,
+                              [](const TargetInFace& a, Index f) { return a.face < f; });
+    for (; t != targets_in_faces_.end() && t->face == face; ++t) visit(*t);
+  }
+
+  // ---- sources
+
+  void start(const LocatedSource& s) {
+    const Index root = structure_.mesh.vertex_count() + s.label;
+    const double sigma = s.offset + shift_;
+    if (s.at.on == PointLocation::On::Vertex) {
+      reach(s.at.vertex, sigma);
+      offer(s.at.vertex, sigma, {{}, kNoIndex, root, WindowKind::Circular}, true);
+      return;
+    }
+    for (const FaceWeights& f : faces_around(structure_.mesh, s.at)) start_in_face(f, sigma, root);
+  }
+
+  // Straight to the corners, and through the edges that the source does not lie on.
+  void start_in_face(const FaceWeights& at, double sigma, Index root) {
+    const WindowFace& f = structure_.faces[at.face];
+    PointLocation here;
+    here.face = at.face;
+    here.weights = at.weights;
+    const std::array<double, 3> distance = corner_distances(structure_.mesh, here);
+    const double longest = std::max({f.length[0], f.length[1], f.length[2]});
+    const bool usable = structure_.mesh.is_face_usable(at.face);
+    for (Index k = 0; k < 3; ++k) {
+      const Index h = 3 * at.face + next3(k);  // opposite of corner k
+      Ray ray{{}, kNoIndex, root, WindowKind::Circular};
+      if (usable && f.length[next3(k)] > 0) {
+        ray.halfedge = h;
+        ray.source = in_frame(frame_of(f, next3(k)), next3(k), at.weights);
+      }
+      const double value = sigma + distance[k];
+      reach(f.vertex[k], value);
+      offer(f.vertex[k], value, ray, ray.halfedge == kNoIndex || distance[k] < kNear * longest);
+      if (ray.halfedge == kNoIndex || !(ray.source.y > 0)) continue;
+      Window w;
+      w.b1 = f.length[next3(k)];
+      w.source = {w.b1 - ray.source.x, -ray.source.y};
+      w.sigma = sigma;
+      w.d0 = sigma + distance[previous3(k)];
+      w.d1 = sigma + distance[next3(k)];
+      w.root = root;
+      cross_edge(h, w);
+    }
+    if (!f.has_target) return;
+    for_each_target_in(at.face, [&](const TargetInFace& t) {
+      const Index k = f.length[0] > 0 ? 0 : 1;
+      if (!(f.length[k] > 0)) return;
+      std::array<double, 3> step;
+      for (std::size_t i = 0; i < 3; ++i) step[i] = t.weights[i] - at.weights[i];
+      const Vec2 d = in_frame(frame_of(f, k), k, step);
+      const Vec2 source = in_frame(frame_of(f, k), k, at.weights);
+      offer_target(t.target, sigma + length_of(d.x, d.y), 0, {source, 3 * at.face + k, root, WindowKind::Circular});
+    });
+  }
+
+  // ---- events
+
+  void drain() {
+    constexpr std::uint64_t kPoll = 1024;
+    const DistanceOptions& options = *problem_->options;
+    while (!queue_.empty()) {
+      if (++field_->updates % kPoll == 0) {
+        if (options.cancel && options.cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
+        if (options.progress && field_->updates % (64 * kPoll) == 0) {
+          options.progress(static_cast<double>(touched_.size()) / structure_.mesh.vertex_count());
+        }
+      }
+      if (field_->updates >= next_target_check_) narrow_radius();
+      const EventQueue::Event event = queue_.pop();
+      if (event.is_list) {
+        if (!lists_.empty(event.index)) spread(event.index);
+      } else if (state_[event.index].lower < state_[event.index].emitted) {
+        shine(event.index);
+      }
+    }
+  }
+
+  // Nothing beyond the farthest target matters once all have been reached.
+  void narrow_radius() {
+    next_target_check_ = field_->updates + targets_.size() + 256;
+    double farthest = 0;
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+      const PointLocation& at = problem_->targets[i];
+      farthest = std::max(farthest, at.on == PointLocation::On::Vertex ? upper_[at.vertex] : targets_[i].upper);
+    }
+    radius_ = std::min(radius_, farthest / kDominated);
+  }
+
+  // ---- values of vertices and targets
+
+  void touch(Index v) {
+    if (upper_[v] == kInfinity) touched_.push_back(v);
+  }
+
+  // A real path of this length leads to v.
+  void reach(Index v, double length) {
+    if (!(length < upper_[v])) return;
+    touch(v);
+    upper_[v] = length;
+  }
+
+  Index label_of(Index root) const {
+    const Index n = structure_.mesh.vertex_count();
+    return root >= n ? root - n : state_[root].label;
+  }
+
+  // A window or a source sees v. Where paths may bend, light will go on from there.
+  void offer(Index v, double value, const Ray& ray, bool all_around) {
+    VertexState& s = state_[v];
+    if (value > s.lower || (value == s.lower && label_of(ray.root) >= s.label)) return;
+    touch(v);
+    const bool lower = value < s.lower;
+    s.lower = value;
+    s.ray = ray;
+    s.label = label_of(ray.root);
+    s.all_around = all_around;
+    if (lower && (all_around || structure_.bend[v] != Bend::None)) queue_.push_vertex(v, value);
+  }
+
+  void offer_target(Index i, double value, double slack, const Ray& ray) {
+    TargetState& t = targets_[i];
+    t.upper = std::min(t.upper, value + slack);
+    if (value > t.lower || (value == t.lower && label_of(ray.root) >= label_of(t.ray.root))) return;
+    t.lower = value;
+    t.ray = ray;
+  }
+
+  // ---- windows
+
+  bool is_dominated(const WindowFace& f, Index k, const Window& w) const {
+    // Xin and Wang 2009: a path through either end of the edge is shorter at the far end of the window, hence
+    // (the path along the edge grows fastest) everywhere in it.
+    return upper_[f.vertex[k]] + w.b1 < w.d1 * kDominated ||
+           upper_[f.vertex[next3(k)]] + (f.length[k] - w.b0) < w.d0 * kDominated;
+  }
+
+  // A window leaves a face over its halfedge h; it is described from beyond, from the end of h to its start.
+  void cross_edge(Index h, const Window& w) {
+    const WindowFace& f = structure_.faces[h / 3];
+    switch (f.beyond[h % 3]) {
+      case Beyond::Nothing:
+        return;
+      case Beyond::Face:
+        return insert(f.opposite[h % 3], w);
+      case Beyond::Several:
+        break;
+    }
+    const Index end = f.vertex[next3(h % 3)];
+    for (Index g = f.opposite[h % 3]; g != h; g = structure_.faces[g / 3].opposite[g % 3]) {
+      const bool usual = structure_.faces[g / 3].vertex[g % 3] == end;
+      insert(g, usual ? w : mirrored(w, f.length[h % 3]));
+    }
+  }
+
+  // A window is about to enter the face of h: unless it is of no use, it waits there for its turn.
+  void insert(Index h, const Window& w) {
+    const WindowFace& f = structure_.faces[h / 3];
+    const Index k = h % 3;
+    if (is_sliver(w) || least_value(w) > radius_ || is_dominated(f, k, w)) return;
+    const Arrival at_apex = arrival(w, frame_of(f, k).apex);
+    reach(f.vertex[previous3(k)], at_apex.value + w.slack);
+    const double before = lists_.empty(h) ? kInfinity : lists_.key(h);
+    // The key is the arrival at the far corner: by then everything that enters over the edge has come.
+    if (lists_.push(h, w, at_apex.value) && !(before < kInfinity && queue_.same_bucket(before, at_apex.value))) {
+      queue_.push_list(h, at_apex.value);
+    }
+  }
+
+  // The turn of a list: trimmed, and on to the other two edges.
+  void spread(Index h) {
+    const WindowFace& f = structure_.faces[h / 3];
+    const Index k = h % 3;
+    taken_.clear();
+    lists_.take(h, taken_);
+    taken_.erase(std::remove_if(taken_.begin(), taken_.end(),
+                                [&](const Window& w) { return least_value(w) > radius_ || is_dominated(f, k, w); }),
+                 taken_.end());
+    if (taken_.empty()) return;
+    const Frame frame = frame_of(f, k);
+    if (taken_.size() == 1) return pass(h, frame, taken_.front());
+    for (const Window& w : envelope_(taken_)) pass(h, frame, w);
+  }
+
+  void pass(Index h, const Frame& frame, const Window& w) {
+    const WindowFace& f = structure_.faces[h / 3];
+    const Index apex = f.vertex[previous3(h % 3)];
+    const Ray ray{w.source, h, w.root, w.kind};
+    const Arrival at = arrival(w, frame.apex);
+    if (at.detour <= kSeen * at.value) {
+      reach(apex, at.value + w.slack);
+      offer(apex, at.value, ray, false);
+    }
+    if (f.has_target) {
+      for_each_target_in(h / 3, [&](const TargetInFace& t) {
+        const Arrival there = arrival(w, in_frame(frame, h % 3, t.weights));
+        offer_target(t.target, there.value, w.slack, ray);
+      });
+    }
+    if (problem_->options->keep_windows) kept_.push_back({h, w});
+    const Children children = propagate(w, frame, straight_value(w, frame.apex));
+    if (children.has_left) cross_edge(3 * (h / 3) + previous3(h % 3), children.left);
+    if (children.has_right) cross_edge(3 * (h / 3) + next3(h % 3), children.right);
+  }
+
+  // ---- vertices as sources
+
+  // Light goes on from v: into its shadow, or everywhere.
+  void shine(Index v) {
+    VertexState& s = state_[v];
+    s.emitted = s.lower;
+    if (s.lower > radius_) return;
+    if (s.all_around || structure_.bend[v] == Bend::Full || s.ray.halfedge == kNoIndex) {
+      for (const Index corner : structure_.mesh.corners(v)) shine_through(v, corner);
+      return;
+    }
+    for_each_shadow(structure_, v, s.ray, [&](const Sector& sector) { shine_into(v, sector); });
+  }
+
+  void shine_through(Index v, Index corner) {
+    const Index face = corner / 3, i = corner % 3;
+    const WindowFace& f = structure_.faces[face];
+    if (structure_.mesh.is_face_usable(face)) {
+      const double angle = angle_at(f, i);
+      shine_into(v, {face, i, 0, angle, angle});
+      return;
+    }
+    for (const Index j : {next3(i), previous3(i)}) {
+      if (f.vertex[j] == v) continue;
+      const double value = state_[v].lower + f.length[j == next3(i) ? i : j];
+      reach(f.vertex[j], value + slack_of(v));
+      offer(f.vertex[j], value, {{}, kNoIndex, v, WindowKind::Circular}, false);
+    }
+  }
+
+  double slack_of(Index v) const { return std::max(0.0, upper_[v] - state_[v].lower); }
+
+  // Along the sector's edges to their ends, and through its face.
+  void shine_into(Index v, const Sector& sector) {
+    const WindowFace& f = structure_.faces[sector.face];
+    const Index i = sector.corner, near = next3(i), far = previous3(i);
+    if (sector.from <= 0) shine_along(v, sector.face, near, f.length[i]);
+    if (sector.to >= sector.angle) shine_along(v, sector.face, far, f.length[far]);
+    if (!(f.length[near] > 0)) return;
+    Window w = window_of(f, sector, state_[v].lower);
+    w.slack = slack_of(v);
+    w.root = v;
+    if (w.source.y < 0) cross_edge(3 * sector.face + near, w);
+  }
+
+  // Along the edge from v to corner j of a face that contains both.
+  void shine_along(Index v, Index face, Index j, double length) {
+    const WindowFace& f = structure_.faces[face];
+    const Index opposite = next3(j);  // the halfedge opposite of corner j; v is one of its ends
+    const double x = f.vertex[opposite] == v ? 0 : f.length[opposite];
+    const double value = state_[v].lower + length;
+    reach(f.vertex[j], value + slack_of(v));
+    const bool framed = f.length[opposite] > 0;
+    offer(f.vertex[j], value, {{x, 0}, framed ? 3 * face + opposite : kNoIndex, v, WindowKind::Circular}, false);
+  }
+
+  // ---- results
+
+  void finish() {
+    finish_targets();
+    finish_labels();
+    for (const Index v : touched_) {
+      const VertexState& s = state_[v];
+      const double value = std::min(s.lower, upper_[v]) - shift_;
+      if (value + shift_ > radius_ && radius_ < problem_->max_distance + shift_) {
+        ++field_->beyond_radius;  // stopped before it was final
+        if (problem_->touched) problem_->touched->push_back(v);
+        continue;
+      }
+      field_->distance[v] = value;
+      field_->source[v] = s.label;
+      if (problem_->touched) problem_->touched->push_back(v);
+    }
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+      const PointLocation& at = problem_->targets[i];
+      const bool vertex = at.on == PointLocation::On::Vertex;
+      const double value = vertex ? std::min(state_[at.vertex].lower, upper_[at.vertex]) : targets_[i].lower;
+      field_->target_distance[i] = value - shift_;
+      const Index root = vertex ? at.vertex : targets_[i].ray.root;
+      field_->target_source[i] = value < kInfinity ? label_of(root) : kNoIndex;
+    }
+  }
+
+  // Around the corners of a target's face.
+  void finish_targets() {
+    for (const TargetInFace& t : targets_in_faces_) {
+      PointLocation here;
+      here.face = t.face;
+      here.weights = t.weights;
+      const std::array<double, 3> d = corner_distances(structure_.mesh, here);
+      for (Index k = 0; k < 3; ++k) {
+        const Index v = structure_.faces[t.face].vertex[k];
+        if (upper_[v] == kInfinity) continue;
+        offer_target(t.target, state_[v].lower + d[k], slack_of(v), {{}, kNoIndex, v, WindowKind::Circular});
+      }
+    }
+  }
+
+  // A vertex belongs to the source to which its chain of roots leads; with ties, roots may have changed hands since.
+  void finish_labels() {
+    if (problem_->sources.size() == 1) return;
+    const Index n = structure_.mesh.vertex_count();
+    for (const Index start : touched_) {
+      chain_.clear();
+      Index v = start;
+      while (v < n && !state_[v].all_around && state_[v].ray.root < n && chain_.size() <= touched_.size()) {
+        chain_.push_back(v);
+        v = state_[v].ray.root;
+      }
+      if (v >= n) continue;
+      for (const Index u : chain_) state_[u].label = state_[v].label;
+    }
+  }
+
+  WindowStructure structure_;
+  WindowLists lists_;
+  EventQueue queue_;
+  Envelope envelope_;
+  std::vector<double> upper_;       // [vertex_count] length of the shortest real path known
+  std::vector<VertexState> state_;  // [vertex_count]
+  std::vector<Index> touched_;      // vertices whose entries have changed
+  std::vector<Window> taken_;
+  std::vector<KeptWindow> kept_;
+  std::vector<TargetInFace> targets_in_faces_;  // by face
+  std::vector<TargetState> targets_;
+  std::vector<Index> chain_;
+  const Problem* problem_ = nullptr;
+  DistanceField* field_ = nullptr;
+  double shift_ = 0;   // added to all values, so that none is negative
+  double radius_ = 0;  // nothing beyond is wanted
+  std::uint64_t next_target_check_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_windows(const Mesh& mesh) { return std::make_unique<WindowEngine>(mesh); }
+
+}  // namespace brushfire::detail

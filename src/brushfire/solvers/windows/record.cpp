@@ -1,0 +1,28 @@
+// Points of faces in the frames of halfedges.
+#include <brushfire/solvers/windows/detail/record.h>
+
+#include <brushfire/solvers/windows/detail/face.h>
+
+namespace brushfire::detail {
+
+Vec2 in_frame(const Frame& frame, Index k, const std::array<double, 3>& weights) {
+  const double along = weights[next3(k)], up = weights[previous3(k)];
+  return {along * frame.length + up * frame.apex.x, up * frame.apex.y};
+}
+
+std::vector<FaceWeights> faces_around(const Mesh& mesh, const PointLocation& at) {
+  std::vector<FaceWeights> result{{at.face, at.weights}};
+  if (at.on != PointLocation::On::Edge) return result;
+  const Index h = at.halfedge, from = mesh.from(h);
+  const auto opposite = mesh.opposite();
+  for (Index g = opposite[h]; g != h; g = opposite[g]) {
+    FaceWeights other{Mesh::face_of(g), {0, 0, 0}};
+    const bool same_way = mesh.from(g) == from;
+    other.weights[g % 3] = at.weights[same_way ? h % 3 : next3(h % 3)];
+    other.weights[next3(g % 3)] = at.weights[same_way ? next3(h % 3) : h % 3];
+    result.push_back(other);
+  }
+  return result;
+}
+
+}  // namespace brushfire::detail
