@@ -1,0 +1,534 @@
+// Best-first window tree without lists: propagation, the four pruning rules, emission from vertices.
+#include "oracle/polyhedral.h"
+
+#include <algorithm>
+#include <queue>
+#include <utility>
+
+namespace brushfire::oracle {
+namespace {
+
+// Long double carries 64 bits. After thousands of unfoldings a virtual source is some 1e-16 of its distance off, in
+// the worst case met; what has to be decided with doubt is decided towards more windows:
+constexpr Real kMargin = 1e-15L;   // of the distance: what is worse by less counts as equal and is kept
+constexpr Real kAngle = 1e-15L;    // radians: a vertex that far outside a wedge counts as seen (an error of 1e-30)
+constexpr Real kLateral = 1e-18L;  // of the lengths at hand: the same where the vertex is next to the source
+constexpr Real kShadow = 1e-11L;   // radians: shadows are widened by that much
+constexpr Real kSameWay = 1e-12L;  // radians: arrivals that are nearer than that cast the same shadow
+
+constexpr std::uint32_t kRoot = 0xffffffff;
+
+// Rays from `source` (below or on the x axis), between the unit directions `left` and `right`, that enter the face of
+// `halfedge` across it, in the frame of that corner. Smaller x is left. `back` is the vertex opposite to the edge in
+// the face that the rays come from, and back_at its place.
+struct Window {
+  Real key = 0;  // least distance on the edge
+  Real sigma = 0;
+  Point source, left, right, back_at;
+  Index halfedge = kNoIndex;
+  Index back = kNoIndex;
+  std::uint32_t parent = kRoot;
+};
+
+// How a front comes to a vertex: over an edge, inside a corner (angle from the corner's halfedge), or from nowhere
+// (the vertex is a source or lies where directions mean nothing).
+struct Arrival {
+  enum class By : std::uint8_t { Start, Edge, Corner };
+  Real distance = 0;
+  Index vertex = kNoIndex;
+  By by = By::Start;
+  Index at = 0;  // neighbour number or corner
+  Real angle = 0;
+};
+
+template <class T>
+struct Later {
+  static Real key(const Window& w) { return w.key; }
+  static Real key(const Arrival& a) { return a.distance; }
+  bool operator()(const T& a, const T& b) const { return key(a) > key(b); }
+};
+template <class T>
+using Queue = std::priority_queue<T, std::vector<T>, Later<T>>;
+
+Point unit(Point a) { return (1 / norm(a)) * a; }
+Point mirrored(Point a, Real length) { return {length - a.x, a.y}; }
+Point mirrored(Point direction) { return {-direction.x, direction.y}; }
+
+class Solver {
+ public:
+  Solver(const Mesh& mesh, std::span<const Source> sources, Real radius, std::span<const SurfacePoint> targets)
+      : mesh_(mesh), complex_(mesh), radius_(radius), shadows_(mesh.vertex_count()) {
+    truth_.distance.assign(mesh.vertex_count(), kFar);
+    truth_.target.assign(targets.size(), kFar);
+    targets_in_.resize(mesh.face_count());
+    for (const Source& s : sources) scale_ = std::max(scale_, std::abs(Real{s.offset}));
+    for (Index i = 0; i < targets.size(); ++i) place_target(i, locate(mesh, targets[i]));
+    for (const Source& s : sources) start(locate(mesh, s.point), s.offset);
+  }
+
+  Truth run() {
+    while (!windows_.empty() || !arrivals_.empty()) {
+      const bool window_first =
+          arrivals_.empty() || (!windows_.empty() && windows_.top().key < arrivals_.top().distance);
+      const Real now = window_first ? windows_.top().key : arrivals_.top().distance;
+      if (now > radius_ || (arrivals_.empty() && now > farthest_target())) break;
+      if (window_first) {
+        Window w = windows_.top();
+        windows_.pop();
+        ++truth_.windows;
+        if (prune(w)) propagate(w);
+      } else {
+        const Arrival a = arrivals_.top();
+        arrivals_.pop();
+        settle(a);
+      }
+    }
+    finish();
+    return std::move(truth_);
+  }
+
+ private:
+  Real margin(Real d) const { return kMargin * (std::abs(d) + scale_); }
+
+  // ---- what is known of vertices and targets; only lengths of real paths get here
+
+  void reach(const Arrival& a) {
+    Real& known = truth_.distance[a.vertex];
+    if (a.distance > known + margin(known)) return;
+    known = std::min(known, a.distance);
+    arrivals_.push(a);
+  }
+
+  void reach_target(Index i, Real d) { truth_.target[i] = std::min(truth_.target[i], d); }
+
+  // Every vertex that can be reached is reached along edges, so when no arrival is left all vertices are settled, and
+  // only targets can still gain: from windows that start nearer than they are.
+  Real farthest_target() const {
+    Real far = -kFar;
+    for (const Real d : truth_.target) far = std::max(far, d < kFar ? d : -kFar);
+    return far;
+  }
+
+  // ---- sources and targets
+
+  Point in_frame(Index h, const std::array<double, 3>& weights) const {
+    const Corner& c = complex_.corner[h];
+    const Real b = weights[(h + 1) % 3], a = weights[(h + 2) % 3];
+    return Point{b * c.length, 0} + a * c.apex;
+  }
+
+  // The same point of an edge in the frame of another face's halfedge over it.
+  static Point on_edge(const Corner& c, Index first, Real t) { return {(c.from == first ? t : 1 - t) * c.length, 0}; }
+
+  // The frames, one per face, in which a point of an edge or a face can be seen: halfedge and place.
+  std::vector<std::pair<Index, Point>> frames_of(const PointLocation& at) const {
+    std::vector<std::pair<Index, Point>> frames;
+    if (at.on == PointLocation::On::Interior) {
+      frames.emplace_back(3 * at.face, in_frame(3 * at.face, at.weights));
+    } else if (at.on == PointLocation::On::Edge) {
+      const Index first = mesh_.from(at.halfedge);
+      for (const Index h : complex_.edge[edge_of(at)].halfedges) {
+        frames.emplace_back(h, on_edge(complex_.corner[h], first, at.t));
+      }
+    }
+    return frames;
+  }
+  Index edge_of(const PointLocation& at) const {
+    return complex_.edge_between(mesh_.from(at.halfedge), mesh_.to(at.halfedge));
+  }
+
+  void place_target(Index i, const PointLocation& at) {
+    target_at_.push_back(at);
+    for (const auto& [h, p] : frames_of(at)) targets_in_[h / 3].push_back({i, at, h, p});
+  }
+
+  // The place of a target in the frame of any halfedge h of its face.
+  struct Target {
+    Index index;
+    PointLocation at;
+    Index halfedge;
+    Point place;
+  };
+  Point place_in(Index h, const Target& t) const {
+    if (t.halfedge == h) return t.place;
+    const Corner& c = complex_.corner[t.halfedge];
+    const Corner& goal = complex_.corner[h];
+    std::array<Point, 3> corners{Point{0, 0}, Point{goal.length, 0}, goal.apex};
+    const auto corner_of = [&](Index v) { return v == goal.from ? 0U : v == goal.to ? 1U : 2U; };
+    if (t.at.on == PointLocation::On::Edge) {
+      const Real share = c.length > 0 ? t.place.x / c.length : 0;
+      return (1 - share) * corners[corner_of(c.from)] + share * corners[corner_of(c.to)];
+    }
+    return in_frame(h, t.at.weights);
+  }
+
+  void start(const PointLocation& at, Real offset) {
+    if (at.on == PointLocation::On::Vertex) {
+      reach({offset, at.vertex, Arrival::By::Start, 0, 0});
+      return;
+    }
+    if (at.on == PointLocation::On::Edge) start_along_edge(at, offset);
+    for (const auto& [h, p] : frames_of(at)) start_in_face(h, p, offset);
+  }
+
+  void start_along_edge(const PointLocation& at, Real offset) {
+    const Edge& e = complex_.edge[edge_of(at)];
+    const Real t = mesh_.from(at.halfedge) == e.a ? Real{at.t} : 1 - Real{at.t};
+    reach({offset + t * e.length, e.a, Arrival::By::Edge, number(e.a, e.b), 0});
+    reach({offset + (1 - t) * e.length, e.b, Arrival::By::Edge, number(e.b, e.a), 0});
+    for (Index i = 0; i < target_at_.size(); ++i) {
+      const PointLocation& goal = target_at_[i];
+      if (goal.on != PointLocation::On::Edge || edge_of(goal) != edge_of(at)) continue;
+      const Real u = mesh_.from(goal.halfedge) == e.a ? Real{goal.t} : 1 - Real{goal.t};
+      reach_target(i, offset + std::abs(t - u) * e.length);
+    }
+  }
+
+  // A point inside a face, or on its first edge: straight to the corners and targets, and out over the edges that do
+  // not hold it.
+  void start_in_face(Index h, Point p, Real offset) {
+    for (const Target& t : targets_in_[h / 3]) reach_target(t.index, offset + norm(place_in(h, t) - p));
+    const bool on_edge = p.y == 0 && complex_.corner[h].apex.y > 0;
+    Index g = h;
+    Point q = p;
+    for (int k = 0; k < 3; ++k) {
+      const Corner& c = complex_.corner[g];
+      if (!(on_edge && k < 2)) {  // the ends of the edge are reached along the edge
+        const Point to_point = q, to_end{c.length, 0};
+        const Real angle = std::atan2(cross(to_end, to_point), dot(to_end, to_point));
+        reach({offset + norm(q), c.from, Arrival::By::Corner, g, std::clamp(angle, Real{0}, c.angle)});
+      }
+      if (!(on_edge && k == 0)) leave(g, q, offset);
+      q = next_frame(c, q);
+      g = Mesh::next(g);
+    }
+  }
+
+  // From the frame of a corner to that of the next corner of the same face.
+  Point next_frame(const Corner& c, Point q) const {
+    const Corner& n = complex_.corner[c_next(c)];
+    if (n.length == 0) return {0, 0};
+    const Point ahead = (1 / n.length) * Point{-c.apex_to_end, c.apex.y};
+    const Point d{q.x - c.length, q.y};
+    return {dot(ahead, d), std::max(Real{0}, cross(ahead, d))};
+  }
+  Index c_next(const Corner& c) const { return Mesh::next(static_cast<Index>(&c - complex_.corner.data())); }
+
+  // All rays from a point q of the face over the edge of corner g, q in the frame of g.
+  void leave(Index g, Point q, Real offset) {
+    const Corner& c = complex_.corner[g];
+    if (c.length == 0) return;
+    Window w;
+    w.sigma = offset;
+    w.source = {c.length - q.x, -q.y};  // the frame seen from the other side: x from the end of the halfedge
+    w.left = w.source.y == 0 && w.source.x <= 0 ? Point{1, 0} : unit(Point{0, 0} - w.source);
+    w.right = w.source.y == 0 && w.source.x >= c.length ? Point{-1, 0} : unit(Point{c.length, 0} - w.source);
+    cross_edge(g, w);  // without a vertex behind: rule 3 wants rays that cross the whole face
+  }
+
+  // ---- windows
+
+  // Hands a wedge that leaves a face over its halfedge h to every other face of the edge. The wedge is given in the
+  // frame whose origin is the left end of the edge as the rays see it (the end of h).
+  void cross_edge(Index h, const Window& w) {
+    const Corner& from = complex_.corner[h];
+    for (const Index g : complex_.edge[from.edge].halfedges) {
+      if (g == h) continue;
+      Window child = w;
+      child.halfedge = g;
+      if (complex_.corner[g].from == from.from) {  // the neighbour lies the other way round
+        child.source = mirrored(w.source, from.length);
+        child.back_at = mirrored(w.back_at, from.length);
+        child.left = mirrored(w.right);
+        child.right = mirrored(w.left);
+      }
+      child.source.y = std::min(child.source.y, Real{0});
+      if (returns(child) || !prune(child)) continue;
+      windows_.push(child);
+    }
+  }
+
+  // Where the ray from the source in direction d meets the edge.
+  static Real meets(const Window& w, Point d, Real length) {
+    if (w.source.y == 0 || d.y <= 0) {
+      return std::clamp(w.source.y == 0 ? w.source.x : d.x > 0 ? length : Real{0}, Real{0}, length);
+    }
+    return std::clamp(w.source.x - w.source.y * (d.x / d.y), Real{0}, length);
+  }
+
+  // Rule 1, no face twice. A shortest path that meets a face twice can be straightened inside the face, so of all
+  // shortest paths to a point the one that crosses the fewest faces meets every face once. A window on whose branch
+  // its face has already been holds no such path. (Looked for only as far back as the face is large: that is where
+  // flat faces glued to each other would go round for ever.)
+  bool returns(const Window& w) const {
+    const Corner& c = complex_.corner[w.halfedge];
+    const Real size = c.length + norm(c.apex);
+    for (std::uint32_t p = w.parent; p != kRoot && branch_[p].key >= least(w) - size; p = branch_[p].parent) {
+      if (branch_[p].face == w.halfedge / 3) return true;
+    }
+    return false;
+  }
+
+  Real least(const Window& w) const {
+    const Real length = complex_.corner[w.halfedge].length;
+    const Real a = meets(w, w.left, length), b = std::max(a, meets(w, w.right, length));
+    return w.sigma + norm(Point{std::clamp(w.source.x, a, b), 0} - w.source);
+  }
+
+  static Real along(const Window& w, Real x) { return w.sigma + norm(Point{x, 0} - w.source); }
+
+  // Cuts off what cannot be part of a shortest path and sets the key; false where nothing remains. Prefixes of shortest
+  // paths are shortest: a ray that reaches the edge later than another real path does is on none.
+  //
+  // Rule 2, the ends of the edge. From the end A at x = 0 the path along the edge reaches x at U(A) + x. The ray
+  // reaches it at d(x), and d(x) - x never increases with x: so what is worse than through A is a part next to A, and
+  // where it ends at b, everything. Mirrored for B.
+  // Rule 3, the vertex behind (Xin and Wang 2009, Theorem 3.2). `back` is the third vertex V of the face that the rays
+  // have just crossed. Let it be left of the leftmost ray, and U(V) + |V b| < d(b). Inside that face the segment V b
+  // crosses every ray of the window, at some q before the edge: U(V) + |V q| + |q b| < d(b) <= d(q) + |q b|, so V
+  // reaches q before the ray does. Mirrored for the right.
+  bool prune(Window& w) {
+    const Corner& c = complex_.corner[w.halfedge];
+    if (c.length == 0) return false;  // its two ends are one point, and emit into every corner (settle)
+    if (cross(w.right, w.left) < 0 || (cross(w.right, w.left) == 0 && dot(w.right, w.left) > 0)) return false;
+    const Real end_a = truth_.distance[c.from], end_b = truth_.distance[c.to];
+    Real a = meets(w, w.left, c.length), b = std::max(a, meets(w, w.right, c.length));
+    if (along(w, b) - b > end_a + margin(end_a)) return false;
+    if (along(w, a) - (c.length - a) > end_b + margin(end_b)) return false;
+    if (const Real x = first_useful(w, w.source.x, end_a - w.sigma); x > a && x < b) {
+      if (along(w, x) - x > end_a + margin(end_a) / 2) cut(w, w.left, a, x);
+    }
+    if (const Real x = c.length - first_useful(w, c.length - w.source.x, end_b - w.sigma); x > a && x < b) {
+      if (along(w, x) - (c.length - x) > end_b + margin(end_b) / 2) cut(w, w.right, b, x);
+    }
+    if (a > b) return false;
+    if (w.back != kNoIndex) {
+      const Real behind = truth_.distance[w.back];
+      const Real side_left = cross(w.left, w.back_at - w.source), side_right = cross(w.right, w.back_at - w.source);
+      const Point at_b{b, 0}, at_a{a, 0};
+      if (side_left > 0 && behind + norm(at_b - w.back_at) + margin(behind) < along(w, b)) return false;
+      if (side_right < 0 && behind + norm(at_a - w.back_at) + margin(behind) < along(w, a)) return false;
+    }
+    w.key = w.sigma + norm(Point{std::clamp(w.source.x, a, b), 0} - w.source);
+    return w.key <= radius_;
+  }
+
+  // The x up to which `other` + x is less than |x - source| by the margin; whatever rounding makes of it, the caller
+  // checks what it gets.
+  Real first_useful(const Window& w, Real source_x, Real other) const {
+    const Real value = other + margin(other + w.sigma), sum = value + source_x;
+    if (!(value < kFar) || sum == 0) return -1;
+    return (source_x * source_x + w.source.y * w.source.y - value * value) / (2 * sum);
+  }
+
+  // Moves one end of the window to x. Next to the source x says little about the direction: then it is left alone.
+  void cut(Window& w, Point& direction, Real& end, Real x) const {
+    const Point d = Point{x, 0} - w.source;
+    if (norm(d) < 1e-6L * complex_.corner[w.halfedge].length) return;
+    direction = unit(d);
+    end = x;
+  }
+
+  static bool left_of(Point d, Point ray) { return cross(ray, d) > 0 || (cross(ray, d) == 0 && dot(ray, d) > 0); }
+  static bool right_of(Point d, Point ray) { return cross(ray, d) < 0 || (cross(ray, d) == 0 && dot(ray, d) > 0); }
+
+  bool sees(const Window& w, Point p) const {
+    const Point d = p - w.source;
+    const Real doubt = kAngle * norm(d) + kLateral * (norm(w.source) + norm(p));
+    return cross(w.left, d) <= doubt && cross(w.right, d) >= -doubt &&
+           (dot(w.left, d) >= -doubt || dot(w.right, d) >= -doubt);
+  }
+
+  // Through the face: to the apex, the targets inside and, split at the apex, to the two other edges.
+  void propagate(const Window& w) {
+    const Corner& c = complex_.corner[w.halfedge];
+    const Index behind = Mesh::previous(w.halfedge), ahead = Mesh::next(w.halfedge);
+    branch_.push_back({w.parent, w.halfedge / 3, w.key});
+    const auto me = static_cast<std::uint32_t>(branch_.size() - 1);
+    const Point to_apex = c.apex - w.source;
+    if (sees(w, c.apex)) arrive_at_apex(w, to_apex);
+    for (const Target& t : targets_in_[w.halfedge / 3]) {
+      const Point p = place_in(w.halfedge, t);
+      if (sees(w, p)) reach_target(t.index, w.sigma + norm(p - w.source));
+    }
+    const Point split = norm(to_apex) > 0 ? unit(to_apex) : Point{0, 1};
+    const Real left_length = complex_.corner[behind].length, right_length = complex_.corner[ahead].length;
+    if (!left_of(to_apex, w.left) && left_length > 0) {
+      const Point along_edge = (1 / left_length) * c.apex;
+      Window child = turned(w, {0, 0}, along_edge, {c.length, 0}, c.to, me);
+      if (!right_of(to_apex, w.right)) child.right = turn(split, along_edge);
+      cross_edge(behind, child);
+    }
+    if (!right_of(to_apex, w.right) && right_length > 0) {
+      const Point along_edge = (1 / right_length) * Point{c.apex_to_end, -c.apex.y};
+      Window child = turned(w, c.apex, along_edge, {0, 0}, c.from, me);
+      if (!left_of(to_apex, w.left)) child.left = turn(split, along_edge);
+      cross_edge(ahead, child);
+    }
+  }
+
+  static Point turn(Point d, Point x_axis) { return {dot(x_axis, d), cross(x_axis, d)}; }
+
+  static Window turned(const Window& w, Point origin, Point x_axis, Point back_at, Index back, std::uint32_t parent) {
+    Window child = w;
+    child.source = turn(w.source - origin, x_axis);
+    child.left = turn(w.left, x_axis);
+    child.right = turn(w.right, x_axis);
+    child.back = back;
+    child.back_at = turn(back_at - origin, x_axis);
+    child.parent = parent;
+    return child;
+  }
+
+  void arrive_at_apex(const Window& w, Point to_apex) {
+    const Corner& c = complex_.corner[w.halfedge];
+    const Real d = w.sigma + norm(to_apex);
+    const Index at = Mesh::previous(w.halfedge);  // the corner at the apex: its halfedge runs to `from`
+    if (norm(to_apex) == 0 || complex_.corner[at].length == 0) {
+      reach({d, c.apex_vertex, Arrival::By::Start, 0, 0});
+      return;
+    }
+    const Point ahead = Point{0, 0} - c.apex, back = Point{0, 0} - to_apex;
+    const Real angle = std::atan2(cross(ahead, back), dot(ahead, back));
+    reach({d, c.apex_vertex, Arrival::By::Corner, at, std::clamp(angle, Real{0}, complex_.corner[at].angle)});
+  }
+
+  // ---- vertices
+
+  Index number(Index v, Index neighbour) const {
+    const auto& list = complex_.neighbours[v];
+    return static_cast<Index>(
+        std::find_if(list.begin(), list.end(), [&](const Neighbour& n) { return n.vertex == neighbour; }) -
+        list.begin());
+  }
+
+  // In order of distance, so that the first arrival is final. Equal ones follow, each with its own shadow.
+  void settle(const Arrival& a) {
+    const Real known = truth_.distance[a.vertex];
+    if (a.distance > known + margin(known)) return;
+    Shadows& before = shadows_[a.vertex];
+    if (before.everywhere) return;
+    if (before.nodes.empty()) walk_edges(a.vertex, known);
+    const std::size_t degree = complex_.neighbours[a.vertex].size();
+    before.everywhere = a.by == Arrival::By::Start || complex_.pinched[a.vertex];
+    const std::vector<Real> link =
+        before.everywhere ? std::vector<Real>(degree, kFar) : link_distances(a);
+    for (const std::vector<Real>& other : before.nodes) {
+      if (same_way(link, other)) return;
+    }
+    before.nodes.push_back(link);
+    for (const Index h : complex_.corners_at[a.vertex]) cast_shadow(h, link, known);
+  }
+
+  static bool same_way(const std::vector<Real>& a, const std::vector<Real>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      if (a[i] != b[i] && !(std::abs(a[i] - b[i]) <= kSameWay)) return false;
+    }
+    return true;
+  }
+
+  void walk_edges(Index v, Real d) {
+    for (const Neighbour& n : complex_.neighbours[v]) {
+      reach({d + complex_.edge[n.edge].length, n.vertex, Arrival::By::Edge, number(n.vertex, v), 0});
+    }
+    for (const Index h : complex_.corners_at[v]) {
+      for (const Target& t : targets_in_[h / 3]) reach_target(t.index, d + norm(place_in(h, t)));
+    }
+    for (Index i = 0; i < target_at_.size(); ++i) {
+      const PointLocation& at = target_at_[i];
+      if (at.on == PointLocation::On::Vertex && at.vertex == v) reach_target(i, d);
+      if (at.on != PointLocation::On::Edge) continue;
+      const Edge& e = complex_.edge[edge_of(at)];
+      const Real share = mesh_.from(at.halfedge) == v ? Real{at.t} : 1 - Real{at.t};
+      if (e.a == v || e.b == v) reach_target(i, d + share * e.length);
+    }
+  }
+
+  // The link of a vertex is a graph: a node per edge at the vertex, an arc per corner, as long as the corner's angle.
+  // Distances in it from where the front comes from; infinity where the fan hangs together with it by the vertex only.
+  std::vector<Real> link_distances(const Arrival& a) const {
+    std::vector<Real> link(complex_.neighbours[a.vertex].size(), kFar);
+    if (a.by == Arrival::By::Edge) {
+      link[a.at] = 0;
+    } else {
+      const Corner& c = complex_.corner[a.at];
+      link[c.ahead] = a.angle;
+      link[c.behind] = std::max(Real{0}, c.angle - a.angle);
+    }
+    // Arcs are relaxed in turns until nothing changes: one or two turns in the order of a fan, and simple.
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const Index h : complex_.corners_at[a.vertex]) {
+        const Corner& c = complex_.corner[h];
+        if (link[c.ahead] + c.angle < link[c.behind]) link[c.behind] = link[c.ahead] + c.angle, changed = true;
+        if (link[c.behind] + c.angle < link[c.ahead]) link[c.ahead] = link[c.behind] + c.angle, changed = true;
+      }
+    }
+    return link;
+  }
+
+  // Rule 4, the shadow. Near a vertex the complex is a cone over the link, and a path that comes to the apex of a cone
+  // from one direction and leaves it in another is locally shortest exactly where the two are at least pi apart in the
+  // link (otherwise the flat sector between them holds a shortcut). That holds for every link: circles, arcs, several
+  // components, arcs that meet in threes. In one corner these directions are an interval.
+  void cast_shadow(Index h, const std::vector<Real>& link, Real d) {
+    const Corner& c = complex_.corner[h];
+    const Corner& edge = complex_.corner[Mesh::next(h)];  // the edge opposite to the vertex
+    if (edge.length == 0 || c.length == 0 || norm(c.apex) == 0) return;
+    const Real begin = std::max(Real{0}, kHalfTurn - link[c.ahead] - kShadow);
+    const Real end = std::min(c.angle, c.angle - (kHalfTurn - link[c.behind]) + kShadow);
+    if (!(begin < end)) return;
+    Window w;
+    w.sigma = d;
+    w.source = {edge.length - edge.apex.x, -edge.apex.y};
+    const Point to_first{edge.apex.x, edge.apex.y};
+    w.right = unit(to_first);  // towards `to` of h, which is the right end as seen from the vertex
+    w.left = unit(Point{0, 0} - w.source);
+    if (end < c.angle) w.left = rotated(w.right, end);
+    if (begin > 0) w.right = rotated(w.right, begin);
+    w.back = c.from;
+    w.back_at = w.source;
+    cross_edge(Mesh::next(h), w);
+  }
+
+  static Point rotated(Point d, Real angle) {
+    const Real c = std::cos(angle), s = std::sin(angle);
+    return {c * d.x - s * d.y, s * d.x + c * d.y};
+  }
+
+  void finish() {
+    for (Real& d : truth_.distance) d = d > radius_ ? kFar : d;
+    for (Real& d : truth_.target) d = d > radius_ ? kFar : d;
+  }
+
+  struct Ancestor {
+    std::uint32_t parent;
+    Index face;
+    Real key;
+  };
+  struct Shadows {
+    std::vector<std::vector<Real>> nodes;  // the link distances of the arrivals so far
+    bool everywhere = false;
+  };
+
+  const Mesh& mesh_;
+  Complex complex_;
+  Real radius_;
+  Real scale_ = 0;
+  Truth truth_;
+  std::vector<PointLocation> target_at_;
+  std::vector<std::vector<Target>> targets_in_;  // [faces]
+  Queue<Window> windows_;
+  Queue<Arrival> arrivals_;
+  std::vector<Ancestor> branch_;
+  std::vector<Shadows> shadows_;  // [vertices]
+};
+
+}  // namespace
+
+Truth polyhedral_distance(const Mesh& mesh, std::span<const Source> sources, Real radius,
+                          std::span<const SurfacePoint> targets) {
+  return Solver(mesh, sources, radius, targets).run();
+}
+
+}  // namespace brushfire::oracle
