@@ -31,8 +31,8 @@ void shape_from_positions(const Mesh& mesh, Corner& c) {
   const auto p = mesh.positions();
   const Vector side = difference(p[c.to], p[c.from]), left = difference(p[c.apex_vertex], p[c.from]),
                right = difference(p[c.apex_vertex], p[c.to]);
-  const Real along = dot(side, left), area = norm(left) < norm(right) ? double_area(side, left)
-                                                                      : double_area(side, right);
+  const Real along = dot(side, left),
+             area = norm(left) < norm(right) ? double_area(side, left) : double_area(side, right);
   c.length = norm(side);
   c.angle = along == 0 && area == 0 ? kHalfTurn / 2 : std::atan2(area, along);
   c.apex = {0, norm(left)};

@@ -411,8 +411,7 @@ class Solver {
     if (before.nodes.empty()) walk_edges(a.vertex, known);
     const std::size_t degree = complex_.neighbours[a.vertex].size();
     before.everywhere = a.by == Arrival::By::Start || complex_.pinched[a.vertex];
-    const std::vector<Real> link =
-        before.everywhere ? std::vector<Real>(degree, kFar) : link_distances(a);
+    const std::vector<Real> link = before.everywhere ? std::vector<Real>(degree, kFar) : link_distances(a);
     for (const std::vector<Real>& other : before.nodes) {
       if (same_way(link, other)) return;
     }
