@@ -1,9 +1,30 @@
 # Third-party libraries. The library itself uses header-only ones, privately: nothing of them shows in its public headers
-# or in its installed package.
+# or in its installed package. What the machine has is used; otherwise headers pinned by their commit are fetched.
+include(FetchContent)
+
+# brushfire_find_headers(VARIABLE HEADER OWNER/REPOSITORY COMMIT): the folder to include HEADER from.
+function(brushfire_find_headers variable header repository commit)
+  find_path(${variable} ${header} DOC "Where ${header} is")
+  if(${variable})
+    return()
+  endif()
+  message(STATUS "${header} is not installed: fetching ${repository}")
+  FetchContent_Declare(${variable} URL https://github.com/${repository}/archive/${commit}.tar.gz)
+  FetchContent_Populate(${variable})
+  string(TOLOWER ${variable} name)
+  set(${variable} ${${name}_SOURCE_DIR}/include CACHE PATH "Where ${header} is" FORCE)
+endfunction()
 
 # Boost headers (Polygon, Geometry, Multiprecision) as system headers: their warnings are not ours.
 find_package(Boost 1.74 REQUIRED)
-find_path(BRUSHFIRE_FAST_FLOAT_DIR fast_float/fast_float.h REQUIRED DOC "fast_float's headers (libfast-float-dev)")
+brushfire_find_headers(BRUSHFIRE_FAST_FLOAT_DIR fast_float/fast_float.h  # 6.1.6
+  fastfloat/fast_float 00c8c7b0d5c722d2212568d915a39ea73b08b973)
+if(BRUSHFIRE_BUILD_TOOLS)
+  brushfire_find_headers(BRUSHFIRE_CLI11_DIR CLI/CLI.hpp  # 2.4.2
+    CLIUtils/CLI11 6c7b07a878ad834957b98d0f9ce1dbe0cb204fc9)
+  brushfire_find_headers(BRUSHFIRE_JSON_DIR nlohmann/json.hpp  # 3.11.3
+    nlohmann/json 9cca280a4d0ccf0c08f47a99aa71d1b0e52f8d03)
+endif()
 
 # Sean Barrett's single-file libraries: PNG writing, TrueType.
 find_path(BRUSHFIRE_STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED DOC "stb's headers (libstb-dev)")

@@ -1,2 +1,12 @@
-#include <brushfire/brushfire.h>
-int main() { return 0; }
+// The program `brushfire`: every verb is described in the file of its name.
+#include "command_line.h"
+
+int main(int argc, char** argv) {
+  using namespace brushfire::tool;
+  CommandLine command_line;
+  add_info(command_line);
+  add_distance(command_line);
+  add_compare(command_line);
+  add_completion(command_line);
+  return command_line.run(argc, argv);
+}

@@ -64,6 +64,8 @@ Index count_duplicate_positions(const Mesh& mesh) {
 
 void count_edges(const Mesh& mesh, MeshReport& r) {
   const auto opposite = mesh.opposite();
+  const auto lengths = mesh.lengths();
+  double sum = 0;
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (!mesh.is_face_usable(Mesh::face_of(h))) continue;
     Index faces = 1, lowest = h;
@@ -73,17 +75,20 @@ void count_edges(const Mesh& mesh, MeshReport& r) {
     }
     if (lowest != h) continue;
     ++r.edges;
+    sum += lengths[h];
+    r.zero_length_edges += lengths[h] == 0;
     r.boundary_edges += faces == 1;
     r.nonmanifold_edges += faces > 2;
     r.misoriented_edges += faces == 2 && mesh.from(h) == mesh.from(opposite[h]);
   }
+  r.mean_edge_length = r.edges > 0 ? sum / r.edges * mesh.unit() : 0;
 }
 
 void measure_geometry(const Mesh& mesh, MeshReport& r) {
   const auto lengths = mesh.lengths();
   const auto areas = mesh.double_areas();
   const double unit = mesh.unit();
-  double sum = 0, area = 0, shortest = kInfinity, longest = 0, flattest = 1;
+  double area = 0, shortest = kInfinity, longest = 0, flattest = 1;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     if (!mesh.is_face_usable(f)) {
       ++r.repeated_index_faces;
@@ -91,10 +96,8 @@ void measure_geometry(const Mesh& mesh, MeshReport& r) {
     }
     double face_longest = 0;
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-      sum += lengths[h];
       shortest = std::min(shortest, lengths[h]);
       face_longest = std::max(face_longest, lengths[h]);
-      if (lengths[h] == 0) ++r.zero_length_edges;
     }
     longest = std::max(longest, face_longest);
     area += 0.5 * areas[f];
@@ -104,9 +107,7 @@ void measure_geometry(const Mesh& mesh, MeshReport& r) {
       flattest = std::min(flattest, areas[f] / (face_longest * face_longest));
     }
   }
-  const Index counted = r.faces - r.repeated_index_faces;
-  r.min_edge_length = counted > 0 ? shortest * unit : 0;
-  r.mean_edge_length = counted > 0 ? sum / (3.0 * counted) * unit : 0;
+  r.min_edge_length = r.edges > 0 ? shortest * unit : 0;
   r.max_edge_length = longest * unit;
   r.area = area * unit * unit;
   constexpr double kPrecisionWithPositions = 1e-12;
@@ -129,17 +130,6 @@ MeshReport build_report(const Mesh& mesh) {
   r.components = count_components(mesh);
   count_edges(mesh, r);
   measure_geometry(mesh, r);
-  // Each zero-length edge was met once per face.
-  if (r.zero_length_edges > 0) {
-    r.zero_length_edges = 0;
-    const auto opposite = mesh.opposite();
-    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-      if (mesh.lengths()[h] != 0 || !mesh.is_face_usable(Mesh::face_of(h))) continue;
-      Index lowest = h;
-      for (Index g = opposite[h]; g != h; g = opposite[g]) lowest = std::min(lowest, g);
-      r.zero_length_edges += lowest == h;
-    }
-  }
   Index isolated = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     isolated += mesh.corners(v).empty();

@@ -1,0 +1,155 @@
+// Hilbert order by radix sort; breadth-first order for meshes without positions.
+//
+// Based on: Hamilton, Rau-Chaplin, "Compact Hilbert Indices", 2008 (the curve as a machine of 24 states).
+#include <brushfire/mesh/locality_order.h>
+
+#include <brushfire/mesh/detail/hilbert.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace brushfire {
+namespace {
+
+using detail::kHilbertBits;
+
+// The curve through a cube visits its eight octants in the order of a Gray code that is reflected by `entry` and turned
+// by `direction`, and every octant is such a cube again. One step: the octant (a bit per axis) to its place in the
+// order, and to the state inside it.
+struct Step {
+  std::uint8_t place;
+  std::uint8_t next_state;
+};
+
+constexpr unsigned rotate_right(unsigned bits, unsigned by) { return ((bits >> by) | (bits << (3 - by))) & 7; }
+constexpr unsigned rotate_left(unsigned bits, unsigned by) { return rotate_right(bits, (3 - by) % 3); }
+
+constexpr Step step_of(unsigned entry, unsigned direction, unsigned octant) {
+  const unsigned turn = (direction + 1) % 3;
+  const unsigned gray = rotate_right(octant ^ entry, turn);
+  const unsigned place = gray ^ (gray >> 1) ^ (gray >> 2);
+  // Where the curve enters the octant at this place, and along which axis it leaves.
+  const unsigned even = place == 0 ? 0 : (place - 1) & ~1u;
+  const unsigned inner_entry = even ^ (even >> 1);
+  const unsigned odd = place == 0 ? 0 : place % 2 == 0 ? place - 1 : place;
+  const unsigned inner_direction = place == 0 ? 0 : static_cast<unsigned>(std::countr_one(odd)) % 3;
+  const unsigned next_entry = entry ^ rotate_left(inner_entry, turn);
+  const unsigned next_direction = (direction + inner_direction + 1) % 3;
+  return {static_cast<std::uint8_t>(place), static_cast<std::uint8_t>(next_entry * 3 + next_direction)};
+}
+
+constexpr std::array<Step, 24 * 8> kSteps = [] {
+  std::array<Step, 24 * 8> steps{};
+  for (unsigned entry = 0; entry < 8; ++entry) {
+    for (unsigned direction = 0; direction < 3; ++direction) {
+      for (unsigned octant = 0; octant < 8; ++octant) {
+        steps[(entry * 3 + direction) * 8 + octant] = step_of(entry, direction, octant);
+      }
+    }
+  }
+  return steps;
+}();
+
+struct Keyed {
+  std::uint64_t key;
+  Index item;
+};
+
+// Sorts by the lowest `bits` bits of the keys; keeps the order of equal ones.
+void radix_sort(std::vector<Keyed>& items, int bits) {
+  constexpr int kDigitBits = 12;
+  std::vector<Keyed> other(items.size());
+  for (int shift = 0; shift < bits; shift += kDigitBits) {
+    std::array<Index, 1 << kDigitBits> start{};
+    const auto digit = [shift](const Keyed& k) { return (k.key >> shift) & ((1 << kDigitBits) - 1); };
+    for (const Keyed& k : items) ++start[digit(k)];
+    Index sum = 0;
+    for (Index& s : start) sum += std::exchange(s, sum);
+    for (const Keyed& k : items) other[start[digit(k)]++] = k;
+    items.swap(other);
+  }
+}
+
+std::vector<Index> hilbert_order(std::span<const Vec3> positions) {
+  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+  for (const Vec3& p : positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  // Halves, so that the extent of coordinates near the largest double stays finite.
+  const Vec3 half = 0.5 * high - 0.5 * low;
+  const double extent = std::max({half.x, half.y, half.z});
+  constexpr double kCells = (1 << kHilbertBits) - 1;
+  const auto cell = [=](double x, double lowest) {
+    return extent > 0 ? static_cast<std::uint32_t>((0.5 * x - 0.5 * lowest) / extent * kCells) : 0u;
+  };
+  std::vector<Keyed> items(positions.size());
+  for (Index v = 0; v < items.size(); ++v) {
+    const Vec3 p = positions[v];
+    items[v] = {detail::hilbert_index(cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z)), v};
+  }
+  radix_sort(items, 3 * kHilbertBits);
+  std::vector<Index> order(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) order[i] = items[i].item;
+  return order;
+}
+
+std::vector<Index> breadth_first_order(const Mesh& mesh) {
+  std::vector<Index> order;
+  order.reserve(mesh.vertex_count());
+  std::vector<bool> seen(mesh.vertex_count(), false);
+  const auto visit = [&](Index v) {
+    if (!seen[v]) order.push_back(v);
+    seen[v] = true;
+  };
+  std::size_t next = 0;
+  for (Index first = 0; first < mesh.vertex_count(); ++first) {
+    visit(first);
+    for (; next < order.size(); ++next) {
+      for (const Index h : mesh.corners(order[next])) {
+        visit(mesh.to(h));
+        visit(mesh.from(Mesh::previous(h)));
+      }
+    }
+  }
+  return order;
+}
+
+// Faces by the least place of their vertices: a counting sort.
+std::vector<Index> order_faces(std::span<const Face> faces, std::span<const Index> rank) {
+  const auto key = [&](const Face& t) { return std::min({rank[t[0]], rank[t[1]], rank[t[2]]}); };
+  std::vector<Index> start(rank.size() + 1, 0);
+  for (const Face& t : faces) ++start[key(t) + 1];
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  std::vector<Index> order(faces.size());
+  for (Index f = 0; f < faces.size(); ++f) order[start[key(faces[f])]++] = f;
+  return order;
+}
+
+}  // namespace
+
+std::uint64_t detail::hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  std::uint64_t index = 0;
+  unsigned state = 0;
+  for (int bit = kHilbertBits - 1; bit >= 0; --bit) {
+    const unsigned octant = (x >> bit & 1) | (y >> bit & 1) << 1 | (z >> bit & 1) << 2;
+    const Step step = kSteps[state * 8 + octant];
+    index = index << 3 | step.place;
+    state = step.next_state;
+  }
+  return index;
+}
+
+LocalityOrder locality_order(const Mesh& mesh) {
+  LocalityOrder result;
+  result.vertices = mesh.has_positions() ? hilbert_order(mesh.positions()) : breadth_first_order(mesh);
+  result.vertex_rank.resize(result.vertices.size());
+  for (Index i = 0; i < result.vertices.size(); ++i) result.vertex_rank[result.vertices[i]] = i;
+  result.faces = order_faces(mesh.faces(), result.vertex_rank);
+  return result;
+}
+
+}  // namespace brushfire

@@ -1,0 +1,25 @@
+// An order of vertices and faces in which neighbours on the surface are near each other in memory.
+//
+// Solvers renumber by it inside; no user ever sees the new numbers.
+#pragma once
+
+#include <brushfire/core/types.h>
+#include <brushfire/mesh/mesh.h>
+
+#include <span>
+#include <vector>
+
+namespace brushfire {
+
+struct LocalityOrder {
+  std::vector<Index> vertices;     // [vertex_count] the vertex at each place: new number to old
+  std::vector<Index> vertex_rank;  // [vertex_count] the place of each vertex: old number to new
+  std::vector<Index> faces;        // [face_count] new to old, by the least place of a face's vertices, then by number
+};
+
+// Along a Hilbert curve through the bounding cube of the positions (2^16 cells a side); breadth first, from the lowest
+// vertex of each component, where the mesh has no positions. Ties by number, so the result is unique. O(vertices +
+// faces): a radix sort.
+LocalityOrder locality_order(const Mesh& mesh);
+
+}  // namespace brushfire

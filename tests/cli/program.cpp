@@ -1,0 +1,108 @@
+// fork, exec, and files for the three streams.
+#include "program.h"
+
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+namespace brushfire::test {
+namespace {
+
+// A file in the test's temporary folder that is gone afterwards.
+class ScratchFile {
+ public:
+  ScratchFile() : path_(testing::TempDir() + "brushfire_stream_XXXXXX") { descriptor_ = mkstemp(path_.data()); }
+  ~ScratchFile() {
+    close(descriptor_);
+    unlink(path_.c_str());
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  std::string content() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  std::string path_;
+  int descriptor_;
+};
+
+void send(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t sent = write(descriptor, text.data(), text.size());
+    if (sent < 0) return;  // the reader is gone
+    text.remove_prefix(static_cast<std::size_t>(sent));
+  }
+}
+
+bool runs(pid_t child) {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
+}
+
+// Sends the first half, waits until it has been taken (so that the program is past its first steps), interrupts.
+void send_half_and_interrupt(int descriptor, std::string_view& text, pid_t child) {
+  send(descriptor, text.substr(0, text.size() / 2));
+  text.remove_prefix(text.size() / 2);
+  int waiting = 1;
+  while (waiting > 0 && runs(child)) {
+    usleep(1000);
+    ioctl(descriptor, FIONREAD, &waiting);
+  }
+  kill(child, SIGINT);
+}
+
+}  // namespace
+
+Ended run_program(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
+  std::signal(SIGPIPE, SIG_IGN);
+  ScratchFile out, err;
+  std::array<int, 2> in{};
+  if (pipe2(in.data(), O_CLOEXEC) != 0) return {};
+  std::vector<std::string> words{BRUSHFIRE_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
+  for (std::string& w : words) argv.push_back(w.data());
+  argv.push_back(nullptr);
+
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGPIPE, SIG_DFL);
+    dup2(in[0], STDIN_FILENO);
+    dup2(err.descriptor(), STDERR_FILENO);
+    if (surroundings.close_stdout) {
+      close(STDOUT_FILENO);
+    } else if (!surroundings.stdout_path.empty()) {
+      dup2(open(surroundings.stdout_path.c_str(), O_WRONLY), STDOUT_FILENO);
+    } else {
+      dup2(out.descriptor(), STDOUT_FILENO);
+    }
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  close(in[0]);
+  std::string_view input = surroundings.input;
+  if (surroundings.interrupt) send_half_and_interrupt(in[1], input, child);
+  send(in[1], input);
+  close(in[1]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  const bool killed = WIFSIGNALED(status);
+  return {killed ? WTERMSIG(status) : WEXITSTATUS(status), killed, out.content(), err.content()};
+}
+
+}  // namespace brushfire::test

@@ -1,0 +1,286 @@
+// The program as a black box: exit codes, the two streams, the one line of every error, the keys of the JSON.
+#include "program.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+namespace brushfire::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Every test has a folder of its own: a unit square, and the same with a second component and a lone vertex.
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / ("brushfire_program_" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+    write("islands.off",
+          "OFF\n8 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n9 9 9\n3 0 1 2\n3 0 2 3\n3 4 5 6\n");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+  }
+  // What the program said, with the test's folder taken out.
+  std::string said(const std::string& text) const {
+    std::string out = text;
+    for (std::size_t at; (at = out.find(folder_.string() + "/")) != std::string::npos;) {
+      out.erase(at, folder_.string().size() + 1);
+    }
+    return out;
+  }
+
+  void expect_error(const std::vector<std::string>& arguments, int code, const std::string& line) const {
+    const Ended ended = run_program(arguments);
+    EXPECT_EQ(ended.code, code);
+    EXPECT_FALSE(ended.killed);
+    EXPECT_EQ(said(ended.err), line + "\n");
+    EXPECT_EQ(ended.out, "");
+  }
+
+ private:
+  fs::path folder_;
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    lines.push_back(text.substr(begin, end - begin));
+  }
+  return lines;
+}
+
+// The keys of the outermost object, in order, of JSON that is indented by two.
+std::vector<std::string> keys_of(const std::string& json) {
+  std::vector<std::string> keys;
+  const std::regex key("^  \"([a-z_0-9]+)\":.*");
+  for (const std::string& line : lines_of(json)) {
+    std::smatch match;
+    if (std::regex_match(line, match, key)) keys.push_back(match[1]);
+  }
+  return keys;
+}
+
+TEST_F(Program, WithoutArgumentsPrintsHelpAndSucceeds) {
+  const Ended ended = run_program({});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_NE(ended.out.find("Usage: brushfire"), std::string::npos);
+  EXPECT_NE(ended.out.find("Exit codes: 0 done"), std::string::npos);
+  EXPECT_EQ(ended.err, "");
+  EXPECT_EQ(run_program({"--help"}).out, ended.out);
+}
+
+TEST_F(Program, VersionIsOneLine) {
+  const Ended ended = run_program({"--version"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_TRUE(std::regex_match(ended.out, std::regex("brushfire [0-9]+\\.[0-9]+\\.[0-9]+\n"))) << ended.out;
+}
+
+TEST_F(Program, HelpOfEveryVerbHasExamplesAndFitsTheTerminal) {
+  for (const char* verb : {"info", "distance", "completion"}) {
+    const Ended ended = run_program({verb, "--help"});
+    EXPECT_EQ(ended.code, 0);
+    EXPECT_NE(ended.out.find("Examples:\n"), std::string::npos) << verb;
+    for (const std::string& line : lines_of(ended.out)) EXPECT_LE(line.size(), 120u) << line;
+  }
+}
+
+TEST_F(Program, InfoTellsTheCounts) {
+  const Ended ended = run_program({"info", path("islands.off")});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(said(ended.out),
+            "islands.off (OFF)\n"
+            "  vertices              8\n"
+            "  faces                 3\n"
+            "  edges                 8\n"
+            "  components            2\n"
+            "  Euler characteristic  2\n"
+            "  edge length           1 .. 1.41421, mean 1.10355\n"
+            "  area                  1.5\n"
+            "  - 2 components: distances between them are infinite\n"
+            "  - 1 vertex is in no face and cannot be reached\n"
+            "  - 7 boundary edges\n");
+}
+
+TEST_F(Program, InfoJsonHasStableKeys) {
+  const Ended ended = run_program({"info", path("square.off"), "--json"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(keys_of(ended.out), (std::vector<std::string>{"schema",
+                                                          "brushfire",
+                                                          "file",
+                                                          "format",
+                                                          "vertices",
+                                                          "faces",
+                                                          "edges",
+                                                          "components",
+                                                          "euler_characteristic",
+                                                          "boundary_edges",
+                                                          "nonmanifold_edges",
+                                                          "nonmanifold_vertices",
+                                                          "misoriented_edges",
+                                                          "isolated_vertices",
+                                                          "zero_area_faces",
+                                                          "zero_length_edges",
+                                                          "repeated_index_faces",
+                                                          "duplicate_faces",
+                                                          "duplicate_positions",
+                                                          "looks_like_soup",
+                                                          "min_edge_length",
+                                                          "mean_edge_length",
+                                                          "max_edge_length",
+                                                          "area",
+                                                          "remarks"}));
+}
+
+TEST_F(Program, DistanceTellsTheResultInWords) {
+  const Ended ended = run_program({"distance", path("islands.off"), "--source", "1", "--method", "dijkstra"});
+  EXPECT_EQ(ended.code, 0);
+  const std::vector<std::string> lines = lines_of(said(ended.out));
+  ASSERT_EQ(lines.size(), 4u) << ended.out;
+  EXPECT_EQ(lines[0], "islands.off: 8 vertices, 3 faces");
+  EXPECT_EQ(lines[1], "dijkstra from 1 source reached 4 vertices, 4 cannot be reached");
+  EXPECT_EQ(lines[2], "farthest: vertex 3 at 2");
+}
+
+TEST_F(Program, DistanceJsonHasStableKeys) {
+  const Ended ended =
+      run_program({"distance", path("square.off"), "--source", "0", "--target", "2", "--json", "-m", "dijkstra"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(keys_of(ended.out),
+            (std::vector<std::string>{
+                "schema",        "brushfire",       "file",         "method",          "precision", "tolerance",
+                "vertices",      "faces",           "sources",      "radius",          "reached",   "unreachable",
+                "beyond_radius", "max_error_bound", "max_distance", "farthest_vertex", "updates",   "read_s",
+                "set_up_s",      "solve_s",         "targets",      "output"}));
+}
+
+TEST_F(Program, TargetsPrintOneDistancePerLine) {
+  const Ended ended =
+      run_program({"distance", path("square.off"), "--source", "0", "-t", "1", "-t", "2", "-m", "dijkstra"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(ended.out, "1\n1.4142135623730951\n");
+}
+
+TEST_F(Program, UnreachableTargetPrintsInfAndEndsWithFour) {
+  const Ended ended = run_program(
+      {"distance", path("islands.off"), "--source", "0", "--target", "1", "--target", "5", "-m", "dijkstra"});
+  EXPECT_EQ(ended.code, 4);
+  EXPECT_EQ(ended.out, "1\ninf\n");
+  EXPECT_EQ(ended.err, "brushfire: no source reaches '5' (within the radius, if one was given)\n");
+}
+
+TEST_F(Program, OffsetsAndTheSourcesFileAreUsed) {
+  write("sources.txt", "# two corners\n0@0.25\n\n2  # the far one\n");
+  const Ended ended = run_program({"distance", path("square.off"), "--sources", path("sources.txt"), "-t", "0", "-t",
+                                   "1", "-t", "2", "-m", "dijkstra"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.out, "0.25\n1\n0\n");
+}
+
+TEST_F(Program, RadiusCutsOff) {
+  const Ended ended =
+      run_program({"distance", path("square.off"), "--source", "0", "--radius", "1.2", "--json", "-m", "dijkstra"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_NE(ended.out.find("\"reached\": 3,"), std::string::npos) << ended.out;
+}
+
+TEST_F(Program, ReadsStandardInput) {
+  const Ended ended = run_program({"distance", "-", "--source", "0", "--target", "1", "-m", "dijkstra"},
+                                  {.input = "OFF\n3 1 0\n0 0 0\n2 0 0\n0 1 0\n3 0 1 2\n"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.out, "2\n");
+}
+
+TEST_F(Program, UsageErrorsEndWithTwoAndOneLine) {
+  const std::string mesh = path("square.off");
+  expect_error({"frobnicate"}, 2,
+               "brushfire: The following argument was not expected: frobnicate (see brushfire --help)");
+  expect_error({"info"}, 2, "brushfire: FILE is required (see brushfire info --help)");
+  expect_error({"info", mesh, "--colour"}, 2,
+               "brushfire: The following argument was not expected: --colour (see brushfire info --help)");
+  expect_error({"distance", mesh}, 2, "brushfire: where from? give --source or --sources");
+  expect_error({"distance", mesh, "--source"}, 2,
+               "brushfire: --source: 1 required WHERE missing (see brushfire distance --help)");
+  expect_error({"distance", mesh, "--source", "nose"}, 2,
+               "brushfire: 'nose' is no place on a mesh: a vertex is a whole number from 0 up; write a vertex (17), a "
+               "face and weights (f:120:.2,.3,.5) or a position (x,y,z)");
+  expect_error(
+      {"distance", mesh, "--source", "-1"}, 2,
+      "brushfire: '-1' is no place on a mesh: a vertex is a whole number from 0 up; write a vertex (17), a face "
+      "and weights (f:120:.2,.3,.5) or a position (x,y,z)");
+  expect_error({"distance", mesh, "--source", "4"}, 2, "brushfire: '4': there is no such vertex, the mesh has 4");
+  expect_error({"distance", mesh, "--source", "99999999999999999999"}, 2,
+               "brushfire: '99999999999999999999': there is no such vertex, the mesh has 4");
+  expect_error({"distance", mesh, "--source", "f:2:1,0,0"}, 2,
+               "brushfire: 'f:2:1,0,0': there is no such face, the mesh has 2");
+  expect_error({"distance", mesh, "--source", "0", "--target", "1@2"}, 2, "brushfire: '1@2': a target has no offset");
+  expect_error({"distance", mesh, "--source", "0", "--radius", "-1"}, 2, "brushfire: --radius -1 is not a number >= 0");
+  expect_error({"distance", mesh, "--source", "0", "--precision", "half"}, 2,
+               "brushfire: --precision: 'half' is none of double, float (see brushfire distance --help)");
+  expect_error({"completion", "fish"}, 2,
+               "brushfire: shell: 'fish' is none of bash, zsh (see brushfire completion --help)");
+  write("empty.txt", "# nothing\n");
+  expect_error({"distance", mesh, "--sources", path("empty.txt")}, 2, "brushfire: empty.txt: no source in this file");
+}
+
+TEST_F(Program, UnusableInputEndsWithThree) {
+  expect_error({"info", path("missing.off")}, 3, "brushfire: missing.off: no such file");
+  expect_error({"info", path("")}, 3, "brushfire: : is a directory");
+  write("broken.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 nine 0\n3 0 1 2\n");
+  expect_error({"info", path("broken.off")}, 3, "brushfire: broken.off:5: 'nine' where a coordinate is expected");
+  write("wrong.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n");
+  expect_error({"info", path("wrong.off")}, 3,
+               "brushfire: wrong.off:6: face 0 names vertex 3, but there are 3 vertices");
+  write("notes.txt", "no mesh at all\n");
+  const Ended unknown = run_program({"info", path("notes.txt")});
+  EXPECT_EQ(unknown.code, 3);
+  EXPECT_EQ(said(unknown.err).rfind("brushfire: notes.txt: neither name nor content tell the format", 0), 0u);
+  EXPECT_EQ(lines_of(unknown.err).size(), 1u);
+  expect_error({"distance", path("square.off"), "--sources", path("missing.txt")}, 3,
+               "brushfire: missing.txt: cannot be opened");
+}
+
+TEST_F(Program, ClosedOrFullStandardOutputIsAnError) {
+  const Ended closed = run_program({"info", path("square.off")}, {.close_stdout = true});
+  EXPECT_EQ(closed.code, 1);
+  EXPECT_EQ(closed.err, "brushfire: standard output: Bad file descriptor\n");
+  const Ended full = run_program({"info", path("square.off")}, {.stdout_path = "/dev/full"});
+  EXPECT_EQ(full.code, 1);
+  EXPECT_EQ(full.err, "brushfire: standard output: No space left on device\n");
+}
+
+TEST_F(Program, CtrlCEndsWithOneHundredThirty) {
+  std::string mesh = "OFF\n90000 30000 0\n";
+  for (int i = 0; i < 90000; ++i) mesh += std::to_string(i) + " " + std::to_string(i % 3) + " 0\n";
+  for (int i = 0; i < 90000; i += 3) {
+    mesh += "3 " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
+  }
+  const Ended ended = run_program({"distance", "-", "--source", "0"}, {.input = mesh, .interrupt = true});
+  EXPECT_EQ(ended.code, 130);
+  EXPECT_FALSE(ended.killed);
+  EXPECT_EQ(ended.out, "");
+  EXPECT_EQ(ended.err, "brushfire: interrupted\n");
+}
+
+TEST_F(Program, CompletionKnowsVerbsOptionsAndMethods) {
+  for (const char* shell : {"bash", "zsh"}) {
+    const Ended ended = run_program({"completion", shell});
+    EXPECT_EQ(ended.code, 0);
+    for (const char* word : {"info", "distance", "completion", "--source", "--json", "dijkstra", "double float"}) {
+      EXPECT_NE(ended.out.find(word), std::string::npos) << shell << " " << word;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace brushfire::test

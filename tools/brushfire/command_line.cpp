@@ -1,0 +1,191 @@
+// The parser, and the one place where failures become exit codes.
+#include "command_line.h"
+
+#include "interrupt.h"
+
+#include <brushfire/core/error.h>
+#include <brushfire/version.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <new>
+
+namespace brushfire::tool {
+namespace {
+
+// Where to look next, for those who typed something wrong.
+std::string help_hint(const CLI::App& app) {
+  std::string name = app.get_name();
+  for (const CLI::App* up = app.get_parent(); up != nullptr; up = up->get_parent()) name = up->get_name() + " " + name;
+  return " (see " + name + " --help)";
+}
+
+int exit_code(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::InvalidArgument:
+    case ErrorCode::IndexOutOfRange:
+      return kUsage;
+    case ErrorCode::InvalidMesh:
+    case ErrorCode::FileNotReadable:
+    case ErrorCode::FileMalformed:
+    case ErrorCode::UnknownFormat:
+      return kBadInput;
+    case ErrorCode::Cancelled:
+      return kInterrupted;
+    case ErrorCode::FileNotWritable:
+    case ErrorCode::TooLarge:
+      return kInternal;
+  }
+  return kInternal;
+}
+
+// An error is one line, whatever stands in a file name.
+int fail(int code, std::string message) {
+  std::replace_if(message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  std::fprintf(stderr, "brushfire: %s\n", message.c_str());
+  return code;
+}
+
+}  // namespace
+
+struct Verb::Parser {
+  CLI::App* app = nullptr;
+  Talk talk;
+  std::function<int(Talk&)> body;
+  std::map<const CLI::Option*, std::vector<std::string>> choices;
+};
+
+struct CommandLine::Implementation {
+  CLI::App app{"Geodesic distances and shortest paths on triangle meshes.", "brushfire"};
+  std::vector<std::unique_ptr<Verb::Parser>> verbs;
+};
+
+void Verb::argument(const char* name, std::string& value, const char* help) {
+  parser_.app->add_option(name, value, help)->required()->type_name("");
+}
+
+void Verb::option(const char* names, std::string& value, const char* placeholder, const char* help) {
+  parser_.app->add_option(names, value, help)->type_name(placeholder);
+}
+
+void Verb::option(const char* names, std::optional<double>& value, const char* placeholder, const char* help) {
+  parser_.app->add_option(names, value, help)->type_name(placeholder);
+}
+
+void Verb::option(const char* names, std::vector<std::string>& values, const char* placeholder, const char* help) {
+  parser_.app->add_option(names, values, help)->allow_extra_args(false)->type_name(placeholder);
+}
+
+void Verb::choice(const char* names, std::string& value, const std::vector<std::string>& choices, const char* help) {
+  std::string listed;
+  for (const std::string& c : choices) listed += (listed.empty() ? "" : ", ") + c;
+  CLI::Option* option = parser_.app->add_option(names, value, help + (": " + listed));
+  const auto one_of = [choices, listed](const std::string& text) {
+    return std::find(choices.begin(), choices.end(), text) != choices.end() ? std::string()
+                                                                            : "'" + text + "' is none of " + listed;
+  };
+  if (names[0] != '-') option->required();
+  option->check(CLI::Validator(one_of, ""))->type_name("NAME")->capture_default_str();
+  parser_.choices[option] = choices;
+}
+
+void Verb::flag(const char* names, bool& value, const char* help) { parser_.app->add_flag(names, value, help); }
+
+void Verb::talks() {
+  flag("--json", parser_.talk.json, "Print one JSON object with stable keys instead of words");
+  flag("-q,--quiet", parser_.talk.quiet, "No remarks and no progress bar on stderr");
+}
+
+void Verb::examples(const char* text) { parser_.app->footer(text); }
+
+void Verb::run(std::function<int(Talk&)> body) { parser_.body = std::move(body); }
+
+CommandLine::CommandLine() : implementation_(std::make_unique<Implementation>()) {
+  CLI::App& app = implementation_->app;
+  app.set_version_flag("--version", std::string("brushfire ") + kVersion);
+  app.set_help_flag("-h,--help", "Print this help");
+  app.require_subcommand(0, 1);
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
+  app.get_formatter()->label("Subcommands", "Verbs");
+  app.get_formatter()->label("Positionals", "Arguments");
+  app.get_formatter()->label("REQUIRED", "");
+  app.get_formatter()->column_width(28);
+  app.failure_message([](const CLI::App*, const CLI::Error& e) { return std::string(e.what()); });
+  app.footer(
+      "brushfire VERB --help tells more, with examples.\n"
+      "\n"
+      "Begin with:\n"
+      "  brushfire info bunny.ply\n"
+      "  brushfire distance bunny.ply --source 0 -o bunny-distance.ply\n"
+      "\n"
+      "Exit codes: 0 done, 1 internal error or output not writable, 2 usage, 3 unusable input file,\n"
+      "4 target unreachable, 130 interrupted.");
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::add(const char* name, const char* help, const std::function<void(Verb&)>& describe) {
+  Verb::Parser& parser = *implementation_->verbs.emplace_back(std::make_unique<Verb::Parser>());
+  parser.app = implementation_->app.add_subcommand(name, help);
+  parser.app->set_help_flag("-h,--help", "Print this help");
+  Verb verb(parser);
+  describe(verb);
+}
+
+int CommandLine::run(int argc, const char* const* argv) {
+  CLI::App& app = implementation_->app;
+  try {
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::Success& e) {  // --help, --version
+      const bool version = dynamic_cast<const CLI::CallForVersion*>(&e) != nullptr;
+      write_stdout(version ? std::string(e.what()) + "\n" : app.help());
+      return kOk;
+    } catch (const CLI::ParseError& e) {
+      const CLI::App* at = &app;
+      for (const CLI::App* sub : app.get_subcommands()) at = sub;
+      return fail(kUsage, e.what() + help_hint(*at));
+    }
+    for (const auto& verb : implementation_->verbs) {
+      if (!verb->app->parsed()) continue;
+      cancel_on_interrupt();
+      return verb->body(verb->talk);
+    }
+    write_stdout(app.help());
+    return kOk;
+  } catch (const Error& e) {
+    return fail(exit_code(e.code()), e.code() == ErrorCode::Cancelled ? "interrupted" : e.what());
+  } catch (const Unreachable& e) {
+    return fail(kUnreachable, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kInternal, "not enough memory");
+  } catch (const std::exception& e) {
+    return fail(kInternal, std::string("internal error: ") + e.what());
+  }
+}
+
+std::vector<VerbNames> CommandLine::names() const {
+  std::vector<VerbNames> verbs;
+  for (const auto& parser : implementation_->verbs) {
+    VerbNames& verb = verbs.emplace_back();
+    verb.name = parser->app->get_name();
+    verb.help = parser->app->get_description();
+    for (const CLI::Option* option : parser->app->get_options()) {
+      if (option->nonpositional()) {
+        OptionNames& names = verb.options.emplace_back();
+        for (const std::string& s : option->get_snames()) names.names.push_back("-" + s);
+        for (const std::string& l : option->get_lnames()) names.names.push_back("--" + l);
+        names.takes_value = option->get_items_expected_max() > 0;
+        names.help = option->get_description();
+        if (const auto found = parser->choices.find(option); found != parser->choices.end()) {
+          names.choices = found->second;
+        }
+      }
+    }
+  }
+  return verbs;
+}
+
+}  // namespace brushfire::tool

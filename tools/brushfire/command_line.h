@@ -1,0 +1,98 @@
+// The command line: verbs, their options and help. The parser behind it is known to command_line.cpp only.
+#pragma once
+
+#include "talk.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace brushfire::tool {
+
+// How the program ends. Scripts rely on these numbers.
+enum ExitCode : int {
+  kOk = 0,
+  kInternal = 1,     // a bug, no memory, an output that cannot be written
+  kUsage = 2,        // an argument that is not understood or names something that is not in the mesh
+  kBadInput = 3,     // an input file that cannot be read or is not a mesh
+  kUnreachable = 4,  // a target that no source reaches
+  kInterrupted = 130,
+};
+
+// Thrown by a verb whose answer is that there is no way: what() says to where.
+class Unreachable : public std::runtime_error {
+ public:
+  explicit Unreachable(const std::string& where)
+      : std::runtime_error("no source reaches '" + where + "' (within the radius, if one was given)") {}
+};
+
+// One verb, while it is being described: its arguments are bound to variables that its body then reads.
+class Verb {
+ public:
+  struct Parser;
+  explicit Verb(Parser& parser) : parser_(parser) {}
+
+  // A required argument without a dash.
+  void argument(const char* name, std::string& value, const char* help);
+  // `names`: "-o,--output". `placeholder` is what the help shows for the value.
+  void option(const char* names, std::string& value, const char* placeholder, const char* help);
+  void option(const char* names, std::optional<double>& value, const char* placeholder, const char* help);
+  // May be given several times.
+  void option(const char* names, std::vector<std::string>& values, const char* placeholder, const char* help);
+  // One of `choices`, which the help and the completion list.
+  void choice(const char* names, std::string& value, const std::vector<std::string>& choices, const char* help);
+  void flag(const char* names, bool& value, const char* help);
+  // --json and --quiet, which the body finds in its Talk.
+  void talks();
+  // Shown at the end of --help.
+  void examples(const char* text);
+  // What the verb does; called after parsing, returns the exit code.
+  void run(std::function<int(Talk&)> body);
+
+ private:
+  Parser& parser_;
+};
+
+// What shell completion needs to know about one option.
+struct OptionNames {
+  std::vector<std::string> names;    // "-o", "--output"
+  std::vector<std::string> choices;  // where the value is one of a few words
+  bool takes_value = false;
+  std::string help;  // first sentence
+};
+
+struct VerbNames {
+  std::string name, help;
+  std::vector<OptionNames> options;
+};
+
+class CommandLine {
+ public:
+  CommandLine();
+  ~CommandLine();
+
+  // `describe` binds the verb's arguments; what it binds them to must outlive run().
+  void add(const char* name, const char* help, const std::function<void(Verb&)>& describe);
+
+  // Parses and runs the verb. Never throws: every failure is one line on stderr and its exit code.
+  int run(int argc, const char* const* argv);
+
+  // All verbs with their options, for shell completion.
+  std::vector<VerbNames> names() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+// One function per verb, each in the file of that name.
+void add_info(CommandLine& command_line);
+void add_distance(CommandLine& command_line);
+void add_compare(CommandLine& command_line);
+void add_completion(CommandLine& command_line);
+
+}  // namespace brushfire::tool

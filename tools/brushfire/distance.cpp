@@ -1,0 +1,220 @@
+// brushfire distance: the distance of every vertex from the nearest source.
+#include "command_line.h"
+#include "interrupt.h"
+#include "where.h"
+
+#include <brushfire/core/error.h>
+#include <brushfire/io/read_mesh.h>
+#include <brushfire/solvers/distance.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+namespace brushfire::tool {
+namespace {
+
+constexpr const char* kExamples = R"(Where (for --source and --target):
+  17                vertex 17, counted from 0 in the file's order
+  f:120:.2,.3,.5    in face 120, with these weights of its three corners
+  1.5,0,-2          the point of the surface nearest to this position
+  17@0.5            any of them, with the value 0.5 to start from (sources only)
+
+Examples:
+  brushfire distance bunny.ply --source 0
+  brushfire distance bunny.ply --source 0 --source 1200@0.05 -o distance.npy
+  brushfire distance bunny.ply --sources landmarks.txt --radius 0.1 -o coloured.ply
+  brushfire distance bunny.ply --source 0 --target 5000 --target f:120:.2,.3,.5
+  brushfire distance bunny.ply --source 0 --method dijkstra --json
+
+Without -o and --target the result is told in words. Targets print one distance per line, inf and exit code 4
+where no source reaches. Vertices that cannot be reached, or lie beyond the radius, read inf in files.)";
+
+struct Arguments {
+  std::string file, sources_file, output;
+  std::vector<std::string> sources, targets;
+  std::string method{name_of(DistanceOptions{}.method)};
+  std::string precision = "double";
+  std::optional<double> radius;
+};
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+// Everything about one run that is told, in words or as JSON.
+struct Run {
+  Mesh mesh;
+  std::vector<Source> sources;
+  std::vector<Where> target_places;
+  DistanceField field;
+  double read_s = 0, set_up_s = 0, solve_s = 0;
+
+  // The vertex that is farthest away among those reached; kNoIndex where none is.
+  Index farthest() const {
+    Index best = kNoIndex;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const double d = field.distance[v];
+      if (d != kInfinity && (best == kNoIndex || d > field.distance[best])) best = v;
+    }
+    return best;
+  }
+};
+
+std::vector<Where> parse_sources(const Arguments& arguments) {
+  std::vector<Where> places;
+  for (const std::string& text : arguments.sources) places.push_back(parse_where(text));
+  if (!arguments.sources_file.empty()) {
+    for (Where& w : read_where_file(arguments.sources_file)) places.push_back(std::move(w));
+  }
+  if (places.empty()) {
+    throw Error(ErrorCode::InvalidArgument, arguments.sources_file.empty()
+                                                ? "where from? give --source or --sources"
+                                                : arguments.sources_file + ": no source in this file");
+  }
+  return places;
+}
+
+std::vector<Where> parse_targets(const Arguments& arguments) {
+  std::vector<Where> places;
+  for (const std::string& text : arguments.targets) {
+    places.push_back(parse_where(text));
+    if (places.back().has_offset) {
+      throw Error(ErrorCode::InvalidArgument, "'" + text + "': a target has no offset");
+    }
+  }
+  return places;
+}
+
+void check(const Arguments& arguments) {
+  if (arguments.radius && !(*arguments.radius >= 0)) {
+    throw Error(ErrorCode::InvalidArgument, "--radius " + exact(*arguments.radius) + " is not a number >= 0");
+  }
+}
+
+std::int64_t count(std::uint64_t n) { return static_cast<std::int64_t>(n); }
+
+std::string json(const Arguments& arguments, const Run& run) {
+  const DistanceField& field = run.field;
+  const Index farthest = run.farthest();
+  Record record;
+  record.add("file", arguments.file)
+      .add("method", std::string(name_of(field.method)))
+      .add("precision", arguments.precision)
+      .add("tolerance", nullptr)
+      .add("vertices", count(run.mesh.vertex_count()))
+      .add("faces", count(run.mesh.face_count()))
+      .add("sources", count(run.sources.size()))
+      .add("radius", arguments.radius.value_or(kInfinity))
+      .add("reached", count(field.reached))
+      .add("unreachable", count(field.unreachable))
+      .add("beyond_radius", count(field.beyond_radius))
+      .add("max_error_bound", field.max_error_bound)
+      .add("max_distance", farthest == kNoIndex ? kInfinity : field.distance[farthest])
+      .add("farthest_vertex", farthest == kNoIndex ? -1 : count(farthest))
+      .add("updates", count(field.updates))
+      .add("read_s", run.read_s)
+      .add("set_up_s", run.set_up_s)
+      .add("solve_s", run.solve_s);
+  std::vector<Record> targets;
+  for (std::size_t i = 0; i < run.target_places.size(); ++i) {
+    const bool reached = field.target_distance[i] != kInfinity;
+    Record& target = targets.emplace_back();
+    target.add("where", run.target_places[i].text)
+        .add("reached", reached)
+        .add("distance", field.target_distance[i])
+        .add("source", reached ? count(field.target_source[i]) : -1);
+  }
+  record.add("targets", std::move(targets)).add("output", arguments.output);
+  return record.json();
+}
+
+std::string in_words(const Arguments& arguments, const Run& run) {
+  const DistanceField& field = run.field;
+  std::string text = arguments.file + ": " + counted(run.mesh.vertex_count(), "vertex", "vertices") + ", " +
+                     counted(run.mesh.face_count(), "face", "faces") + "\n";
+  text += std::string(name_of(field.method)) + " from " + counted(run.sources.size(), "source", "sources") +
+          " reached " + counted(field.reached, "vertex", "vertices");
+  if (field.beyond_radius > 0) text += ", " + std::to_string(field.beyond_radius) + " lie beyond the radius";
+  if (field.unreachable > 0) text += ", " + std::to_string(field.unreachable) + " cannot be reached";
+  text += "\n";
+  if (const Index v = run.farthest(); v != kNoIndex) {
+    text += "farthest: vertex " + std::to_string(v) + " at " + readable(field.distance[v]) + "\n";
+  }
+  text += "read in " + duration(run.read_s) + ", set up in " + duration(run.set_up_s) + ", solved in " +
+          duration(run.solve_s) + "\n";
+  return text;
+}
+
+int distance_verb(const Arguments& arguments, const Talk& talk) {
+  // What can be wrong without the mesh is said before a large file is read.
+  check(arguments);
+  Run run;
+  const std::vector<Where> source_places = parse_sources(arguments);
+  run.target_places = parse_targets(arguments);
+
+  const Stopwatch reading;
+  run.mesh = read_mesh(arguments.file).mesh;
+  run.read_s = reading.seconds();
+  stop_if_interrupted();
+
+  const auto snap = [](Vec3) -> SurfacePoint {
+    throw Error(ErrorCode::InvalidArgument, "positions are not supported yet: give a vertex or a face and weights");
+  };
+  for (const Where& w : source_places) run.sources.push_back({resolve(w, run.mesh, snap), w.offset});
+
+  DistanceOptions options;
+  options.method = method_named(arguments.method);
+  options.precision = arguments.precision == "float" ? Precision::Float : Precision::Double;
+  options.max_distance = arguments.radius.value_or(kInfinity);
+  options.cancel = &cancel_token();
+  options.progress = talk.progress("distance");
+  for (const Where& w : run.target_places) options.targets.push_back(resolve(w, run.mesh, snap));
+
+  const Stopwatch solving;
+  run.field = distance(run.mesh, run.sources, options);
+  run.solve_s = solving.seconds();
+  talk.end_progress();
+
+  if (talk.json) {
+    write_stdout(json(arguments, run));
+  } else if (!run.target_places.empty()) {
+    std::string lines;
+    for (const double d : run.field.target_distance) lines += exact(d) + "\n";
+    write_stdout(lines);
+  } else if (arguments.output.empty()) {
+    write_stdout(in_words(arguments, run));
+  }
+  for (std::size_t i = 0; i < run.target_places.size(); ++i) {
+    if (run.field.target_distance[i] == kInfinity) throw Unreachable(run.target_places[i].text);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void add_distance(CommandLine& command_line) {
+  const auto arguments = std::make_shared<Arguments>();
+  std::vector<std::string> methods;
+  for (const Method m : all_methods()) methods.emplace_back(name_of(m));
+  command_line.add("distance", "Distance of every vertex from the nearest source", [&](Verb& verb) {
+    verb.argument("FILE", arguments->file, "The mesh: PLY, OBJ, OFF; - reads standard input");
+    verb.option("-s,--source", arguments->sources, "WHERE", "A source; may be repeated");
+    verb.option("--sources", arguments->sources_file, "LIST", "File of sources, one per line, # comments");
+    verb.option("-t,--target", arguments->targets, "WHERE", "Print the distance of this point; may be repeated");
+    verb.choice("-m,--method", arguments->method, methods, "How to compute");
+    verb.choice("--precision", arguments->precision, {"double", "float"}, "Arithmetic of the marching methods");
+    verb.option("-r,--radius", arguments->radius, "R", "Stop at this distance; what is farther reads inf");
+    verb.option("-o,--output", arguments->output, "FILE", "Write the field: .ply .vtk .npy .csv .json");
+    verb.talks();
+    verb.examples(kExamples);
+    verb.run([arguments](Talk& talk) { return distance_verb(*arguments, talk); });
+  });
+}
+
+}  // namespace brushfire::tool

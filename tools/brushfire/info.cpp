@@ -1,0 +1,92 @@
+// brushfire info: what is in a mesh.
+#include "command_line.h"
+
+#include <brushfire/io/read_mesh.h>
+#include <brushfire/mesh/report.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace brushfire::tool {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  brushfire info scan.ply
+  brushfire info scan.ply --json | jq .components
+  zcat scan.off.gz | brushfire info -
+)";
+
+void add_counts(Record& record, const MeshReport& r) {
+  const auto add = [&](const char* key, long long value) { record.add(key, std::int64_t{value}); };
+  add("vertices", r.vertices);
+  add("faces", r.faces);
+  add("edges", r.edges);
+  add("components", r.components);
+  add("euler_characteristic", r.euler_characteristic);
+  add("boundary_edges", r.boundary_edges);
+  add("nonmanifold_edges", r.nonmanifold_edges);
+  add("nonmanifold_vertices", r.nonmanifold_vertices);
+  add("misoriented_edges", r.misoriented_edges);
+  add("isolated_vertices", r.isolated_vertices);
+  add("zero_area_faces", r.zero_area_faces);
+  add("zero_length_edges", r.zero_length_edges);
+  add("repeated_index_faces", r.repeated_index_faces);
+  add("duplicate_faces", r.duplicate_faces);
+  add("duplicate_positions", r.duplicate_positions);
+  record.add("looks_like_soup", r.looks_like_soup);
+  record.add("min_edge_length", r.min_edge_length);
+  record.add("mean_edge_length", r.mean_edge_length);
+  record.add("max_edge_length", r.max_edge_length);
+  record.add("area", r.area);
+}
+
+// The counts that say something about any mesh; the unusual ones stand in the remarks.
+std::string in_words(const std::string& file, const LoadedMesh& loaded, const std::vector<std::string>& remarks) {
+  const MeshReport& r = loaded.mesh.report();
+  std::string text = file + " (" + loaded.format + ")\n";
+  const auto line = [&](const char* name, const std::string& value) {
+    char padded[32];
+    std::snprintf(padded, sizeof padded, "  %-22s", name);
+    text += padded + value + "\n";
+  };
+  line("vertices", std::to_string(r.vertices));
+  line("faces", std::to_string(r.faces));
+  line("edges", std::to_string(r.edges));
+  line("components", std::to_string(r.components));
+  line("Euler characteristic", std::to_string(r.euler_characteristic));
+  line("edge length",
+       readable(r.min_edge_length) + " .. " + readable(r.max_edge_length) + ", mean " + readable(r.mean_edge_length));
+  line("area", readable(r.area));
+  for (const std::string& remark : remarks) text += "  - " + remark + "\n";
+  return text;
+}
+
+int info(const std::string& file, const Talk& talk) {
+  const LoadedMesh loaded = read_mesh(file);
+  std::vector<std::string> remarks = loaded.remarks;
+  for (std::string& remark : loaded.mesh.report().remarks()) remarks.push_back(std::move(remark));
+  if (!talk.json) {
+    write_stdout(in_words(file, loaded, remarks));
+    return kOk;
+  }
+  Record record;
+  record.add("file", file).add("format", loaded.format);
+  add_counts(record, loaded.mesh.report());
+  record.add("remarks", remarks);
+  write_stdout(record.json());
+  return kOk;
+}
+
+}  // namespace
+
+void add_info(CommandLine& command_line) {
+  const auto file = std::make_shared<std::string>();
+  command_line.add("info", "What is in a mesh: counts, sizes, and whatever is unusual", [&](Verb& verb) {
+    verb.argument("FILE", *file, "The mesh: PLY, OBJ, OFF; - reads standard input");
+    verb.talks();
+    verb.examples(kExamples);
+    verb.run([file](Talk& talk) { return info(*file, talk); });
+  });
+}
+
+}  // namespace brushfire::tool

@@ -1,0 +1,51 @@
+// Places on a mesh as text: how --source, --target and the lines of --sources FILE are read.
+//
+//   17                 vertex 17
+//   f:120:.2,.3,.5     in face 120, with these weights of its three corners (they sum to one)
+//   1.5,0,-2           the point of the surface nearest to this position
+//   17@0.5             any of them, with the value 0.5 to start from (sources only)
+#pragma once
+
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_point.h>
+#include <brushfire/solvers/distance.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace brushfire::tool {
+
+// A number may be larger than any index: that it is not in the mesh is found out when it is looked up there.
+struct VertexPlace {
+  std::uint64_t index = 0;
+};
+
+struct FacePlace {
+  std::uint64_t face = 0;
+  std::array<double, 3> weights{};
+};
+
+struct Where {
+  std::variant<VertexPlace, FacePlace, Vec3> place;
+  double offset = 0;
+  bool has_offset = false;
+  std::string text;  // as it was written
+};
+
+// Throws Error(InvalidArgument) that quotes the text and says what was expected.
+Where parse_where(std::string_view text);
+
+// One place per line; empty lines and what follows a # are skipped. Throws Error(FileNotReadable), and
+// Error(InvalidArgument) with file and line number.
+std::vector<Where> read_where_file(const std::string& path);
+
+// Where it is on this mesh. `snap` finds the nearest surface point of a position. Throws Error(IndexOutOfRange) for a
+// vertex or face that the mesh has not, and whatever locate() throws.
+SurfacePoint resolve(const Where& where, const Mesh& mesh, const std::function<SurfacePoint(Vec3)>& snap);
+
+}  // namespace brushfire::tool
