@@ -1,0 +1,34 @@
+// One face laid flat, and points that several faces share.
+#pragma once
+
+#include <brushfire/core/types.h>
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_point.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace brushfire {
+
+// The corners of face f in the plane, counter-clockwise, in mesh.unit(); the longest edge lies on the x axis, so that
+// needles and caps keep their digits. All zero where the corners coincide.
+std::array<Vec2, 3> flat_corners(const Mesh& mesh, Index f);
+
+// The vector from one point of face f to another, in the plane of flat_corners.
+Vec2 flat_difference(const std::array<Vec2, 3>& corners, const std::array<double, 3>& from,
+                     const std::array<double, 3>& to);
+
+// The faces that hold the point: its own; all around its edge; all around its vertex. Ascending.
+std::vector<Index> faces_at(const Mesh& mesh, const PointLocation& point);
+
+// The point's weights in face f, where f holds it.
+std::optional<std::array<double, 3>> weights_in(const Mesh& mesh, const PointLocation& point, Index f);
+
+// A face that holds both points: `preferred` where it does, else the lowest; kNoIndex where there is none.
+Index common_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b, Index preferred = kNoIndex);
+
+// The straight distance of two points within face f, which holds both; mesh.unit().
+double distance_within(const Mesh& mesh, Index f, const PointLocation& a, const PointLocation& b);
+
+}  // namespace brushfire

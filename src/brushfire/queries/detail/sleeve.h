@@ -1,0 +1,64 @@
+// Sleeves: the faces that a piece of a path runs through, unfolded into the plane.
+#pragma once
+
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_point.h>
+
+#include <optional>
+#include <vector>
+
+namespace brushfire::detail {
+
+// From one face into the next over their common edge: `out` is the edge's halfedge in the face that is left, `in` the
+// one in the face that is entered.
+struct Step {
+  Index out = kNoIndex, in = kNoIndex;
+};
+
+// A piece of a path between two points, by the faces that it runs through.
+struct Leg {
+  PointLocation begin, end;  // begin lies in first_face, end in the last face
+  Index first_face = kNoIndex;
+  std::vector<Step> steps;
+
+  Index last_face() const { return steps.empty() ? first_face : Mesh::face_of(steps.back().in); }
+};
+
+// Takes away what a shortest path in the same sleeve never needs: steps over an edge and back again, and faces at both
+// ends that the end point can do without.
+void tidy(const Mesh& mesh, Leg& leg);
+
+// A leg whose sleeve holds the straight line from begin to end.
+struct StraightLeg {
+  Leg leg;
+  std::vector<double> crossing;  // [steps] where the line crosses, as a share of the way along `out`
+  double length = 0;             // mesh.unit()
+};
+
+// The shortest path through the leg's sleeve: straight pieces that meet at vertices. Also splits where a straight piece
+// runs over a vertex (within kTouch of the edge), so that every vertex on the path is an end of a piece.
+// O(steps x pieces) at worst, O(steps) where pieces are long.
+std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg);
+inline constexpr double kTouch = 1e-9;  // moving the path by this share of an edge costs its square: below rounding
+
+// The leg's points from begin to end, begin left out where it repeats `points.back()`.
+void append_points(const Mesh& mesh, const StraightLeg& leg, std::vector<SurfacePoint>& points);
+
+// A direction at a vertex: within the corner that halfedge `corner` names, `angle` from that halfedge.
+struct Direction {
+  Index corner = kNoIndex;
+  double angle = 0;
+};
+
+// The direction in which a straight leg that begins (ends) at a vertex leaves it (comes from).
+Direction direction_at_begin(const Mesh& mesh, const StraightLeg& leg);
+Direction direction_at_end(const Mesh& mesh, const StraightLeg& leg);
+
+// The shortest way around a vertex from one direction to another: its angle and the edges that it crosses.
+struct WayAround {
+  double angle = kInfinity;  // +inf: the directions are not connected around the vertex
+  std::vector<Step> steps;
+};
+WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& from, const Direction& to);
+
+}  // namespace brushfire::detail

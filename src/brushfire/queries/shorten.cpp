@@ -1,0 +1,307 @@
+// Rounds of "straighten every sleeve, go round vertices on the shorter side".
+#include <brushfire/queries/shorten.h>
+
+#include <brushfire/core/error.h>
+#include <brushfire/mesh/flat_face.h>
+#include <brushfire/queries/detail/sleeve.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace brushfire {
+namespace {
+
+using detail::Leg;
+using detail::Step;
+using detail::StraightLeg;
+using On = PointLocation::On;
+
+// An angle that misses pi by less gains less than rounding loses: cutting the corner shortens the two legs by a share
+// of its square.
+constexpr double kStraightAngle = 1e-8;
+
+// The halfedge of face f over the same edge as h.
+Index halfedge_in(const Mesh& mesh, Index h, Index f) {
+  Index g = h;
+  while (Mesh::face_of(g) != f) {
+    g = mesh.opposite()[g];
+    if (g == h) return kNoIndex;
+  }
+  return g;
+}
+
+// From points to legs between vertices: points within faces and edges only tell which faces are crossed.
+class LegBuilder {
+ public:
+  LegBuilder(const Mesh& mesh, const PointLocation& begin) : mesh_(mesh) { leg_.begin = begin; }
+
+  void enter(const PointLocation& at, Index face) {
+    if (leg_.first_face == kNoIndex) {
+      leg_.first_face = face;
+    } else if (at.on == On::Vertex) {
+      finish(at);
+      leg_.begin = at;
+      leg_.first_face = face;
+    } else if (face != leg_.last_face()) {
+      const Index out = halfedge_in(mesh_, at.halfedge, leg_.last_face());
+      leg_.steps.push_back({out, halfedge_in(mesh_, at.halfedge, face)});
+    }
+  }
+  void finish(const PointLocation& at) {
+    leg_.end = at;
+    legs_.push_back(std::move(leg_));
+    leg_ = {};
+  }
+  std::vector<Leg> take() { return std::move(legs_); }
+
+ private:
+  const Mesh& mesh_;
+  Leg leg_;
+  std::vector<Leg> legs_;
+};
+
+std::vector<Leg> legs_of(const Mesh& mesh, const std::vector<PointLocation>& at) {
+  LegBuilder builder(mesh, at.front());
+  Index face = kNoIndex;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    face = common_face(mesh, at[i], at[i + 1], face);
+    if (face == kNoIndex) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "points " + std::to_string(i) + " and " + std::to_string(i + 1) + " of a path share no face");
+    }
+    builder.enter(at[i], face);
+  }
+  builder.finish(at.back());
+  return builder.take();
+}
+
+bool same_vertex(const PointLocation& a, const PointLocation& b) {
+  return a.on == On::Vertex && b.on == On::Vertex && a.vertex == b.vertex;
+}
+
+double total_length(const std::vector<StraightLeg>& pieces) {
+  double sum = 0;
+  for (const StraightLeg& p : pieces) sum += p.length;
+  return sum;
+}
+
+// Two legs that meet, joined by the steps between them.
+Leg joined(const Leg& a, const std::vector<Step>& between, const Leg& b) {
+  Leg leg = a;
+  leg.end = b.end;
+  leg.steps.insert(leg.steps.end(), between.begin(), between.end());
+  leg.steps.insert(leg.steps.end(), b.steps.begin(), b.steps.end());
+  return leg;
+}
+
+class Shortener {
+ public:
+  Shortener(const Mesh& mesh, bool closed) : mesh_(mesh), closed_(closed) {}
+
+  std::vector<StraightLeg> run(const std::vector<Leg>& legs) {
+    std::vector<StraightLeg> best = straighten(legs);
+    if (closed_) best = without_free_corner(std::move(best));
+    while (true) {
+      auto [next, changed] = go_round_vertices(best);
+      if (!changed) return best;
+      std::vector<StraightLeg> shorter = straighten(next);
+      if (closed_) shorter = without_free_corner(std::move(shorter));
+      // Every round replaces corners by shorter ways; less than rounding means that the rest is rounding.
+      constexpr double kProgress = 4 * std::numeric_limits<double>::epsilon();
+      if (!(total_length(shorter) < total_length(best) * (1 - kProgress))) return best;
+      best = std::move(shorter);
+    }
+  }
+
+ private:
+  std::vector<StraightLeg> straighten(const std::vector<Leg>& legs) const {
+    std::vector<StraightLeg> pieces;
+    for (const Leg& leg : legs) {
+      for (StraightLeg& p : detail::shortest_in_sleeve(mesh_, leg)) {
+        // From a vertex to itself without leaving its faces: nothing.
+        if (p.length == 0 && p.leg.steps.empty() && same_vertex(p.leg.begin, p.leg.end)) continue;
+        pieces.push_back(std::move(p));
+      }
+    }
+    return pieces;
+  }
+
+  // One round: every vertex between two pieces that are both still as they were is passed on its shortest side.
+  std::pair<std::vector<Leg>, bool> go_round_vertices(const std::vector<StraightLeg>& pieces) const {
+    std::vector<Leg> legs;
+    bool changed = false;
+    std::size_t i = 0;
+    for (; i + 1 < pieces.size(); ++i) {
+      if (const auto way = shorter_way(pieces[i], pieces[i + 1])) {
+        legs.push_back(joined(pieces[i].leg, *way, pieces[i + 1].leg));
+        changed = true;
+        ++i;
+      } else {
+        legs.push_back(pieces[i].leg);
+      }
+    }
+    if (i < pieces.size()) legs.push_back(pieces[i].leg);
+    if (closed_ && !changed && !pieces.empty()) {
+      // The corner where the list closes; it is looked at last, so that no piece is used twice.
+      if (const auto way = shorter_way(pieces.back(), pieces.front())) {
+        const bool single = pieces.size() == 1;
+        Leg leg = single ? rotated(pieces.front().leg, *way) : joined(pieces.back().leg, *way, pieces.front().leg);
+        if (!single) {
+          legs.erase(legs.begin());
+          legs.pop_back();
+        }
+        legs.push_back(std::move(leg));
+        changed = true;
+      }
+    }
+    return {std::move(legs), changed};
+  }
+
+  // The steps around the vertex between two pieces, where the angle there is less than pi.
+  std::optional<std::vector<Step>> shorter_way(const StraightLeg& a, const StraightLeg& b) const {
+    if (!same_vertex(a.leg.end, b.leg.begin)) return std::nullopt;
+    if (a.length == 0 || b.length == 0) return std::nullopt;  // no direction, so no angle
+    detail::WayAround way = detail::shortest_way_around(mesh_, a.leg.end.vertex, detail::direction_at_end(mesh_, a),
+                                                        detail::direction_at_begin(mesh_, b));
+    if (!(way.angle < kPi - kStraightAngle)) return std::nullopt;
+    return std::move(way.steps);
+  }
+
+  // A closed curve that hangs on one vertex only and leaves it: it is cut open on an edge instead.
+  Leg rotated(const Leg& leg, const std::vector<Step>& way) const {
+    std::vector<Step> cycle = leg.steps;
+    cycle.insert(cycle.end(), way.begin(), way.end());
+    return cut_open(cycle, 0.5);
+  }
+
+  // The cyclic sleeve `cycle`, cut at its first edge, from the point at share t of that edge to the same point.
+  Leg cut_open(const std::vector<Step>& cycle, double t) const {
+    Leg leg;
+    leg.begin = on_halfedge(cycle.front().in, along_in(cycle.front(), t));
+    leg.end = on_halfedge(cycle.front().out, t);
+    leg.first_face = Mesh::face_of(cycle.front().in);
+    leg.steps.assign(cycle.begin() + 1, cycle.end());
+    return leg;
+  }
+
+  double along_in(const Step& step, double t) const {
+    return mesh_.from(step.in) == mesh_.from(step.out) ? t : 1 - t;
+  }
+
+  PointLocation on_halfedge(Index h, double t) const {
+    SurfacePoint p{Mesh::face_of(h), {0, 0, 0}};
+    p.weights[h % 3] = 1 - t;
+    p.weights[Mesh::next(h) % 3] = t;
+    return locate(mesh_, p);
+  }
+
+  // A closed curve begins and ends somewhere, and nothing holds it there unless that is a vertex.
+  std::vector<StraightLeg> without_free_corner(std::vector<StraightLeg> pieces) const {
+    for (int guard = 0; !pieces.empty() && pieces.front().leg.begin.on != On::Vertex; ++guard) {
+      if (pieces.size() > 1) {
+        // Some piece ends at a vertex: let the list begin there.
+        const StraightLeg last = pieces.back();
+        std::vector<Leg> legs;
+        for (std::size_t i = 1; i + 1 < pieces.size(); ++i) legs.push_back(pieces[i].leg);
+        legs.push_back(joined(last.leg, bridge(last.leg, pieces.front().leg), pieces.front().leg));
+        return straighten(legs);
+      }
+      std::vector<Step> cycle = pieces.front().leg.steps;
+      const std::vector<Step> closing = bridge(pieces.front().leg, pieces.front().leg);
+      cycle.insert(cycle.end(), closing.begin(), closing.end());
+      reduce(cycle);
+      if (cycle.empty()) return {};  // all in one face: it pulls together
+      const Leg leg = cut_open(cycle, best_cut(cycle));
+      pieces = straighten({leg});
+      const bool at_vertex = leg.begin.on == On::Vertex;
+      if (at_vertex || pieces.size() <= 1 || guard > 2) return pieces;
+    }
+    return pieces;
+  }
+
+  // From the last face of a into the first of b, which hold the same point: nothing, or over the edge it lies on.
+  std::vector<Step> bridge(const Leg& a, const Leg& b) const {
+    const Index from = a.last_face(), to = b.first_face;
+    if (from == to || a.end.on != On::Edge) return {};
+    return {{halfedge_in(mesh_, a.end.halfedge, from), halfedge_in(mesh_, a.end.halfedge, to)}};
+  }
+
+  // Cancels steps over an edge and back, around the cycle.
+  void reduce(std::vector<Step>& cycle) const {
+    bool again = true;
+    while (again && !cycle.empty()) {
+      again = false;
+      for (std::size_t i = 0; i < cycle.size(); ++i) {
+        const std::size_t j = (i + 1) % cycle.size();
+        if (i == j || cycle[i].in != cycle[j].out) continue;
+        if (cycle[i].out == cycle[j].in) {
+          cycle.erase(cycle.begin() + static_cast<std::ptrdiff_t>(std::max(i, j)));
+          cycle.erase(cycle.begin() + static_cast<std::ptrdiff_t>(std::min(i, j)));
+        } else {
+          cycle[i].in = cycle[j].in;
+          cycle.erase(cycle.begin() + static_cast<std::ptrdiff_t>(j));
+        }
+        again = true;
+        break;
+      }
+    }
+  }
+
+  // The length of the shortest closed curve through a cyclic sleeve is a convex function of where it crosses one edge;
+  // golden section finds its least value to half the digits in t, which is all of them in the length.
+  double best_cut(const std::vector<Step>& cycle) const {
+    const auto length = [&](double t) { return total_length(straighten({cut_open(cycle, t)})); };
+    constexpr double kGolden = 0.6180339887498949;
+    double low = 0, high = 1, a = 1 - kGolden, b = kGolden, at_a = length(a), at_b = length(b);
+    for (int i = 0; i < 60; ++i) {
+      if (at_a <= at_b) {
+        high = b;
+        b = a;
+        at_b = at_a;
+        a = high - kGolden * (high - low);
+        at_a = length(a);
+      } else {
+        low = a;
+        a = b;
+        at_a = at_b;
+        b = low + kGolden * (high - low);
+        at_b = length(b);
+      }
+    }
+    const double t = 0.5 * (low + high);
+    const double at_t = length(t);
+    if (length(0) <= at_t) return 0;
+    if (length(1) <= at_t) return 1;
+    return t;
+  }
+
+  const Mesh& mesh_;
+  bool closed_;
+};
+
+}  // namespace
+
+SurfacePath shorten(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed) {
+  if (points.empty()) throw Error(ErrorCode::InvalidArgument, "a path needs at least one point");
+  std::vector<PointLocation> at;
+  for (const SurfacePoint& p : points) at.push_back(locate(mesh, p));
+  if (closed) {
+    // A vertex to begin at, where there is one: it holds the curve until it is shown not to.
+    const auto vertex = std::find_if(at.begin(), at.end(), [](const PointLocation& p) { return p.on == On::Vertex; });
+    if (vertex != at.end()) std::rotate(at.begin(), vertex, at.end());
+    at.push_back(at.front());
+  }
+  SurfacePath path;
+  path.closed = closed;
+  std::vector<StraightLeg> pieces;
+  if (at.size() > 1) pieces = Shortener(mesh, closed).run(legs_of(mesh, at));
+  for (const StraightLeg& p : pieces) detail::append_points(mesh, p, path.points);
+  if (path.points.empty()) path.points.push_back({at.front().face, at.front().weights});
+  if (closed && path.points.size() > 1) path.points.pop_back();  // the first one again
+  path.length = total_length(pieces) * mesh.unit();
+  return path;
+}
+
+}  // namespace brushfire

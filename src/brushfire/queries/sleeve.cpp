@@ -1,0 +1,342 @@
+// Unfolding of sleeves, shortest paths in them, ways around vertices.
+//
+// Based on: Lee, Preparata, "Euclidean shortest paths in the presence of rectilinear barriers", 1984 (the funnel).
+#include <brushfire/queries/detail/sleeve.h>
+
+#include <brushfire/core/planar.h>
+#include <brushfire/mesh/flat_face.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <queue>
+#include <tuple>
+
+namespace brushfire::detail {
+namespace {
+
+using On = PointLocation::On;
+
+PointLocation at_vertex(const Mesh& mesh, Index vertex, Index face) {
+  PointLocation at;
+  at.on = On::Vertex;
+  at.vertex = vertex;
+  at.face = face;
+  const Face& t = mesh.faces()[face];
+  at.weights[static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin())] = 1;
+  return at;
+}
+
+bool lies_in(const Mesh& mesh, const PointLocation& point, Index face) {
+  return weights_in(mesh, point, face).has_value();
+}
+
+Vec2 placed(const std::array<Vec2, 3>& corners, const std::array<double, 3>& weights) {
+  return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+}
+
+// A sleeve laid out in the plane: the edge of every step, seen by someone who walks along, and both ends.
+struct Unfolded {
+  struct Portal {
+    Vec2 left, right;
+    bool left_is_from = false;  // whether the left end is the vertex that `out` starts from
+  };
+  std::vector<Portal> portals;
+  Vec2 begin, end;
+};
+
+Unfolded unfold(const Mesh& mesh, const Leg& leg) {
+  Unfolded flat;
+  flat.portals.reserve(leg.steps.size());
+  std::array<Vec2, 3> corners = flat_corners(mesh, leg.first_face);
+  bool mirrored = false;  // whether the present face lies clockwise
+  flat.begin = placed(corners, *weights_in(mesh, leg.begin, leg.first_face));
+  for (const Step& step : leg.steps) {
+    const Vec2 from = corners[step.out % 3], to = corners[Mesh::next(step.out) % 3];
+    // Leaving a counter-clockwise face, the edge's far end lies to the left.
+    flat.portals.push_back(mirrored ? Unfolded::Portal{from, to, true} : Unfolded::Portal{to, from, false});
+    const bool same_start = mesh.from(step.in) == mesh.from(step.out);
+    mirrored = mirrored != same_start;
+    const Vec2 u = same_start ? from : to, v = same_start ? to : from;
+    const double l = mesh.lengths()[step.in];
+    const Vec2 apex = apex_over_edge(l, mesh.lengths()[Mesh::previous(step.in)], mesh.lengths()[Mesh::next(step.in)],
+                                     mesh.double_areas()[Mesh::face_of(step.in)]);
+    const double stretch = 1 / norm(v - u);  // not 1/l: keeps rounding from turning into a change of scale
+    const Vec2 along = stretch * (v - u);
+    const Vec2 inward = mirrored ? Vec2{along.y, -along.x} : Vec2{-along.y, along.x};
+    corners[step.in % 3] = u;
+    corners[Mesh::next(step.in) % 3] = v;
+    corners[Mesh::previous(step.in) % 3] = u + apex.x * along + apex.y * inward;
+  }
+  flat.end = placed(corners, *weights_in(mesh, leg.end, leg.last_face()));
+  return flat;
+}
+
+// Where the shortest path from the beginning has to bend first: the step whose edge ends in that vertex.
+struct Bend {
+  std::size_t step;
+  bool left;
+};
+
+std::optional<Bend> first_bend(const Unfolded& flat) {
+  const Vec2 apex = flat.begin;
+  Vec2 left, right;  // from the apex to the funnel's sides
+  std::size_t left_step = 0, right_step = 0;
+  bool open = false;
+  for (std::size_t i = 0; i <= flat.portals.size(); ++i) {
+    const bool last = i == flat.portals.size();
+    const Vec2 l = (last ? flat.end : flat.portals[i].left) - apex;
+    const Vec2 r = (last ? flat.end : flat.portals[i].right) - apex;
+    if (!open) {
+      left = l;
+      right = r;
+      left_step = right_step = i;
+      open = true;
+      continue;
+    }
+    if (cross(right, r) >= 0) {  // the right side moves in
+      if (cross(left, r) > 0) return Bend{left_step, true};
+      right = r;
+      right_step = i;
+    }
+    if (cross(left, l) <= 0) {
+      if (cross(right, l) < 0) return Bend{right_step, false};
+      left = l;
+      left_step = i;
+    }
+  }
+  return std::nullopt;
+}
+
+Index vertex_of(const Mesh& mesh, const Leg& leg, const Unfolded& flat, const Bend& bend) {
+  const Index out = leg.steps[bend.step].out;
+  return flat.portals[bend.step].left_is_from == bend.left ? mesh.from(out) : mesh.to(out);
+}
+
+// Where the line from begin to end crosses a step's edge, as a share of `out`.
+double crossing_of(const Unfolded& flat, std::size_t step) {
+  const Unfolded::Portal& portal = flat.portals[step];
+  const Vec2 d = flat.end - flat.begin;
+  const double l = cross(d, portal.left - flat.begin), r = cross(d, portal.right - flat.begin);
+  double from_left = 0;
+  if (l > 0 && r < 0) {
+    from_left = l / (l - r);
+  } else if (std::abs(l) > std::abs(r)) {
+    from_left = 1;  // the line runs over the right end, or by rounding beyond it
+  }
+  return portal.left_is_from ? from_left : 1 - from_left;
+}
+
+// Splits the leg at a vertex of the edge of step `i`: the part before (returned) and the part after (left in `leg`).
+Leg split_off(const Mesh& mesh, Leg& leg, std::size_t i, Index vertex) {
+  Leg before;
+  before.begin = leg.begin;
+  before.first_face = leg.first_face;
+  before.steps.assign(leg.steps.begin(), leg.steps.begin() + static_cast<std::ptrdiff_t>(i));
+  before.end = at_vertex(mesh, vertex, Mesh::face_of(leg.steps[i].out));
+  leg.first_face = Mesh::face_of(leg.steps[i].in);
+  leg.begin = at_vertex(mesh, vertex, leg.first_face);
+  leg.steps.erase(leg.steps.begin(), leg.steps.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+  tidy(mesh, before);
+  tidy(mesh, leg);
+  return before;
+}
+
+// The first step whose edge the line crosses at a vertex.
+std::optional<std::pair<std::size_t, Index>> first_touch(const Mesh& mesh, const StraightLeg& straight) {
+  for (std::size_t i = 0; i < straight.crossing.size(); ++i) {
+    const double t = straight.crossing[i];
+    const Index out = straight.leg.steps[i].out;
+    if (t <= kTouch) return std::pair(i, mesh.from(out));
+    if (t >= 1 - kTouch) return std::pair(i, mesh.to(out));
+  }
+  return std::nullopt;
+}
+
+// Over an edge without length there is no "straight": the path goes through one of its vertices.
+std::optional<std::size_t> zero_length_step(const Mesh& mesh, const Leg& leg) {
+  for (std::size_t i = 0; i < leg.steps.size(); ++i) {
+    if (mesh.lengths()[leg.steps[i].out] == 0) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void tidy(const Mesh& mesh, Leg& leg) {
+  std::vector<Step> kept;
+  for (const Step& step : leg.steps) {
+    if (kept.empty() || kept.back().in != step.out) {
+      kept.push_back(step);
+    } else if (kept.back().out == step.in) {
+      kept.pop_back();  // over the edge and back
+    } else {
+      kept.back().in = step.in;  // over an edge of several faces and at once on to the third
+    }
+  }
+  std::size_t first = 0, last = kept.size();
+  while (first < last && lies_in(mesh, leg.begin, Mesh::face_of(kept[first].in))) {
+    leg.first_face = Mesh::face_of(kept[first++].in);
+  }
+  while (last > first && lies_in(mesh, leg.end, Mesh::face_of(kept[last - 1].out))) --last;
+  leg.steps.assign(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last));
+}
+
+std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg) {
+  std::vector<StraightLeg> pieces;
+  std::vector<Leg> waiting;  // the last one comes first
+  tidy(mesh, leg);
+  waiting.push_back(std::move(leg));
+  while (!waiting.empty()) {
+    Leg now = std::move(waiting.back());
+    waiting.pop_back();
+    std::optional<std::pair<std::size_t, Index>> split;
+    StraightLeg straight;
+    if (const auto step = zero_length_step(mesh, now)) {
+      split = {*step, mesh.from(now.steps[*step].out)};
+    } else {
+      const Unfolded flat = unfold(mesh, now);
+      if (const auto bend = first_bend(flat)) {
+        split = {bend->step, vertex_of(mesh, now, flat, *bend)};
+      } else {
+        straight.leg = now;
+        straight.length = norm(flat.end - flat.begin);
+        for (std::size_t i = 0; i < now.steps.size(); ++i) straight.crossing.push_back(crossing_of(flat, i));
+        split = first_touch(mesh, straight);
+      }
+    }
+    if (split) {
+      Leg before = split_off(mesh, now, split->first, split->second);
+      waiting.push_back(std::move(now));
+      waiting.push_back(std::move(before));
+    } else {
+      if (straight.leg.steps.empty()) {
+        straight.length = distance_within(mesh, straight.leg.first_face, straight.leg.begin, straight.leg.end);
+      }
+      pieces.push_back(std::move(straight));
+    }
+  }
+  return pieces;
+}
+
+void append_points(const Mesh& mesh, const StraightLeg& straight, std::vector<SurfacePoint>& points) {
+  const auto append = [&](SurfacePoint p) {
+    if (!points.empty()) {
+      const PointLocation a = locate(mesh, points.back()), b = locate(mesh, p);
+      if (const auto w = weights_in(mesh, a, b.face); w && *w == b.weights) return;
+    }
+    points.push_back(p);
+  };
+  append({straight.leg.begin.face, straight.leg.begin.weights});
+  for (std::size_t i = 0; i < straight.crossing.size(); ++i) {
+    const Index h = straight.leg.steps[i].out;
+    SurfacePoint p{Mesh::face_of(h), {0, 0, 0}};
+    p.weights[h % 3] = 1 - straight.crossing[i];
+    p.weights[Mesh::next(h) % 3] = straight.crossing[i];
+    append(p);
+  }
+  append({straight.leg.end.face, straight.leg.end.weights});
+}
+
+namespace {
+
+// From the vertex (corner k of face f) towards a point of f.
+Direction direction_towards(const Mesh& mesh, Index vertex, Index f, const std::array<double, 3>& point) {
+  const Face& t = mesh.faces()[f];
+  const auto k = static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
+  std::array<double, 3> own{0, 0, 0};
+  own[k] = 1;
+  const std::array<Vec2, 3> corners = flat_corners(mesh, f);
+  const Vec2 d = flat_difference(corners, own, point), side = corners[(k + 1) % 3] - corners[k];
+  const Index corner = 3 * f + static_cast<Index>(k);
+  const double full = mesh.corner_angle(corner);
+  return {corner, std::clamp(std::atan2(cross(side, d), dot(side, d)), 0.0, full)};
+}
+
+std::array<double, 3> weights_on(Index h, double t) {
+  std::array<double, 3> w{0, 0, 0};
+  w[h % 3] = 1 - t;
+  w[Mesh::next(h) % 3] = t;
+  return w;
+}
+
+}  // namespace
+
+Direction direction_at_begin(const Mesh& mesh, const StraightLeg& s) {
+  const Index f = s.leg.first_face;
+  const auto ahead = s.leg.steps.empty() ? *weights_in(mesh, s.leg.end, f)
+                                         : weights_on(s.leg.steps.front().out, s.crossing.front());
+  return direction_towards(mesh, s.leg.begin.vertex, f, ahead);
+}
+
+Direction direction_at_end(const Mesh& mesh, const StraightLeg& s) {
+  const Index f = s.leg.last_face();
+  if (s.leg.steps.empty()) return direction_towards(mesh, s.leg.end.vertex, f, *weights_in(mesh, s.leg.begin, f));
+  const Step& last = s.leg.steps.back();
+  const bool same_start = mesh.from(last.in) == mesh.from(last.out);
+  const double t = same_start ? s.crossing.back() : 1 - s.crossing.back();
+  return direction_towards(mesh, s.leg.end.vertex, f, weights_on(last.in, t));
+}
+
+// Dijkstra on the link: its nodes are the edges at the vertex (by their other end), its arcs the corners.
+WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& from, const Direction& to) {
+  struct Node {
+    double angle = kInfinity;
+    Index through = kNoIndex;  // the corner through which it was reached
+    Index before = kNoIndex;   // the edge before, kNoIndex: the beginning
+    bool done = false;
+  };
+  std::map<Index, Node> nodes;
+  using Entry = std::tuple<double, Index>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto offer = [&](Index edge, double angle, Index through, Index before) {
+    Node& n = nodes[edge];
+    if (angle < n.angle) {
+      n.angle = angle;
+      n.through = through;
+      n.before = before;
+      queue.emplace(angle, edge);
+    }
+  };
+  const auto ahead = [&](Index corner) { return mesh.to(corner); };                  // the edge that `corner` runs along
+  const auto behind = [&](Index corner) { return mesh.from(Mesh::previous(corner)); };  // the corner's other edge
+  offer(ahead(from.corner), from.angle, from.corner, kNoIndex);
+  offer(behind(from.corner), mesh.corner_angle(from.corner) - from.angle, from.corner, kNoIndex);
+
+  WayAround best;
+  Index best_edge = kNoIndex;
+  if (from.corner == to.corner) best.angle = std::abs(from.angle - to.angle);
+  while (!queue.empty()) {
+    const auto [angle, edge] = queue.top();
+    queue.pop();
+    Node& node = nodes[edge];
+    if (node.done || angle >= best.angle) continue;
+    node.done = true;
+    for (const Index corner : mesh.corners(vertex)) {
+      if (!mesh.is_face_usable(Mesh::face_of(corner)) || corner == node.through) continue;
+      const bool is_ahead = ahead(corner) == edge, is_behind = behind(corner) == edge;
+      if (!is_ahead && !is_behind) continue;
+      const double full = mesh.corner_angle(corner);
+      if (corner == to.corner) {
+        const double total = angle + (is_ahead ? to.angle : full - to.angle);
+        if (total < best.angle) {
+          best.angle = total;
+          best_edge = edge;
+        }
+      }
+      offer(is_ahead ? behind(corner) : ahead(corner), angle + full, corner, edge);
+    }
+  }
+  // Back along the edges: each is crossed from the corner that reached it into the one beyond.
+  Index into = to.corner;
+  for (Index edge = best_edge; edge != kNoIndex; edge = nodes[edge].before) {
+    const Index out = nodes[edge].through;
+    const auto halfedge = [&](Index corner) { return ahead(corner) == edge ? corner : Mesh::previous(corner); };
+    best.steps.push_back({halfedge(out), halfedge(into)});
+    into = out;
+  }
+  std::reverse(best.steps.begin(), best.steps.end());
+  return best;
+}
+
+}  // namespace brushfire::detail
