@@ -40,7 +40,8 @@ std::vector<Index> faces_at(const Mesh& mesh, const PointLocation& point) {
       std::sort(faces.begin(), faces.end());
       return faces;
     }
-    case PointLocation::On::Interior: break;
+    case PointLocation::On::Interior:
+      break;
   }
   return {point.face};
 }

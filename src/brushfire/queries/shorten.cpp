@@ -186,9 +186,7 @@ class Shortener {
     return leg;
   }
 
-  double along_in(const Step& step, double t) const {
-    return mesh_.from(step.in) == mesh_.from(step.out) ? t : 1 - t;
-  }
+  double along_in(const Step& step, double t) const { return mesh_.from(step.in) == mesh_.from(step.out) ? t : 1 - t; }
 
   PointLocation on_halfedge(Index h, double t) const {
     SurfacePoint p{Mesh::face_of(h), {0, 0, 0}};

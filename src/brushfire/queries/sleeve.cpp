@@ -264,8 +264,8 @@ std::array<double, 3> weights_on(Index h, double t) {
 
 Direction direction_at_begin(const Mesh& mesh, const StraightLeg& s) {
   const Index f = s.leg.first_face;
-  const auto ahead = s.leg.steps.empty() ? *weights_in(mesh, s.leg.end, f)
-                                         : weights_on(s.leg.steps.front().out, s.crossing.front());
+  const auto ahead =
+      s.leg.steps.empty() ? *weights_in(mesh, s.leg.end, f) : weights_on(s.leg.steps.front().out, s.crossing.front());
   return direction_towards(mesh, s.leg.begin.vertex, f, ahead);
 }
 
@@ -298,7 +298,7 @@ WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& f
       queue.emplace(angle, edge);
     }
   };
-  const auto ahead = [&](Index corner) { return mesh.to(corner); };                  // the edge that `corner` runs along
+  const auto ahead = [&](Index corner) { return mesh.to(corner); };  // the edge that `corner` runs along
   const auto behind = [&](Index corner) { return mesh.from(Mesh::previous(corner)); };  // the corner's other edge
   offer(ahead(from.corner), from.angle, from.corner, kNoIndex);
   offer(behind(from.corner), mesh.corner_angle(from.corner) - from.angle, from.corner, kNoIndex);
