@@ -4,6 +4,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
+#include <brushfire/solvers/fast_marching/fast_marching.h>
 #include <brushfire/solvers/windows/detail/engine.h>
 
 #include <algorithm>
@@ -16,10 +17,18 @@
 namespace brushfire {
 namespace {
 
-constexpr std::array kMethods{Method::Exact, Method::Dijkstra};
+constexpr std::array kMethods{Method::NovotniKlein, Method::NovotniKlein2002, Method::KimmelSethian, Method::Exact,
+                              Method::Dijkstra};
+
+// Methods that share one engine go by the name of the first.
+Method engine_of(Method method) {
+  return method == Method::NovotniKlein2002 || method == Method::KimmelSethian ? Method::NovotniKlein : method;
+}
 
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
   switch (method) {
+    case Method::NovotniKlein:
+      return detail::make_fast_marching(mesh);
     case Method::Exact:
       return detail::make_windows(mesh);
     case Method::Dijkstra:
@@ -165,8 +174,8 @@ struct DistanceSolver::Workspace {
 };
 
 detail::Engine& DistanceSolver::Workspace::engine(Method method) {
-  std::unique_ptr<detail::Engine>& engine = engines[method];
-  if (!engine) engine = make_engine(mesh, method);
+  std::unique_ptr<detail::Engine>& engine = engines[engine_of(method)];
+  if (!engine) engine = make_engine(mesh, engine_of(method));
   return *engine;
 }
 

@@ -1,0 +1,31 @@
+// Where fronts start and where they are read: straight lines inside one face and across one edge.
+#pragma once
+
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_point.h>
+
+#include <vector>
+
+namespace brushfire::detail {
+
+struct Seed {
+  Index vertex = kNoIndex;
+  double distance = 0;  // in mesh.unit()
+};
+
+// The corners of all faces that hold the point, with their straight distances (a vertex: itself; a point of an edge:
+// the corners of every face of that edge). Digits are kept however near to an edge or a corner the point is.
+std::vector<Seed> seeds_in_own_faces(const Mesh& mesh, const PointLocation& at);
+
+// In addition the vertices that the point sees across one edge of its face. A front that starts near an edge needs
+// them: the distances of the edge's ends do not tell on which side of the edge it started.
+std::vector<Seed> seeds_across_edges(const Mesh& mesh, const PointLocation& at);
+
+// The straight distance of two points that share a face, in mesh.unit(); +inf where they share none.
+double distance_in_shared_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b);
+
+// Position of the third corner of the face of halfedge g over edge h of the same ring, in the frame of h: from(h) at
+// (0,0), to(h) on the x axis, the corner above. The edge must not have length 0.
+Vec2 apex_over(const Mesh& mesh, Index h, Index g);
+
+}  // namespace brushfire::detail

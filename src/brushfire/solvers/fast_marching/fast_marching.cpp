@@ -1,0 +1,241 @@
+// From a problem to a march and back: starts, stops, targets, labels.
+#include <brushfire/solvers/fast_marching/fast_marching.h>
+
+#include <brushfire/core/error.h>
+#include <brushfire/core/planar.h>
+#include <brushfire/solvers/detail/start.h>
+#include <brushfire/solvers/fast_marching/march.h>
+#include <brushfire/solvers/fast_marching/ring_blocks.h>
+#include <brushfire/solvers/fast_marching/triangle_update.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace brushfire::detail {
+namespace {
+
+FrontModel front_model(Method method) {
+  if (method == Method::KimmelSethian) return FrontModel::Planar;
+  return method == Method::NovotniKlein2002 ? FrontModel::LiteralCircular : FrontModel::Circular;
+}
+
+double update(FrontModel model, const UpdateTriangle<double>& at, double t1, double t2) {
+  if (model == FrontModel::Planar) return PlanarFront::update(at, t1, t2);
+  if (model == FrontModel::LiteralCircular) return LiteralCircularFront::update(at, t1, t2);
+  return CircularFront::update(at, t1, t2);
+}
+
+// The methods in one precision.
+template <class T>
+class Marcher {
+ public:
+  explicit Marcher(const Mesh& mesh) : mesh_(mesh), rings_(build_rings<T>(mesh)) {
+    state_.resize(mesh.vertex_count());
+    // Half a mean edge measured best; the front is that wide, and order inside it does not matter.
+    state_.buckets_per_unit = static_cast<T>(2 / rings_.layout.mean_edge);
+  }
+
+  void solve(const Problem& problem, DistanceField& field) {
+    start(problem);
+    if (front_model(problem.options->method) == FrontModel::LiteralCircular) {
+      check_cancel(problem);
+      march_label_setting(rings_, state_, static_cast<T>(problem.max_distance - base_));
+    } else {
+      march(problem, field);
+    }
+    for (std::size_t i = 0; i < problem.targets.size(); ++i) evaluate(problem, i, field);
+    write(problem, field);
+  }
+
+ private:
+  void start(const Problem& problem) {
+    state_.reset();
+    final_ = kInfinity;
+    base_ = kInfinity;
+    for (const LocatedSource& s : problem.sources) base_ = std::min(base_, s.offset);
+    // One source needs no labels; neither does a method that keeps them anyway.
+    state_.labelled = problem.sources.size() > 1 || front_model(problem.options->method) == FrontModel::LiteralCircular;
+    if (state_.labelled && state_.label.empty()) state_.label.assign(state_.value.size(), kNoIndex);
+    state_.start.clear();
+    if (state_.labelled) state_.start.resize(problem.sources.back().label + 1);
+    for (const LocatedSource& s : problem.sources) {
+      const double offset = s.offset - base_;
+      if (state_.labelled) state_.start[s.label] = static_cast<T>(offset);
+      for (const Seed& seed : seeds_across_edges(mesh_, s.at)) {
+        state_.offer(rings_.layout.place[seed.vertex], static_cast<T>(offset + seed.distance), s.label);
+      }
+    }
+  }
+
+  void march(const Problem& problem, DistanceField& field) {
+    const auto slice = march_slice<T>(front_model(problem.options->method), state_.labelled);
+    std::size_t first_open_target = 0;
+    while (state_.queue.advance()) {
+      state_.front = static_cast<T>(state_.queue.cursor()) / state_.buckets_per_unit;
+      const double front = base_ + static_cast<double>(state_.front);
+      if (front > problem.max_distance) {
+        final_ = front;
+        break;
+      }
+      while (first_open_target < problem.targets.size() && is_final(problem, first_open_target, front, field)) {
+        ++first_open_target;
+      }
+      if (!problem.targets.empty() && first_open_target == problem.targets.size()) {
+        final_ = front;
+        break;
+      }
+      for (std::size_t i = 0; i < state_.queue.current().size();) {
+        i = slice(rings_, state_, i);
+        check_cancel(problem);
+      }
+      state_.queue.clear_current();
+    }
+  }
+
+  void check_cancel(const Problem& problem) const {
+    if (problem.options->cancel && problem.options->cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
+    if (problem.options->progress) {
+      problem.options->progress(static_cast<double>(state_.touched.size()) / std::max(1.0, 1.0 * mesh_.vertex_count()));
+    }
+  }
+
+  double value(Index v) const { return static_cast<double>(state_.value[rings_.layout.place[v]]); }
+  Index label(Index v) const {
+    const Index place = rings_.layout.place[v];
+    return state_.labelled ? state_.label[place] : value(v) < kInfinity ? 0 : kNoIndex;
+  }
+
+  bool is_final(const Problem& problem, std::size_t i, double front, DistanceField& field) const {
+    evaluate(problem, i, field);
+    return field.target_distance[i] < front;
+  }
+
+  // A target inside a face is one more corner: of the three triangles that it forms with the face's edges; on an edge,
+  // of those in all faces of the edge. From a source in the same face it is reached straight.
+  void evaluate(const Problem& problem, std::size_t i, DistanceField& field) const {
+    const PointLocation& at = problem.targets[i];
+    double best = kInfinity;
+    Index source = kNoIndex;
+    const auto offer = [&](double d, Index l) {
+      if (d < kInfinity && std::pair(d, l) < std::pair(best, source)) best = d, source = l;
+    };
+    if (at.on == PointLocation::On::Vertex) {
+      offer(base_ + value(at.vertex), label(at.vertex));
+    } else {
+      for (const Seed& seed : seeds_in_own_faces(mesh_, at)) {
+        offer(base_ + value(seed.vertex) + seed.distance, label(seed.vertex));
+      }
+      if (mesh_.is_face_usable(at.face)) through_faces(problem, at, offer);
+      for (const LocatedSource& s : problem.sources) {
+        const double d = distance_in_shared_face(mesh_, s.at, at);
+        offer(s.offset + d, s.label);
+      }
+    }
+    field.target_distance[i] = best;
+    field.target_source[i] = source;
+  }
+
+  template <class Offer>
+  void through_faces(const Problem& problem, const PointLocation& at, const Offer& offer) const {
+    if (at.on == PointLocation::On::Interior) {
+      for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
+        const double third = at.weights[Mesh::previous(h) % 3], ahead = at.weights[Mesh::next(h) % 3];
+        if (mesh_.lengths()[h] == 0) continue;
+        const Vec2 apex = apex_over(mesh_, h, h);
+        through_edge(problem, h, {ahead * mesh_.lengths()[h] + third * apex.x, third * apex.y}, offer);
+      }
+      return;
+    }
+    Index g = at.halfedge;
+    do {
+      const bool same_way = mesh_.from(g) == mesh_.from(at.halfedge);
+      const double t = at.weights[(same_way ? Mesh::next(at.halfedge) : at.halfedge) % 3];  // share of the way along g
+      for (const Index h : {Mesh::next(g), Mesh::previous(g)}) {
+        const double length = mesh_.lengths()[h];
+        if (length == 0) continue;
+        // The third corner over h is an end of g; the target lies between it and the end that h shares with g.
+        const Vec2 apex = apex_over(mesh_, h, h);
+        const Vec2 shared = h == Mesh::next(g) ? Vec2{0, 0} : Vec2{length, 0};
+        const double share = h == Mesh::next(g) ? 1 - t : t;
+        through_edge(problem, h, shared + share * (apex - shared), offer);
+      }
+      g = mesh_.opposite()[g];
+    } while (g != at.halfedge);
+  }
+
+  // `at`: the target in the frame of halfedge h.
+  template <class Offer>
+  void through_edge(const Problem& problem, Index h, Vec2 at, const Offer& offer) const {
+    const Index v1 = mesh_.from(h), v2 = mesh_.to(h);
+    const Index l = label(v1);
+    if (l == kNoIndex || l != label(v2)) return;
+    const double started = state_.labelled ? static_cast<double>(state_.start[l]) : 0.0;
+    const double length = mesh_.lengths()[h];
+    const UpdateTriangle<double> triangle{length, 1 / length, at.x, at.y, norm(at)};
+    const double d = update(front_model(problem.options->method), triangle, value(v1) - started, value(v2) - started);
+    offer(base_ + started + d, l);
+  }
+
+  void write(const Problem& problem, DistanceField& field) const {
+    field.updates = state_.pops;
+    field.beyond_radius = 0;
+    for (const Index place : state_.touched) {
+      const double d = base_ + static_cast<double>(state_.value[place]);
+      if (d >= final_) {
+        ++field.beyond_radius;
+        continue;
+      }
+      const Index v = rings_.layout.vertex[place];
+      field.distance[v] = d;
+      field.source[v] = state_.labelled ? state_.label[place] : problem.sources.front().label;
+      if (problem.touched) problem.touched->push_back(v);
+    }
+  }
+
+  Mesh mesh_;
+  Rings<T> rings_;
+  MarchState<T> state_;
+  double base_ = 0;           // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;  // where the front stopped
+};
+
+class FastMarching final : public Engine {
+ public:
+  explicit FastMarching(Mesh mesh) : mesh_(std::move(mesh)) {}
+
+  bool lists_touched() const override { return true; }
+
+  void solve(const Problem& problem, DistanceField& field) override {
+    if (problem.options->precision == Precision::Float && is_float_enough()) {
+      run(in_float_, problem, field);
+    } else {
+      run(in_double_, problem, field);
+    }
+  }
+
+ private:
+  template <class T>
+  void run(std::optional<Marcher<T>>& marcher, const Problem& problem, DistanceField& field) {
+    if (!marcher) marcher.emplace(mesh_);
+    marcher->solve(problem, field);
+  }
+
+  // Float lanes hold fourth powers of lengths in units of the mean edge.
+  bool is_float_enough() const {
+    constexpr double kLongest = 0x1p24;
+    const auto lengths = mesh_.lengths();
+    return lengths.empty() || *std::max_element(lengths.begin(), lengths.end()) < kLongest;
+  }
+
+  Mesh mesh_;
+  std::optional<Marcher<float>> in_float_;
+  std::optional<Marcher<double>> in_double_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh) { return std::make_unique<FastMarching>(mesh); }
+
+}  // namespace brushfire::detail

@@ -1,0 +1,55 @@
+// The march: takes vertices from the queue in order of their values and offers values to the rings around them.
+#pragma once
+
+#include <brushfire/core/bucket_queue.h>
+#include <brushfire/core/types.h>
+#include <brushfire/solvers/fast_marching/ring_blocks.h>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace brushfire::detail {
+
+enum class FrontModel : std::uint8_t { Circular, LiteralCircular, Planar };
+
+// The state of one run, by place in the ring layout, kept between runs: reset() costs what the last run touched.
+// The entry beyond the last vertex stands for "no vertex": never reached.
+template <class T>
+struct MarchState {
+  static constexpr T kUnreached = std::numeric_limits<T>::infinity();
+
+  std::vector<T> value;            // [vertex_count + 1], >= 0; +inf: not reached yet
+  std::vector<std::uint8_t> open;  // [vertex_count + 1] the value has not been offered to the neighbours yet
+  std::vector<Index> label;        // [vertex_count + 1] where labelled
+  std::vector<T> start;            // [labels] the value that each label's front started with
+  std::vector<Index> touched;      // places with a value
+  std::vector<T> fixed_value;      // [vertex_count + 1], label-setting only: the value once it is fixed
+  BucketQueue queue;
+  T buckets_per_unit = 1;
+  T front = 0;  // the lower end of the current bucket: what is below is final
+  bool labelled = false;  // several sources or offsets: fronts of different labels do not mix
+  std::uint64_t pops = 0;
+
+  void resize(Index vertex_count);
+  void reset();
+  BucketQueue::Bucket bucket_of(T v) const;
+  void offer(Index place, T v, Index source);  // from outside the march: keeps the lowest (value, label)
+};
+
+// Takes up to kSlice vertices from the current bucket, from number `begin` on, and offers their values to their
+// neighbours; what improves a vertex puts it back into the queue. Returns the number to go on with.
+inline constexpr std::size_t kSlice = 8192;
+
+template <class T>
+using MarchSlice = std::size_t (*)(const Rings<T>&, MarchState<T>&, std::size_t begin);
+
+// The variant for this processor.
+template <class T>
+MarchSlice<T> march_slice(FrontModel model, bool labelled);
+
+// Label-setting in strict order, as the paper of 2002 has it, up to `limit`.
+template <class T>
+void march_label_setting(const Rings<T>& rings, MarchState<T>& state, T limit);
+
+}  // namespace brushfire::detail

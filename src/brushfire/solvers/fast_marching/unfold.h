@@ -1,0 +1,30 @@
+// Support for obtuse corners: triangles that reach through the opposite edge into the faces behind it.
+//
+// Based on: Kimmel, Sethian (1998), Computing Geodesic Paths on Manifolds, section 4.
+#pragma once
+
+#include <brushfire/mesh/mesh.h>
+
+#include <vector>
+
+namespace brushfire::detail {
+
+// A triangle of the plane into which the faces behind an obtuse corner were unrolled: the corner lies at (0,0), the
+// other two vertices where these say. The straight lines from the corner to points between them stay in those faces.
+struct UnfoldedTriangle {
+  Index corner_vertex = kNoIndex;
+  Index first = kNoIndex, second = kNoIndex;
+  Vec2 at_first, at_second;
+};
+
+// True where the angle at the corner of halfedge h is obtuse (beyond rounding: right angles are not).
+bool is_obtuse(const Mesh& mesh, Index h);
+
+// Splits the obtuse angle at the corner of halfedge h into acute ones: unrolls faces behind the opposite edge, one by
+// one, until a vertex appears that splits it, and the same with what is left of the angle. Appends the triangles;
+// stops short at a boundary, a non-manifold edge or after kMaxUnfolded faces.
+void unfold_obtuse_corner(const Mesh& mesh, Index h, std::vector<UnfoldedTriangle>& triangles);
+
+inline constexpr int kMaxUnfolded = 64;
+
+}  // namespace brushfire::detail
