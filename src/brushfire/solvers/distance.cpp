@@ -17,7 +17,7 @@
 namespace brushfire {
 namespace {
 
-constexpr std::array kMethods{Method::NovotniKlein, Method::NovotniKlein2002, Method::KimmelSethian, Method::Exact,
+constexpr std::array kMethods{Method::Exact, Method::NovotniKlein, Method::NovotniKlein2002, Method::KimmelSethian,
                               Method::Dijkstra};
 
 // Methods that share one engine go by the name of the first.
@@ -27,10 +27,10 @@ Method engine_of(Method method) {
 
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
   switch (method) {
-    case Method::NovotniKlein:
-      return detail::make_fast_marching(mesh);
     case Method::Exact:
       return detail::make_windows(mesh);
+    case Method::NovotniKlein:
+      return detail::make_fast_marching(mesh);
     case Method::Dijkstra:
       return detail::make_dijkstra(mesh);
     default:

@@ -9,20 +9,73 @@
 namespace brushfire::detail {
 namespace {
 
-// Adds what the point sees across edge h of its own face.
-void add_seeds_across(const Mesh& mesh, const PointLocation& at, Index h, std::vector<Seed>& seeds) {
-  const double length = mesh.lengths()[h];
-  if (length == 0) return;
-  const Vec2 own = apex_over(mesh, h, h);
-  const double ahead = at.weights[Mesh::next(h) % 3], third = at.weights[Mesh::previous(h) % 3];
-  const Vec2 below{ahead * length + third * own.x, third * own.y};  // the point lies at (x,-y)
-  for (Index g = mesh.opposite()[h]; g != h; g = mesh.opposite()[g]) {
-    const Vec2 apex = apex_over(mesh, h, g);
-    const double height = apex.y + below.y;
-    const double crossing = below.x * apex.y + apex.x * below.y;
-    if (!(height > 0) || crossing < 0 || crossing > length * height) continue;
-    seeds.push_back({mesh.from(Mesh::previous(g)), std::hypot(apex.x - below.x, height)});
+// What a point sees of an edge: the point lies at `start`, on or below the edge, in the frame of the edge from its
+// vertex `first` on; `left` and `right` are directions from the point that bound what it sees.
+struct Sight {
+  Index edge = kNoIndex, first = kNoIndex;
+  Vec2 start, left, right;
+  int crossed = 0;
+};
+
+Sight whole_edge(const Mesh& mesh, Index h, Vec2 start) {
+  return {h, mesh.from(h), start, Vec2{0, 0} - start, Vec2{mesh.lengths()[h], 0} - start, 0};
+}
+
+// Into the frame of the edge from `origin` towards `end`.
+Vec2 turned(Vec2 along, Vec2 a) { return {dot(along, a), cross(along, a)}; }
+
+// The far sides of the face of halfedge g, where the point sees them through s, whose edge has `apex` above it.
+void look_through(const Mesh& mesh, const Sight& s, Index g, Vec2 apex, std::vector<Sight>& sights) {
+  const Vec2 to_apex = apex - s.start;
+  const bool apex_is_left = cross(s.left, to_apex) > 0, apex_is_right = cross(to_apex, s.right) > 0;
+  const bool same_way = mesh.from(g) == s.first;
+  const Index left_edge = same_way ? Mesh::previous(g) : Mesh::next(g);
+  const Index right_edge = same_way ? Mesh::next(g) : Mesh::previous(g);
+  if (!apex_is_left && mesh.lengths()[left_edge] > 0) {
+    const Vec2 along = (1 / mesh.lengths()[left_edge]) * apex;
+    sights.push_back({left_edge, s.first, turned(along, s.start), turned(along, s.left),
+                      turned(along, apex_is_right ? s.right : to_apex), s.crossed + 1});
   }
+  if (!apex_is_right && mesh.lengths()[right_edge] > 0) {
+    const Vec2 along = (1 / mesh.lengths()[right_edge]) * (Vec2{mesh.lengths()[s.edge], 0} - apex);
+    sights.push_back({right_edge, mesh.from(Mesh::previous(g)), turned(along, s.start - apex),
+                      turned(along, apex_is_left ? s.left : to_apex), turned(along, s.right), s.crossed + 1});
+  }
+}
+
+// The edges that a point sees first: all of its face, the others of the faces of its edge, or those opposite to it.
+std::vector<Sight> first_sights(const Mesh& mesh, const PointLocation& at) {
+  std::vector<Sight> sights;
+  if (at.on == PointLocation::On::Vertex) {
+    for (const Index corner : mesh.corners(at.vertex)) {
+      const Index h = Mesh::next(corner);
+      if (!mesh.is_face_usable(Mesh::face_of(h)) || mesh.lengths()[h] == 0) continue;
+      const Vec2 own = apex_over(mesh, h, h);
+      sights.push_back(whole_edge(mesh, h, {own.x, -own.y}));
+    }
+    return sights;
+  }
+  const auto add = [&](Index h, double ahead, double third) {
+    if (mesh.lengths()[h] == 0) return;
+    const Vec2 own = apex_over(mesh, h, h);
+    sights.push_back(whole_edge(mesh, h, {ahead * mesh.lengths()[h] + third * own.x, -third * own.y}));
+  };
+  if (at.on == PointLocation::On::Interior) {
+    for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
+      add(h, at.weights[Mesh::next(h) % 3], at.weights[Mesh::previous(h) % 3]);
+    }
+    return sights;
+  }
+  const double at_first = at.weights[at.halfedge % 3], at_second = at.weights[Mesh::next(at.halfedge) % 3];
+  Index g = at.halfedge;
+  do {
+    const bool same_way = mesh.from(g) == mesh.from(at.halfedge);
+    const double at_from = same_way ? at_first : at_second, at_to = same_way ? at_second : at_first;
+    add(Mesh::next(g), 0, at_from);  // from to(g) to the apex; from(g) is its third corner
+    add(Mesh::previous(g), at_from, at_to);
+    g = mesh.opposite()[g];
+  } while (g != at.halfedge);
+  return sights;
 }
 
 // The point's weights at the corners of face f; false where the point is not in that face.
@@ -63,6 +116,30 @@ double distance_in_face(const Mesh& mesh, Index f, const std::array<double, 3>& 
   return std::hypot(ahead * length + third * apex.x, third * apex.y);
 }
 
+// From inside a face, across one of its edges; +inf where b is not to be seen there.
+double distance_across_edge(const Mesh& mesh, const PointLocation& a, const PointLocation& b) {
+  double shortest = kInfinity;
+  std::array<double, 3> wb;
+  for (Index h = 3 * a.face; h < 3 * a.face + 3; ++h) {
+    const double length = mesh.lengths()[h];
+    if (length == 0 || !mesh.is_face_usable(a.face)) continue;
+    const Vec2 own = apex_over(mesh, h, h);
+    const double ahead = a.weights[Mesh::next(h) % 3], third = a.weights[Mesh::previous(h) % 3];
+    const Vec2 below{ahead * length + third * own.x, third * own.y};  // a lies at (x,-y)
+    for (Index g = mesh.opposite()[h]; g != h; g = mesh.opposite()[g]) {
+      if (!weights_in(mesh, b, Mesh::face_of(g), wb)) continue;
+      const Index to = mesh.from(g) == mesh.from(h) ? Mesh::next(g) : g;  // the corner of g's face at to(h)
+      const Vec2 apex = apex_over(mesh, h, g);
+      const double w_to = wb[to % 3], w_apex = wb[Mesh::previous(g) % 3];
+      const Vec2 above{w_to * length + w_apex * apex.x, w_apex * apex.y};
+      const double height = above.y + below.y, crossing = below.x * above.y + above.x * below.y;
+      if (crossing < 0 || crossing > length * height) continue;
+      shortest = std::min(shortest, std::hypot(above.x - below.x, height));
+    }
+  }
+  return shortest;
+}
+
 }  // namespace
 
 Vec2 apex_over(const Mesh& mesh, Index h, Index g) {
@@ -90,15 +167,30 @@ std::vector<Seed> seeds_in_own_faces(const Mesh& mesh, const PointLocation& at) 
   return seeds;
 }
 
-std::vector<Seed> seeds_across_edges(const Mesh& mesh, const PointLocation& at) {
+std::vector<Seed> seeds_in_sight(const Mesh& mesh, const PointLocation& at, int crossings, double limit) {
   std::vector<Seed> seeds = seeds_in_own_faces(mesh, at);
-  if (at.on == PointLocation::On::Interior) {
-    for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) add_seeds_across(mesh, at, h, seeds);
+  if (!mesh.is_face_usable(at.face) && at.on != PointLocation::On::Vertex) return seeds;
+  std::vector<Sight> sights = first_sights(mesh, at);
+  for (std::size_t i = 0; i < sights.size() && i < kMaxSights; ++i) {
+    const Sight s = sights[i];
+    if (s.crossed >= crossings) break;
+    const double length = mesh.lengths()[s.edge];
+    for (Index g = mesh.opposite()[s.edge]; g != s.edge; g = mesh.opposite()[g]) {
+      Vec2 apex = apex_over(mesh, s.edge, g);
+      if (mesh.from(s.edge) != s.first) apex.x = length - apex.x;
+      const Vec2 to_apex = apex - s.start;
+      const double distance = std::hypot(to_apex.x, to_apex.y);
+      if (!(to_apex.y > 0) || distance > limit) continue;
+      if (cross(s.left, to_apex) <= 0 && cross(to_apex, s.right) <= 0) {
+        seeds.push_back({mesh.from(Mesh::previous(g)), distance});
+      }
+      look_through(mesh, s, g, apex, sights);
+    }
   }
   return seeds;
 }
 
-double distance_in_shared_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b) {
+double straight_distance(const Mesh& mesh, const PointLocation& a, const PointLocation& b) {
   double shortest = kInfinity;
   std::array<double, 3> wa, wb;
   const auto try_face = [&](Index f) {
@@ -114,6 +206,7 @@ double distance_in_shared_face(const Mesh& mesh, const PointLocation& a, const P
   if (a.on == PointLocation::On::Vertex) {
     for (const Index h : mesh.corners(a.vertex)) try_face(Mesh::face_of(h));
   }
+  if (a.on == PointLocation::On::Interior) shortest = std::min(shortest, distance_across_edge(mesh, a, b));
   return shortest;
 }
 

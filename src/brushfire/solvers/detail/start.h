@@ -17,12 +17,17 @@ struct Seed {
 // the corners of every face of that edge). Digits are kept however near to an edge or a corner the point is.
 std::vector<Seed> seeds_in_own_faces(const Mesh& mesh, const PointLocation& at);
 
-// In addition the vertices that the point sees across one edge of its face. A front that starts near an edge needs
-// them: the distances of the edge's ends do not tell on which side of the edge it started.
-std::vector<Seed> seeds_across_edges(const Mesh& mesh, const PointLocation& at);
+// In addition the vertices that the point sees in a straight line across up to `crossings` edges, nearest faces first,
+// kMaxSights faces at most, not farther than `limit` (in mesh.unit()). A front that starts near an edge, or inside the
+// faces that an obtuse corner is unfolded through, needs them: there the distances of two vertices do not tell where it
+// started.
+std::vector<Seed> seeds_in_sight(const Mesh& mesh, const PointLocation& at, int crossings, double limit);
 
-// The straight distance of two points that share a face, in mesh.unit(); +inf where they share none.
-double distance_in_shared_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b);
+inline constexpr std::size_t kMaxSights = 1024;
+
+// The straight distance of two points that share a face, or of a point inside a face and one that it sees across one
+// edge, in mesh.unit(); +inf for all others.
+double straight_distance(const Mesh& mesh, const PointLocation& a, const PointLocation& b);
 
 // Position of the third corner of the face of halfedge g over edge h of the same ring, in the frame of h: from(h) at
 // (0,0), to(h) on the x axis, the corner above. The edge must not have length 0.

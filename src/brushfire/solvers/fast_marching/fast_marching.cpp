@@ -41,9 +41,9 @@ class Marcher {
     start(problem);
     if (front_model(problem.options->method) == FrontModel::LiteralCircular) {
       check_cancel(problem);
-      march_label_setting(rings_, state_, static_cast<T>(problem.max_distance - base_));
+      march_label_setting(rings_, state_, static_cast<T>(last_front(problem) - base_));
     } else {
-      march(problem, field);
+      march(problem);
     }
     for (std::size_t i = 0; i < problem.targets.size(); ++i) evaluate(problem, i, field);
     write(problem, field);
@@ -60,26 +60,29 @@ class Marcher {
     if (state_.labelled && state_.label.empty()) state_.label.assign(state_.value.size(), kNoIndex);
     state_.start.clear();
     if (state_.labelled) state_.start.resize(problem.sources.back().label + 1);
+    // The other two are given what their papers give them: the corners around the source.
+    const int crossings = problem.options->method == Method::NovotniKlein ? rings_.layout.longest_unfolding : 0;
     for (const LocatedSource& s : problem.sources) {
       const double offset = s.offset - base_;
       if (state_.labelled) state_.start[s.label] = static_cast<T>(offset);
-      for (const Seed& seed : seeds_across_edges(mesh_, s.at)) {
+      for (const Seed& seed : seeds_in_sight(mesh_, s.at, crossings, problem.max_distance - s.offset)) {
         state_.offer(rings_.layout.place[seed.vertex], static_cast<T>(offset + seed.distance), s.label);
       }
     }
   }
 
-  void march(const Problem& problem, DistanceField& field) {
+  void march(const Problem& problem) {
     const auto slice = march_slice<T>(front_model(problem.options->method), state_.labelled);
+    const double last = last_front(problem);
     std::size_t first_open_target = 0;
     while (state_.queue.advance()) {
       state_.front = static_cast<T>(state_.queue.cursor()) / state_.buckets_per_unit;
       const double front = base_ + static_cast<double>(state_.front);
-      if (front > problem.max_distance) {
+      if (front > last) {
         final_ = front;
         break;
       }
-      while (first_open_target < problem.targets.size() && is_final(problem, first_open_target, front, field)) {
+      while (first_open_target < problem.targets.size() && is_final(problem.targets[first_open_target], front)) {
         ++first_open_target;
       }
       if (!problem.targets.empty() && first_open_target == problem.targets.size()) {
@@ -107,13 +110,27 @@ class Marcher {
     return state_.labelled ? state_.label[place] : value(v) < kInfinity ? 0 : kNoIndex;
   }
 
-  bool is_final(const Problem& problem, std::size_t i, double front, DistanceField& field) const {
-    evaluate(problem, i, field);
-    return field.target_distance[i] < front;
+  // A target is read from the corners of its faces, so these have to be final.
+  bool is_final(const PointLocation& at, double front) const {
+    if (at.on == PointLocation::On::Vertex) return base_ + value(at.vertex) < front;
+    for (const Seed& seed : seeds_in_own_faces(mesh_, at)) {
+      if (!(base_ + value(seed.vertex) < front)) return false;
+    }
+    return true;
+  }
+
+  // How far the front has to go for what is asked within max_distance: to the corners around the targets, too.
+  double last_front(const Problem& problem) const {
+    double around = 0;
+    for (const PointLocation& at : problem.targets) {
+      if (at.on == PointLocation::On::Vertex) continue;
+      for (const Seed& seed : seeds_in_own_faces(mesh_, at)) around = std::max(around, seed.distance);
+    }
+    return problem.max_distance + around;
   }
 
   // A target inside a face is one more corner: of the three triangles that it forms with the face's edges; on an edge,
-  // of those in all faces of the edge. From a source in the same face it is reached straight.
+  // of those in all faces of the edge. From a source in the same face or the next it is reached straight.
   void evaluate(const Problem& problem, std::size_t i, DistanceField& field) const {
     const PointLocation& at = problem.targets[i];
     double best = kInfinity;
@@ -129,7 +146,7 @@ class Marcher {
       }
       if (mesh_.is_face_usable(at.face)) through_faces(problem, at, offer);
       for (const LocatedSource& s : problem.sources) {
-        const double d = distance_in_shared_face(mesh_, s.at, at);
+        const double d = straight_distance(mesh_, s.at, at);
         offer(s.offset + d, s.label);
       }
     }
@@ -173,7 +190,7 @@ class Marcher {
     if (l == kNoIndex || l != label(v2)) return;
     const double started = state_.labelled ? static_cast<double>(state_.start[l]) : 0.0;
     const double length = mesh_.lengths()[h];
-    const UpdateTriangle<double> triangle{length, 1 / length, at.x, at.y, norm(at)};
+    const UpdateTriangle<double> triangle{length, 1 / length, at.x, at.y, norm(at), true};
     const double d = update(front_model(problem.options->method), triangle, value(v1) - started, value(v2) - started);
     offer(base_ + started + d, l);
   }

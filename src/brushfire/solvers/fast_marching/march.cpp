@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -51,10 +52,11 @@ BRUSHFIRE_INLINE std::uint32_t offers_of(const RingBlock<T>& block, const T* sup
       at_a = label[a] == own_label ? at_a - start : MarchState<T>::kUnreached;
       at_b = label[b] == own_label ? at_b - start : MarchState<T>::kUnreached;
     }
-    const T la = block.length_a[k], lb = block.length_b[k], dot = block.dot[k], cross = block.cross[k];
+    const T la = std::abs(block.length_a[k]), lb = std::abs(block.length_b[k]), dot = block.dot[k],
+            cross = block.cross[k];
     const T ia = 1 / la, ib = 1 / lb;
-    T to_a = Front::update(UpdateTriangle<T>{lb, ib, dot * ib, cross * ib, la}, t, at_b);
-    T to_b = Front::update(UpdateTriangle<T>{la, ia, dot * ia, cross * ia, lb}, t, at_a);
+    T to_a = Front::update(UpdateTriangle<T>{lb, ib, dot * ib, cross * ib, la, block.length_a[k] < 0}, t, at_b);
+    T to_b = Front::update(UpdateTriangle<T>{la, ia, dot * ia, cross * ia, lb, block.length_b[k] < 0}, t, at_a);
     if constexpr (kLabelled) {
       to_a += start;
       to_b += start;
@@ -78,7 +80,7 @@ BRUSHFIRE_INLINE void accept(MarchState<T>& s, Index w, T offer, Index label) {
   } else {
     if (!lower) return;
   }
-  if (offer < s.front || (s.open[w] & ~kOpen) >= kMaxPops) return;
+  if ((s.open[w] & ~kOpen) >= kMaxPops) return;
   if (old == MarchState<T>::kUnreached) s.touched.push_back(w);
   s.value[w] = offer;
   s.open[w] |= kOpen;

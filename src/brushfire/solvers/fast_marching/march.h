@@ -27,7 +27,7 @@ struct MarchState {
   std::vector<T> fixed_value;      // [vertex_count + 1], label-setting only: the value once it is fixed
   BucketQueue queue;
   T buckets_per_unit = 1;
-  T front = 0;  // the lower end of the current bucket: what is below is final
+  T front = 0;            // the lower end of the current bucket: what is below is final
   bool labelled = false;  // several sources or offsets: fronts of different labels do not mix
   std::uint64_t pops = 0;
 

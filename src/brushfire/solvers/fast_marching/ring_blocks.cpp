@@ -18,10 +18,14 @@ class RingBuilder {
   Rings<T> build() {
     order_vertices();
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
-      if (is_obtuse(mesh_, h)) unfold_obtuse_corner(mesh_, h, unfolded_);
+      if (!is_obtuse(mesh_, h)) continue;
+      const Unfolding result = unfold_obtuse_corner(mesh_, h, unfolded_);
+      rings_.layout.longest_unfolding = std::max(rings_.layout.longest_unfolding, result.crossed);
+      if (!result.split) unsplit_.push_back(h);
     }
     lay_out();
     for (Index i = 0; i < mesh_.vertex_count(); ++i) fill_vertex(i);
+    for (const Index h : unsplit_) mark_unsplit(h);
     for (const UnfoldedTriangle& t : unfolded_) add_unfolded(t);
     return std::move(rings_);
   }
@@ -37,12 +41,14 @@ class RingBuilder {
     if (sum > 0) layout.mean_edge = sum / static_cast<double>(mesh_.halfedge_count());
   }
 
-  // A face is one lane at each corner; a face with a repeated vertex is two edges at each corner, at most.
+  // A face is one lane at each corner; a face with a repeated vertex is two edges.
+  Index lanes_of(Index h) const { return mesh_.is_face_usable(Mesh::face_of(h)) ? 1 : 2; }
+
   void lay_out() {
     const RingLayout& layout = rings_.layout;
     std::vector<Index> lanes(mesh_.vertex_count(), 0);
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
-      lanes[layout.place[mesh_.from(h)]] += mesh_.is_face_usable(Mesh::face_of(h)) ? 1 : 2;
+      lanes[layout.place[mesh_.from(h)]] += lanes_of(h);
     }
     for (const UnfoldedTriangle& t : unfolded_) {
       ++lanes[layout.place[t.first]];
@@ -77,9 +83,22 @@ class RingBuilder {
         const double dot = 0.5 * (shorter * shorter + (longer - lab) * (longer + lab));  // keeps digits in needles
         add(i, place(a), place(b), la, lb, dot, mesh_.double_areas()[Mesh::face_of(h)]);
       } else {
-        if (a != v) add_edge(i, place(a), lengths[h]);
-        if (b != v) add_edge(i, place(b), lengths[previous]);
+        add_edge(i, place(a), lengths[h]);
+        add_edge(i, place(b), lengths[previous]);
       }
+    }
+  }
+
+  // The corner at h is a target from the two other vertices of its face.
+  void mark_unsplit(Index h) {
+    for (const Index from : {Mesh::next(h), Mesh::previous(h)}) {
+      const auto corners = mesh_.corners(mesh_.from(from));
+      Index lane = 0;  // as fill_vertex() has numbered them
+      for (std::size_t i = 0; corners[i] != from; ++i) lane += lanes_of(corners[i]);
+      const Index at = place(mesh_.from(from));
+      RingBlock<T>& block = rings_.blocks[rings_.layout.block_offset[at] + lane / kLanes];
+      T& side = from == Mesh::next(h) ? block.length_b[lane % kLanes] : block.length_a[lane % kLanes];
+      side = -side;
     }
   }
 
@@ -114,7 +133,8 @@ class RingBuilder {
   const Mesh& mesh_;
   Rings<T> rings_;
   std::vector<UnfoldedTriangle> unfolded_;
-  std::vector<Index> filled_;  // lanes, by place
+  std::vector<Index> unsplit_;  // corners whose unfolding ended early
+  std::vector<Index> filled_;   // lanes, by place
 };
 
 }  // namespace

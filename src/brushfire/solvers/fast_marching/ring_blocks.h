@@ -11,7 +11,8 @@ namespace brushfire::detail {
 inline constexpr Index kLanes = 8;
 
 // Eight triangles (v; a, b) of one vertex v, real or unfolded: in the plane of the triangle, with v in the origin,
-// |a|, |b|, a . b and a x b. A lane that is no triangle but an edge va has |b| = +inf and a . b = NaN; an unused lane
+// |a|, |b|, a . b and a x b. Negative |a|: the corner at a is obtuse and no unfolding splits it (see UpdateTriangle,
+// any_order); the same for b. A lane that is no triangle but an edge va has |b| = +inf and a . b = NaN; an unused lane
 // has |a| = +inf, too. Both name the vertex beyond the last for what they lack.
 template <class T>
 struct alignas(64) RingBlock {
@@ -25,6 +26,7 @@ struct RingLayout {
   std::vector<Index> vertex;        // [vertex_count] the inverse
   std::vector<Index> block_offset;  // [vertex_count + 1] by place
   double mean_edge = 1;             // in mesh.unit()
+  int longest_unfolding = 1;        // faces that the longest unfolding of a corner crosses
 };
 
 template <class T>

@@ -19,6 +19,7 @@ struct UpdateTriangle {
   T length, inverse;  // of the edge v1v2; 1/length
   T x, y;             // the target
   T side;             // from v1 to the target
+  bool any_order;     // the target may be nearer to the start than v1 although its corner is not obtuse
 };
 
 // A front that started in one point, at distances t1 and t2 from the edge's ends: the target's distance from that
@@ -43,7 +44,8 @@ struct CircularFront {
     const T across = at.x - start_x;
     const T straight = std::sqrt(across * across + height * height);
     const T along = t1 + at.side;
-    const bool visible = (heron > 0) & (crossing >= 0) & (crossing <= at.length * height) & (straight < along);
+    const bool causal = at.any_order | ((t1 - straight) * (t1 + straight) <= at.side * at.side);
+    const bool visible = (heron > 0) & (crossing >= 0) & (crossing <= at.length * height) & (straight < along) & causal;
     return visible ? straight : along;
   }
 };
@@ -76,7 +78,8 @@ struct PlanarFront {
     const T crossing = at.x * slope_y - slope_x * at.y;
     const T straight = t1 + (slope_x * at.x + slope_y * at.y);
     const T along = t1 + at.side;
-    const bool visible = (rest > 0) & (crossing >= 0) & (crossing <= at.length * slope_y) & (straight < along);
+    const bool causal = at.any_order | ((straight >= t1) & (straight >= t2));
+    const bool visible = (rest > 0) & (crossing >= 0) & (crossing <= at.length * slope_y) & (straight < along) & causal;
     return visible ? straight : along;
   }
 };

@@ -21,19 +21,21 @@ bool is_obtuse(const Mesh& mesh, Index h) {
   return a * a + b * b < c * c * (1 - kRightAngle) && mesh.is_face_usable(Mesh::face_of(h));
 }
 
-void unfold_obtuse_corner(const Mesh& mesh, Index h, std::vector<UnfoldedTriangle>& triangles) {
+Unfolding unfold_obtuse_corner(const Mesh& mesh, Index h, std::vector<UnfoldedTriangle>& triangles) {
   const Index corner = mesh.from(h);
   const double length = mesh.lengths()[h];
-  if (length == 0) return;
+  Unfolding result;
+  if (length == 0) return result;
   // Left and right bound what is left of the angle; left_end and right_end are the edge that is crossed next.
   Index left = mesh.to(h), right = mesh.from(Mesh::previous(h));
   Vec2 at_left{length, 0}, at_right = apex_over(mesh, h, h);
   Vec2 left_end = at_left, right_end = at_right;
   Index left_vertex = left;  // the vertex at left_end
   Index edge = Mesh::next(h);
-  for (int unfolded = 0; unfolded < kMaxUnfolded; ++unfolded) {
+  while (result.crossed < kMaxUnfolded) {
     const Index g = only_neighbour(mesh, edge);
-    if (g == edge || mesh.lengths()[edge] == 0) return;
+    if (g == edge || mesh.lengths()[edge] == 0) return result;
+    ++result.crossed;
     // apex_over() has from(edge) at the origin; here the edge runs from left_end to right_end or the other way round.
     Vec2 apex = apex_over(mesh, edge, g);
     if (mesh.from(edge) != left_vertex) apex.x = mesh.lengths()[edge] - apex.x;
@@ -41,14 +43,15 @@ void unfold_obtuse_corner(const Mesh& mesh, Index h, std::vector<UnfoldedTriangl
     // The corner lies to the left of the way from left_end to right_end, the new vertex to its right.
     const Vec2 at = left_end + apex.x * along + apex.y * Vec2{along.y, -along.x};
     const Index vertex = mesh.from(Mesh::previous(g));
-    if (vertex == corner) return;
+    if (vertex == corner) return result;
 
     const bool beyond_left = cross(at_left, at) <= 0, beyond_right = cross(at, at_right) <= 0;
     const bool splits_left = !beyond_left && !beyond_right && dot(at_left, at) > 0;
     const bool splits_right = !beyond_left && !beyond_right && dot(at, at_right) > 0;
     if (splits_left && vertex != left) triangles.push_back({corner, left, vertex, at_left, at});
     if (splits_right && vertex != right) triangles.push_back({corner, vertex, right, at, at_right});
-    if (splits_left && splits_right) return;
+    result.split = splits_left && splits_right;
+    if (result.split) return result;
     const bool go_right = splits_left || (!splits_right && beyond_left);  // what is left lies between it and right
     const Index to_left_vertex = mesh.from(g) == left_vertex ? Mesh::previous(g) : Mesh::next(g);
     const Index to_right_vertex = mesh.from(g) == left_vertex ? Mesh::next(g) : Mesh::previous(g);
@@ -63,6 +66,7 @@ void unfold_obtuse_corner(const Mesh& mesh, Index h, std::vector<UnfoldedTriangl
       edge = to_left_vertex;
     }
   }
+  return result;
 }
 
 }  // namespace brushfire::detail

@@ -20,10 +20,14 @@ struct UnfoldedTriangle {
 // True where the angle at the corner of halfedge h is obtuse (beyond rounding: right angles are not).
 bool is_obtuse(const Mesh& mesh, Index h);
 
+struct Unfolding {
+  int crossed = 0;     // edges that were crossed
+  bool split = false;  // false: it ended at a boundary, a non-manifold edge or after kMaxUnfolded faces
+};
+
 // Splits the obtuse angle at the corner of halfedge h into acute ones: unrolls faces behind the opposite edge, one by
-// one, until a vertex appears that splits it, and the same with what is left of the angle. Appends the triangles;
-// stops short at a boundary, a non-manifold edge or after kMaxUnfolded faces.
-void unfold_obtuse_corner(const Mesh& mesh, Index h, std::vector<UnfoldedTriangle>& triangles);
+// one, until a vertex appears that splits it, and the same with what is left of the angle. Appends the triangles.
+Unfolding unfold_obtuse_corner(const Mesh& mesh, Index h, std::vector<UnfoldedTriangle>& triangles);
 
 inline constexpr int kMaxUnfolded = 64;
 

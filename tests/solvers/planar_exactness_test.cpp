@@ -1,0 +1,120 @@
+// On a Delaunay triangulation of a convex region novotni-klein is the Euclidean distance, wherever the source is.
+#include <brushfire/mesh/delaunay.h>
+#include <brushfire/solvers/distance.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace brushfire {
+namespace {
+
+constexpr int kTriangulations = 1000;
+constexpr double kRelative = 1e-11;
+// Positions of sources are rounded to this where they are turned into coordinates (the region has size 2).
+constexpr double kCoordinateRounding = 8 * std::numeric_limits<double>::epsilon();
+
+Index below(Index n, std::mt19937& random) { return std::uniform_int_distribution<Index>(0, n - 1)(random); }
+
+// Random points in an ellipse, sometimes with a ring of vertices around it, sometimes clustered.
+Mesh random_convex_triangulation(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const Index count = 5 + below(120, random);
+  const double height = std::pow(10.0, -0.7 * unit(random));
+  const double clustering = 0.3 + unit(random);
+  std::vector<Vec2> points;
+  for (Index i = 0; i < count; ++i) {
+    const double angle = 2 * kPi * unit(random), radius = std::pow(unit(random), clustering);
+    points.push_back({radius * std::cos(angle), height * radius * std::sin(angle)});
+  }
+  const Index ring = below(3, random) == 0 ? 4 + below(40, random) : 0;
+  for (Index i = 0; i < ring; ++i) {
+    points.push_back({std::cos(2 * kPi * i / ring), height * std::sin(2 * kPi * i / ring)});
+  }
+  return delaunay(points).mesh();
+}
+
+// A vertex, a point of an edge, a point of a face, or a point 1e-3 .. 1e-16 away from an edge or a vertex.
+SurfacePoint random_source(const Mesh& mesh, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const Index f = below(mesh.face_count(), random), k = below(3, random);
+  const double tiny = std::pow(10.0, -3 - 13 * unit(random));
+  SurfacePoint p{f, {0, 0, 0}};
+  const double t = unit(random), s = unit(random);
+  switch (below(5, random)) {
+    case 0:
+      p.weights[k] = 1;
+      break;
+    case 1:
+      p.weights[k] = t, p.weights[(k + 1) % 3] = 1 - t;
+      break;
+    case 2:
+      p.weights = {t * s, t * (1 - s), 1 - t};
+      break;
+    case 3:
+      p.weights[k] = tiny, p.weights[(k + 1) % 3] = (1 - tiny) * t, p.weights[(k + 2) % 3] = (1 - tiny) * (1 - t);
+      break;
+    default:
+      p.weights[k] = 1 - tiny, p.weights[(k + 1) % 3] = tiny * t, p.weights[(k + 2) % 3] = tiny * (1 - t);
+  }
+  return p;
+}
+
+double worst_excess(const Mesh& mesh, const SurfacePoint& source, const DistanceField& field) {
+  const Vec3 from = position(mesh, source);
+  double worst = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.corners(v).empty()) continue;
+    const double euclid = norm(mesh.positions()[v] - from);
+    worst = std::max(worst, std::abs(field.distance[v] - euclid) / (kRelative * euclid + kCoordinateRounding));
+  }
+  return worst;
+}
+
+TEST(PlanarExactness, DelaunayTriangulationsOfConvexRegionsAreExactFromSourcesAnywhere) {
+  for (unsigned seed = 0; seed < kTriangulations; ++seed) {
+    std::mt19937 random(seed);
+    const Mesh mesh = random_convex_triangulation(random);
+    if (mesh.face_count() == 0) continue;
+    DistanceSolver solver(mesh);
+    for (int run = 0; run < 3; ++run) {
+      const Source source{random_source(mesh, random)};
+      const DistanceField field = solver.distance({&source, 1});
+      ASSERT_LE(worst_excess(mesh, source.point, field), 1) << "seed " << seed << ", run " << run;
+      ASSERT_LE(field.updates, 3u * mesh.vertex_count()) << "seed " << seed;
+    }
+  }
+}
+
+TEST(PlanarExactness, FloatLanesAreExactToFloatPrecision) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    std::mt19937 random(seed);
+    const Mesh mesh = random_convex_triangulation(random);
+    if (mesh.face_count() == 0) continue;
+    DistanceOptions options;
+    options.precision = Precision::Float;
+    const Source source{vertex_point(mesh, mesh.faces()[0][0])};
+    const DistanceField field = distance(mesh, {&source, 1}, options);
+    EXPECT_LE(worst_excess(mesh, source.point, field) * kRelative, 1e-4) << "seed " << seed;
+  }
+}
+
+TEST(PlanarExactness, TargetsInsideFacesAndOnEdgesAreExactToo) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    const Mesh mesh = random_convex_triangulation(random);
+    if (mesh.face_count() == 0) continue;
+    DistanceOptions options;
+    for (int i = 0; i < 20; ++i) options.targets.push_back(random_source(mesh, random));
+    const Source source{random_source(mesh, random)};
+    const DistanceField field = distance(mesh, {&source, 1}, options);
+    for (std::size_t i = 0; i < options.targets.size(); ++i) {
+      const double euclid = norm(position(mesh, options.targets[i]) - position(mesh, source.point));
+      EXPECT_NEAR(field.target_distance[i], euclid, 1e-9 * euclid + kCoordinateRounding) << "seed " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace brushfire
