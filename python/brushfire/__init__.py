@@ -1,0 +1,37 @@
+"""Geodesic distances and shortest paths on triangle meshes.
+
+>>> import brushfire as bf
+>>> V = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+>>> F = [[0, 1, 2], [0, 2, 3]]
+>>> mesh = bf.Mesh(V, F)
+>>> mesh.distance(0, method="dijkstra").round(3).tolist()
+[0.0, 1.0, 1.414, 1.0]
+
+Arrays go in as numpy arrays (or anything that numpy turns into one) and come out as numpy arrays that own their memory.
+Positions are used as they are where they are C-contiguous float64, faces where they are C-contiguous int32 or uint32;
+other numeric types, Fortran order and lists are converted, once, when the mesh is made. Distances that do not exist are
++inf, source numbers that do not exist -1.
+
+Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; meshes may be shared between threads.
+"""
+
+from brushfire._core import version as __version__
+from brushfire._errors import BrushfireError, BrushfireIndexError
+from brushfire._io import FileInfo, from_any, read
+from brushfire._mesh import Mesh, MeshReport, Solver, methods
+from brushfire._places import Point, Points
+
+__all__ = [
+    "BrushfireError",
+    "BrushfireIndexError",
+    "FileInfo",
+    "Mesh",
+    "MeshReport",
+    "Point",
+    "Points",
+    "Solver",
+    "__version__",
+    "from_any",
+    "methods",
+    "read",
+]

@@ -1,0 +1,100 @@
+"""From what the caller has to the arrays that the compiled core takes: the rules of conversion, in one place."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from brushfire._errors import BrushfireError, BrushfireIndexError
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
+
+
+def _array(values: npt.ArrayLike, what: str) -> npt.NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except ValueError:  # rows of different lengths
+        raise TypeError(f"{what}: the rows do not form an array") from None
+
+
+def floats(values: npt.ArrayLike, what: str) -> Floats:
+    """C-contiguous float64: the array itself where it is one already, else a converted copy of any real numbers."""
+    array = _array(values, what)
+    if array.size == 0:
+        return np.zeros(array.shape)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{what}: numbers are needed, not {array.dtype}")
+    return np.asarray(array, dtype=np.float64, order="C")
+
+
+def integers(values: npt.ArrayLike, what: str) -> Ints:
+    """C-contiguous int64 of any integers. Floats are refused, whole numbers too: they are usually positions."""
+    array = _array(values, what)
+    if array.size == 0:
+        return np.zeros(array.shape, dtype=np.int64)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{what}: integers are needed, not {array.dtype}")
+    if array.dtype == np.uint64 and array.max() > np.iinfo(np.int64).max:
+        raise BrushfireIndexError(f"{what}: {array.max()} does not exist")
+    return np.asarray(array, dtype=np.int64, order="C")
+
+
+def columns(array: npt.NDArray[Any], count: int, what: str) -> None:
+    if array.ndim != 2 or array.shape[1] != count:
+        raise BrushfireError(f"{what}: shape (n, {count}) is needed, not {array.shape}")
+
+
+def triples(values: npt.ArrayLike, what: str) -> Floats:
+    """(n, 3) float64."""
+    array = floats(values, what)
+    if array.size == 0:
+        return np.zeros((0, 3))
+    columns(array, 3, what)
+    return array
+
+
+def vertices(values: npt.ArrayLike) -> Floats:
+    """(n, 3) float64; a flat mesh may come as (n, 2)."""
+    array = floats(values, "vertices")
+    if array.ndim == 2 and array.shape[1] == 2:
+        array = np.column_stack([array, np.zeros(len(array))])
+    return triples(array, "vertices")
+
+
+def faces(values: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+    """(m, 3) uint32: int32 and uint32 in C order are used as they are, other integers converted."""
+    array = _array(values, "faces")
+    if array.size == 0:
+        return np.zeros((0, 3), dtype=np.uint32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"faces: integers are needed, not {array.dtype}")
+    columns(array, 3, "faces")
+    low, high = array.min(), array.max()
+    if low < 0 or high > np.iinfo(np.int32).max:
+        bad = int(np.argmax((array < 0) | (array > np.iinfo(np.int32).max)))
+        raise BrushfireError(f"face {bad // 3} names vertex {array.flat[bad]}, which cannot exist", "invalid_mesh")
+    return (
+        np.ascontiguousarray(array).astype(np.uint32, copy=False)
+        if array.dtype != np.int32
+        else (np.ascontiguousarray(array).view(np.uint32))
+    )
+
+
+def offsets(values: npt.ArrayLike, count: int) -> Floats:
+    """(count,) float64; one number means the same for all."""
+    array = floats(values, "offset")
+    if array.ndim == 0:
+        return np.full(count, array)
+    if array.shape != (count,):
+        raise BrushfireError(f"offset: one per source is needed, shape ({count},), not {array.shape}")
+    return array
+
+
+def number(value: Any, what: str) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what}: a number is needed, not {value!r}") from None

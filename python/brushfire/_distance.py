@@ -1,0 +1,137 @@
+"""The distance() of meshes and solvers: one set of arguments, one docstring."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Literal, Union, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from brushfire import _core
+from brushfire._arrays import Floats, number, offsets
+from brushfire._errors import BrushfireError
+from brushfire._places import PlaceArrays, Places
+
+Labels = npt.NDArray[np.int32]
+Progress = Union[Callable[[float], object], None]
+
+
+class Distances:
+    """What has a distance(): a Mesh, and a Solver, which keeps its workspace between calls."""
+
+    def _run(self) -> _core.Solver:
+        raise NotImplementedError
+
+    def _arrays(self, places: Any, what: str) -> PlaceArrays:
+        raise NotImplementedError
+
+    @overload
+    def distance(
+        self,
+        sources: Places,
+        *,
+        method: str | None = ...,
+        offset: npt.ArrayLike = ...,
+        max_distance: float = ...,
+        targets: Places | None = ...,
+        return_source: Literal[False] = ...,
+        return_bound: Literal[False] = ...,
+        progress: Progress = ...,
+    ) -> Floats: ...
+    @overload
+    def distance(
+        self,
+        sources: Places,
+        *,
+        method: str | None = ...,
+        offset: npt.ArrayLike = ...,
+        max_distance: float = ...,
+        targets: Places | None = ...,
+        return_source: Literal[True],
+        return_bound: Literal[False] = ...,
+        progress: Progress = ...,
+    ) -> tuple[Floats, Labels]: ...
+    @overload
+    def distance(
+        self,
+        sources: Places,
+        *,
+        method: str | None = ...,
+        offset: npt.ArrayLike = ...,
+        max_distance: float = ...,
+        targets: None = ...,
+        return_source: Literal[False] = ...,
+        return_bound: Literal[True],
+        progress: Progress = ...,
+    ) -> tuple[Floats, Floats]: ...
+    @overload
+    def distance(
+        self,
+        sources: Places,
+        *,
+        method: str | None = ...,
+        offset: npt.ArrayLike = ...,
+        max_distance: float = ...,
+        targets: None = ...,
+        return_source: Literal[True],
+        return_bound: Literal[True],
+        progress: Progress = ...,
+    ) -> tuple[Floats, Labels, Floats]: ...
+    def distance(
+        self,
+        sources: Places,
+        *,
+        method: str | None = None,
+        offset: npt.ArrayLike = 0.0,
+        max_distance: float = np.inf,
+        targets: Places | None = None,
+        return_source: bool = False,
+        return_bound: bool = False,
+        progress: Progress = None,
+    ) -> Floats | tuple[Any, ...]:
+        """Distances from the nearest of the sources to every vertex, or to the targets.
+
+        :param sources: a vertex, a :class:`Point`, a list or array of them, a mask with one bool per vertex, or
+            :class:`Points`; at least one.
+        :param method: one of :func:`methods`; the library's default if none is given.
+        :param offset: the value that the front starts with, one number or one per source; finite, may be negative.
+        :param max_distance: what is farther reads +inf; the run costs what it reaches.
+        :param targets: where only some distances are needed; the solver may stop as soon as it has them.
+        :param return_source: also return which source is nearest: its position in ``sources``, -1 where none is.
+        :param return_bound: also return the proven absolute error of each distance, for methods that have one.
+        :param progress: called with the share of the work that is done, some times a second, from the calling thread.
+        :return: float64 of shape (vertex_count,) or (targets,), in the units of the vertices; +inf where nothing is
+            reached. With ``return_source`` and ``return_bound`` a tuple: distances, int32 sources, float64 bounds.
+        :raises BrushfireIndexError: for a vertex or face that does not exist.
+        :raises BrushfireError: for no sources, a source in no face, bad weights, offsets or max_distance, an unknown
+            method, or ``return_bound`` with a method that has none.
+        :raises TypeError: for what are no vertex numbers or points.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.distance(0, method="dijkstra").tolist()
+        [0.0, 3.0, 5.0, 4.0]
+        >>> d, source = mesh.distance([1, 3], offset=[0, 1], method="dijkstra", return_source=True)
+        >>> d.tolist(), source.tolist()
+        ([3.0, 0.0, 4.0, 1.0], [0, 0, 0, 1])
+        >>> mesh.distance(0, targets=[2, 1], method="dijkstra").tolist()
+        [5.0, 3.0]
+        """
+        start = self._arrays(sources, "sources")
+        end = None if targets is None else self._arrays(targets, "targets")
+        distance, source, bound = self._run().solve(
+            start.index,
+            start.weights,
+            offsets(offset, len(start.index)),
+            end.index if end else None,
+            end.weights if end else None,
+            method,
+            number(max_distance, "max_distance"),
+            progress,
+        )
+        if return_bound and bound is None:
+            raise BrushfireError("return_bound: the method has no bound, or there are targets")
+        if return_source or return_bound:
+            return (distance, *([source] if return_source else []), *([bound] if return_bound else []))
+        return distance

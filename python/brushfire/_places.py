@@ -1,0 +1,120 @@
+"""Where on a mesh: vertices by number, points of faces, and arrays of either."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from brushfire._arrays import Floats, Ints, floats, integers, triples
+from brushfire._errors import BrushfireError
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point of the surface: a face and the weights of its three corners, each >= 0, summing to one.
+
+    Weights up to 1e-12 read as 0: a point that near to a vertex is the vertex.
+
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
+    >>> mesh.position(bf.Point(0, (0.5, 0.25, 0.25))).tolist()
+    [0.5, 0.5, 0.0]
+    """
+
+    face: int
+    weights: tuple[float, float, float]
+
+
+class Points(NamedTuple):
+    """Many points of the surface: ``face`` is an (k,) array of integers, ``weights`` an (k, 3) array of floats.
+
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
+    >>> mesh.position(bf.Points([0, 0], [[1, 0, 0], [0, 0.5, 0.5]])).tolist()
+    [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
+    """
+
+    face: npt.ArrayLike
+    weights: npt.ArrayLike
+
+
+Places = Union[int, Point, Points, Sequence[Union[int, Point]], npt.NDArray[np.integer[Any]], npt.NDArray[np.bool_]]
+"""A vertex, a point, several of them, or a mask with one bool per vertex."""
+
+
+@dataclass(frozen=True)
+class PlaceArrays:
+    """As the core takes it: a vertex where the three weights are 0 (or there are none), else a face and its weights."""
+
+    index: Ints
+    weights: Floats | None
+
+
+def _points(points: Points, what: str) -> PlaceArrays:
+    index = integers(points.face, f"{what}: face")
+    weights = triples(points.weights, f"{what}: weights")
+    if index.ndim != 1 or len(index) != len(weights):
+        raise BrushfireError(f"{what}: {index.size} faces, but {len(weights)} triples of weights")
+    if not weights.any(axis=1).all():
+        raise BrushfireError(f"{what}: the weights of a point sum to 0, not to 1")
+    return PlaceArrays(index, weights)
+
+
+def _single(item: Any, what: str) -> tuple[int, tuple[float, float, float]]:
+    if isinstance(item, Point):
+        weights = floats(item.weights, f"{what}: weights")
+        if weights.shape != (3,) or not weights.any():
+            raise BrushfireError(f"{what}: {item} needs three weights that sum to 1")
+        return operator.index(item.face), (weights[0], weights[1], weights[2])
+    if isinstance(item, (bool, np.bool_)):
+        raise TypeError(f"{what}: a vertex number or a Point is needed, not {item!r}")
+    try:
+        return operator.index(item), (0.0, 0.0, 0.0)
+    except TypeError:
+        raise TypeError(f"{what}: a vertex number or a Point is needed, not {type(item).__name__}") from None
+
+
+def _listed(items: Sequence[Any], what: str) -> PlaceArrays:
+    pairs = [_single(item, what) for item in items]
+    try:
+        index = np.array([pair[0] for pair in pairs], dtype=np.int64)
+    except OverflowError:
+        raise BrushfireError(f"{what}: a number of more than 64 bits", "index_out_of_range") from None
+    return PlaceArrays(index, np.array([pair[1] for pair in pairs], dtype=np.float64).reshape(-1, 3))
+
+
+def is_one(places: Any) -> bool:
+    """Whether a single place is meant rather than a list of one."""
+    return isinstance(places, Point) or (not isinstance(places, np.ndarray) and hasattr(places, "__index__"))
+
+
+def place_arrays(places: Any, vertex_count: int, what: str) -> PlaceArrays:
+    """Any spelling of places, as arrays."""
+    if isinstance(places, Points):
+        return _points(places, what)
+    if is_one(places):
+        return _listed([places], what)
+    if isinstance(places, (list, tuple, range)) and any(isinstance(item, Point) for item in places):
+        return _listed(places, what)
+    if isinstance(places, np.ndarray) and places.dtype.kind == "O":
+        return _listed(places.ravel().tolist(), what)
+    array = np.asarray(places)
+    if array.dtype == np.bool_:
+        if array.shape != (vertex_count,):
+            raise BrushfireError(
+                f"{what}: a mask needs one bool per vertex, shape ({vertex_count},), not {array.shape}"
+            )
+        return PlaceArrays(np.flatnonzero(array).astype(np.int64), None)
+    if array.dtype.kind == "f" and array.size:
+        raise TypeError(f"{what}: vertex numbers or Points are needed, not {array.dtype}")
+    index = integers(array, what)
+    if index.ndim == 0:
+        index = index.reshape(1)
+    if index.ndim != 1:
+        raise BrushfireError(f"{what}: shape (k,) is needed, not {index.shape}")
+    return PlaceArrays(index, None)

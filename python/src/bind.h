@@ -1,0 +1,61 @@
+// What the binding files share: array types, places and sources from arrays, results that own their memory.
+#pragma once
+
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_point.h>
+#include <brushfire/queries/distance_matrix.h>
+#include <brushfire/solvers/distance.h>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace brushfire::python {
+
+namespace nb = nanobind;
+
+void bind_errors(nb::module_& m);
+void bind_mesh(nb::module_& m);
+void bind_distance(nb::module_& m);
+void bind_matrix(nb::module_& m);
+
+// Arrays as the Python files hand them over: converted already, C order, exactly these types.
+template <class T>
+using Vector = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+template <class T>
+using Triples = nb::ndarray<const T, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+
+template <class T>
+using Result = nb::ndarray<nb::numpy, T>;
+
+// A numpy array that owns the values, without copying them.
+template <class T>
+Result<T> to_numpy(std::vector<T>&& values, std::initializer_list<std::size_t> shape) {
+  auto* owned = new std::vector<T>(std::move(values));
+  const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+  return Result<T>(owned->data(), shape, owner);
+}
+template <class T>
+Result<T> to_numpy(std::vector<T>&& values) {
+  const std::size_t size = values.size();
+  return to_numpy(std::move(values), {size});
+}
+// Vertex and source numbers: int32, where "none" reads -1.
+Result<std::int32_t> to_numpy_signed(std::vector<Index>&& values);
+
+// Places on the mesh: index[k] is a vertex where the weights of k are all 0 (or there are none), else a face.
+struct PlaceArrays {
+  Vector<std::int64_t> index;
+  std::optional<Triples<double>> weights;
+};
+std::vector<Place> places_from(const PlaceArrays& arrays);
+std::vector<SurfacePoint> points_from(const Mesh& mesh, const PlaceArrays& arrays);
+
+}  // namespace brushfire::python

@@ -1,0 +1,85 @@
+// _core.Solver: one distance field after the other on one mesh.
+#include "options.h"
+
+#include <brushfire/core/error.h>
+
+#include <memory>
+#include <mutex>
+
+namespace brushfire::python {
+namespace {
+
+// Calls from several threads wait for each other.
+class Solver {
+ public:
+  explicit Solver(const Mesh& mesh) : solver_(mesh) {}
+
+  const Mesh& mesh() const { return solver_.mesh(); }
+
+  DistanceField distance(std::span<const Source> sources, const DistanceOptions& options) {
+    const std::lock_guard lock(mutex_);
+    return solver_.distance(sources, options);
+  }
+
+ private:
+  DistanceSolver solver_;
+  std::mutex mutex_;
+};
+
+std::vector<Source> sources_from(const Mesh& mesh, const PlaceArrays& places, const Vector<double>& offsets) {
+  std::vector<Source> sources;
+  for (const SurfacePoint& p : points_from(mesh, places)) sources.push_back({p, 0});
+  if (offsets.shape(0) != sources.size()) {
+    throw Error(ErrorCode::InvalidArgument, std::to_string(sources.size()) + " sources, but " +
+                                                std::to_string(offsets.shape(0)) +
+                                                " offsets: one per source is needed");
+  }
+  for (std::size_t k = 0; k < sources.size(); ++k) sources[k].offset = offsets.data()[k];
+  return sources;
+}
+
+// (distance, source, error bound): of the targets where there are any, of all vertices otherwise. The bound is None for
+// methods that have none.
+nb::tuple solve(Solver& solver, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
+                const Vector<double>& offsets, const std::optional<Vector<std::int64_t>>& target_index,
+                const std::optional<Triples<double>>& target_weights, const std::optional<std::string>& method,
+                double max_distance, nb::object progress) {
+  const Mesh& mesh = solver.mesh();
+  Computation computation(std::move(progress));
+  DistanceOptions options = CommonOptions{method, max_distance}.make(computation);
+  std::vector<Source> sources;
+  DistanceField field;
+  field = computation.run(mesh.face_count() < kBriefFaces, [&] {
+    sources = sources_from(mesh, {index, weights}, offsets);
+    if (target_index) options.targets = points_from(mesh, {*target_index, target_weights});
+    return solver.distance(sources, options);
+  });
+  if (target_index) {
+    return nb::make_tuple(to_numpy(std::move(field.target_distance)), to_numpy_signed(std::move(field.target_source)),
+                          nb::none());
+  }
+  nb::object bound = nb::none();
+  if (!field.error_bound.empty()) bound = nb::cast(to_numpy(std::move(field.error_bound)));
+  return nb::make_tuple(to_numpy(std::move(field.distance)), to_numpy_signed(std::move(field.source)), bound);
+}
+
+nb::tuple method_names() {
+  nb::list names;
+  for (const Method m : all_methods()) names.append(std::string(name_of(m)));
+  return nb::tuple(names);
+}
+
+}  // namespace
+
+void bind_distance(nb::module_& m) {
+  nb::class_<Solver>(m, "Solver")
+      .def(nb::init<const Mesh&>(), nb::arg("mesh"))
+      .def("solve", solve, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+           nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert().none(),
+           nb::arg("target_weights").noconvert().none(), nb::arg("method").none(), nb::arg("max_distance"),
+           nb::arg("progress").none());
+  m.def("method_names", method_names);
+  m.attr("default_method") = std::string(name_of(DistanceOptions{}.method));
+}
+
+}  // namespace brushfire::python

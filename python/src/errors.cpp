@@ -1,0 +1,71 @@
+// brushfire::Error becomes brushfire.BrushfireError, with its code; places from arrays, which is where most errors
+// start.
+#include "bind.h"
+
+#include <brushfire/core/error.h>
+
+#include <exception>
+
+namespace brushfire::python {
+namespace {
+
+// The exception classes live in Python (brushfire._errors), where they can have two bases and be pickled.
+void translate(const std::exception_ptr& pointer, void*) {
+  try {
+    std::rethrow_exception(pointer);
+  } catch (const Error& e) {
+    const std::string code(name_of(e.code()));
+    const nb::object error = nb::module_::import_("brushfire._errors").attr("error_of")(code, e.what());
+    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error.ptr())), error.ptr());
+  }
+}
+
+[[noreturn]] void throw_no_such(const char* what, std::int64_t index) {
+  throw Error(ErrorCode::IndexOutOfRange, std::string(what) + " " + std::to_string(index) + " does not exist");
+}
+
+bool is_vertex(const PlaceArrays& arrays, std::size_t k) {
+  if (!arrays.weights) return true;
+  const double* w = arrays.weights->data() + 3 * k;
+  return w[0] == 0 && w[1] == 0 && w[2] == 0;
+}
+
+Place place_from(const PlaceArrays& arrays, std::size_t k) {
+  const std::int64_t index = arrays.index.data()[k];
+  const bool vertex = is_vertex(arrays, k);
+  if (index < 0 || index >= std::int64_t{kNoIndex}) throw_no_such(vertex ? "vertex" : "face", index);
+  if (vertex) return static_cast<Index>(index);
+  const double* w = arrays.weights->data() + 3 * k;
+  return SurfacePoint{static_cast<Index>(index), {w[0], w[1], w[2]}};
+}
+
+}  // namespace
+
+Result<std::int32_t> to_numpy_signed(std::vector<Index>&& values) {
+  auto* owned = new std::vector<Index>(std::move(values));
+  const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<Index>*>(p); });
+  return Result<std::int32_t>(owned->data(), {owned->size()}, owner);
+}
+
+std::vector<Place> places_from(const PlaceArrays& arrays) {
+  if (arrays.weights && arrays.weights->shape(0) != arrays.index.shape(0)) {
+    throw Error(ErrorCode::InvalidArgument, "one triple of weights per place is needed");
+  }
+  std::vector<Place> places;
+  places.reserve(arrays.index.shape(0));
+  for (std::size_t k = 0; k < arrays.index.shape(0); ++k) places.push_back(place_from(arrays, k));
+  return places;
+}
+
+std::vector<SurfacePoint> points_from(const Mesh& mesh, const PlaceArrays& arrays) {
+  std::vector<SurfacePoint> points;
+  for (const Place& place : places_from(arrays)) {
+    const SurfacePoint* p = std::get_if<SurfacePoint>(&place);
+    points.push_back(p ? *p : vertex_point(mesh, std::get<Index>(place)));
+  }
+  return points;
+}
+
+void bind_errors(nb::module_&) { nb::register_exception_translator(translate); }
+
+}  // namespace brushfire::python

@@ -1,0 +1,107 @@
+// Distance matrices: into numpy's memory, as CSR arrays, into a file.
+#include "options.h"
+
+#include <brushfire/core/error.h>
+#include <brushfire/core/memory.h>
+#include <brushfire/queries/distance_matrix.h>
+
+#include <algorithm>
+#include <span>
+
+namespace brushfire::python {
+namespace {
+
+using OptionalIndex = std::optional<Vector<std::int64_t>>;
+using OptionalWeights = std::optional<Triples<double>>;
+
+// Rows or columns: all vertices where there is no index.
+std::optional<std::vector<Place>> places_or_all(const OptionalIndex& index, const OptionalWeights& weights) {
+  if (!index) return std::nullopt;
+  return places_from({*index, weights});
+}
+Places view(const std::optional<std::vector<Place>>& places) {
+  if (!places) return std::nullopt;
+  return std::span<const Place>(*places);
+}
+
+struct Call {
+  Call(const OptionalIndex& row_index, const OptionalWeights& row_weights, const OptionalIndex& column_index,
+       const OptionalWeights& column_weights, const std::optional<std::string>& method, double max_distance,
+       unsigned threads, nb::object progress)
+      : computation(std::move(progress)),
+        rows(places_or_all(row_index, row_weights)),
+        columns(places_or_all(column_index, column_weights)) {
+    options.distance = CommonOptions{method, max_distance}.make(computation);
+    options.threads = threads;
+  }
+
+  Computation computation;
+  std::optional<std::vector<Place>> rows, columns;
+  MatrixOptions options;
+};
+
+template <class T>
+void fill_matrix(const Mesh& mesh, const nb::ndarray<T, nb::ndim<2>, nb::c_contig, nb::device::cpu>& out,
+                 const OptionalIndex& row_index, const OptionalWeights& row_weights, const OptionalIndex& column_index,
+                 const OptionalWeights& column_weights, const std::optional<std::string>& method, double max_distance,
+                 unsigned threads, nb::object progress) {
+  Call call(row_index, row_weights, column_index, column_weights, method, max_distance, threads, std::move(progress));
+  call.computation.run(false, [&] {
+    distance_matrix<T>(mesh, view(call.rows), view(call.columns), std::span<T>(out.data(), out.size()), call.options);
+    return true;
+  });
+}
+
+template <class T>
+nb::tuple sparse(const Mesh& mesh, double radius, const OptionalIndex& row_index, const OptionalWeights& row_weights,
+                 const std::optional<std::string>& method, unsigned threads, std::uint64_t memory_limit,
+                 nb::object progress) {
+  Call call(row_index, row_weights, {}, {}, method, kInfinity, threads, std::move(progress));
+  call.options.memory_limit = memory_limit;
+  SparseMatrix<T> matrix =
+      call.computation.run(false, [&] { return distances_within<T>(mesh, radius, view(call.rows), call.options); });
+  std::vector<std::int64_t> starts(matrix.row_start.begin(), matrix.row_start.end());
+  return nb::make_tuple(to_numpy(std::move(matrix.value)), to_numpy_signed(std::move(matrix.column)),
+                        to_numpy(std::move(starts)));
+}
+
+void write(const Mesh& mesh, const std::string& path, bool float32, const OptionalIndex& row_index,
+           const OptionalWeights& row_weights, const OptionalIndex& column_index, const OptionalWeights& column_weights,
+           const std::optional<std::string>& method, double max_distance, unsigned threads, nb::object progress) {
+  Call call(row_index, row_weights, column_index, column_weights, method, max_distance, threads, std::move(progress));
+  call.computation.run(false, [&] {
+    write_distance_matrix(path, mesh, view(call.rows), view(call.columns),
+                          float32 ? ValueType::Float32 : ValueType::Float64, call.options);
+    return true;
+  });
+}
+
+void require_dense(std::size_t rows, std::size_t columns, bool float32, std::uint64_t limit) {
+  require_dense_memory(rows, columns, float32 ? ValueType::Float32 : ValueType::Float64, limit);
+}
+
+template <class T>
+void bind_typed(nb::module_& m) {
+  m.def("fill_matrix", fill_matrix<T>, nb::arg("mesh"), nb::arg("out").noconvert(), nb::arg("row_index").none(),
+        nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
+        nb::arg("method").none(), nb::arg("max_distance"), nb::arg("threads"), nb::arg("progress").none());
+}
+
+}  // namespace
+
+void bind_matrix(nb::module_& m) {
+  bind_typed<float>(m);
+  bind_typed<double>(m);
+  for (const bool is_float : {true, false}) {
+    m.def(is_float ? "sparse_float32" : "sparse_float64", is_float ? sparse<float> : sparse<double>, nb::arg("mesh"),
+          nb::arg("radius"), nb::arg("row_index").none(), nb::arg("row_weights").none(), nb::arg("method").none(),
+          nb::arg("threads"), nb::arg("memory_limit"), nb::arg("progress").none());
+  }
+  m.def("write_matrix", write, nb::arg("mesh"), nb::arg("path"), nb::arg("float32"), nb::arg("row_index").none(),
+        nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
+        nb::arg("method").none(), nb::arg("max_distance"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("require_dense_memory", require_dense, nb::arg("rows"), nb::arg("columns"), nb::arg("float32"),
+        nb::arg("limit"));
+}
+
+}  // namespace brushfire::python

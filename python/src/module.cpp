@@ -1,0 +1,12 @@
+// brushfire._core: what of the C++ library needs compiled code; the package's Python files turn it into the public API.
+#include "bind.h"
+
+#include <brushfire/version.h>
+
+NB_MODULE(_core, m) {
+  m.attr("version") = brushfire::kVersion;
+  brushfire::python::bind_errors(m);
+  brushfire::python::bind_mesh(m);
+  brushfire::python::bind_distance(m);
+  brushfire::python::bind_matrix(m);
+}

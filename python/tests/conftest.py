@@ -1,0 +1,32 @@
+"""Meshes and methods that the tests share."""
+
+from __future__ import annotations
+
+import brushfire as bf
+import numpy as np
+import pytest
+
+
+def grid(n: int, height: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """An n x n grid of unit squares, each split in two, with bumps of the given height (seeded)."""
+    y, x = np.mgrid[0:n, 0:n]
+    z = np.random.default_rng(1).uniform(0, height, (n, n)) if height else np.zeros((n, n))
+    v = (np.arange((n - 1) * n).reshape(n - 1, n)[:, :-1]).ravel()
+    lower = np.column_stack([v, v + 1, v + n])
+    upper = np.column_stack([v + 1, v + n + 1, v + n])
+    return np.column_stack([x.ravel(), y.ravel(), z.ravel()]).astype(float), np.concatenate([lower, upper])
+
+
+@pytest.fixture(scope="session")
+def square() -> bf.Mesh:
+    return bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+
+
+@pytest.fixture(scope="session")
+def bumpy() -> bf.Mesh:
+    return bf.Mesh(*grid(12, 0.5))
+
+
+@pytest.fixture(params=bf.methods())
+def method(request: pytest.FixtureRequest) -> str:
+    return str(request.param)

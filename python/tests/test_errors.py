@@ -1,0 +1,193 @@
+"""Wrong input of every kind: a typed exception each, never a crash, never a silent answer."""
+
+from __future__ import annotations
+
+import itertools
+import pickle
+
+import brushfire as bf
+import numpy as np
+import pytest
+
+from conftest import grid
+
+V, F = grid(4)
+TYPED = (bf.BrushfireError, TypeError)
+
+
+class Strange:
+    def __array__(self, dtype=None, copy=None):
+        raise RuntimeError("no array in here")
+
+
+def wrong_arrays():
+    rng = np.random.default_rng(3)
+    yield from (
+        [],
+        None,
+        "text",
+        b"bytes",
+        {},
+        object(),
+        Strange,
+        3,
+        3.5,
+        float("nan"),
+        [[]],
+        [[1, 2], [3]],
+        [["a", "b", "c"]],
+    )
+    yield from (np.zeros(3), np.zeros((3, 4)), np.zeros((2, 3, 3)), np.zeros((0, 4)), np.zeros((3, 0)), np.array(None))
+    yield from (np.zeros((4, 3), dtype=complex), np.zeros((4, 3), dtype=bool), np.zeros((4, 3), dtype="M8[s]"))
+    yield from (np.array([[None, 1, 2]]), np.array([["1", "2", "3"]]), np.zeros((4, 3), dtype=[("x", float)]))
+    yield from (np.full((4, 3), np.nan), np.full((4, 3), np.inf), np.full((4, 3), 2**63, dtype=np.uint64), np.ma.masked)
+    yield from (np.full((4, 3), -1), np.full((4, 3), 2**31), np.full((4, 3), 2**62), np.full((4, 3), 1e300))
+    for dtype in (np.int8, np.uint16, np.float16, np.float32, np.int64):
+        yield rng.integers(-3, 30, (5, 3)).astype(dtype)[::-2, ::-1]
+
+
+def test_meshes_from_wrong_arrays_raise_or_are_meshes():
+    values = list(wrong_arrays())
+    good = refused = 0
+    for v, f in itertools.chain(((v, F) for v in values), ((V, f) for f in values), itertools.product(values, values)):
+        try:
+            mesh = bf.Mesh(v, f)
+        except TYPED:
+            refused += 1
+            continue
+        except RuntimeError as error:
+            assert "no array in here" in str(error)
+            continue
+        good += 1
+        mesh.report  # noqa: B018
+        if mesh.vertex_count:
+            mesh.distance_matrix(method="dijkstra")
+    assert refused > 500
+    assert good > 0
+
+
+def wrong_places():
+    yield from ([], None, "0", b"0", {}, object(), 0.0, [0.5], 1 + 2j, True, [True, False], [[0]], [[0, 1], [2, 3]])
+    yield from (-1, 16, 2**31, 2**32, 2**33, 2**63, 2**64, 10**30, [0, -1], [0, 16], np.array([2**64 - 1], np.uint64))
+    yield from (np.zeros((2, 3)), np.array([0.0]), np.array([None]), np.ones(15, dtype=bool), np.zeros(16, dtype=bool))
+    yield from (bf.Point(-1, (1, 0, 0)), bf.Point(18, (1, 0, 0)), bf.Point(0, (0, 0, 0)), bf.Point(0, (1, 1, 1)))
+    yield from (
+        bf.Point(0, (2, -1, 0)),
+        bf.Point(0, (float("nan"), 0, 1)),
+        bf.Point(0, (1, 0)),
+        bf.Point("a", (1, 0, 0)),
+    )
+    yield from (
+        bf.Points([0], [[1, 0]]),
+        bf.Points([0, 1], [[1, 0, 0]]),
+        bf.Points([[0]], [[1, 0, 0]]),
+        bf.Points([0.5], [[1, 0, 0]]),
+    )
+    yield from (
+        bf.Points([99], [[1, 0, 0]]),
+        bf.Points([0], [[0, 0, 0]]),
+        bf.Points([0], [[np.inf, 0, 0]]),
+        [0, "x"],
+        [bf.Point(0, (1, 0, 0)), None],
+    )
+    yield from (bf.Points([10**12], [[1, 0, 0]]), bf.Point(10**30, (1, 0, 0)))
+
+
+@pytest.mark.parametrize("places", list(wrong_places()), ids=lambda p: repr(p)[:40])
+def test_wrong_places_raise(places):
+    mesh = bf.Mesh(V, F)
+    with pytest.raises(TYPED):
+        mesh.distance(places, method="dijkstra")
+
+
+@pytest.mark.parametrize(
+    "places", [-1, 16, 2**64, True, "0", [0.5], bf.Point(0, (1, 1, 1)), np.ones(15, dtype=bool)], ids=repr
+)
+def test_wrong_targets_rows_and_columns_raise(places):
+    mesh = bf.Mesh(V, F)
+    with pytest.raises(TYPED):
+        mesh.distance(0, targets=places, method="dijkstra")
+    with pytest.raises(TYPED):
+        mesh.distance_matrix(places, method="dijkstra")
+    with pytest.raises(TYPED):
+        mesh.distance_matrix(0, places, method="dijkstra")
+    with pytest.raises(TYPED):
+        mesh.distances_within(1, places, method="dijkstra")
+
+
+def test_a_vertex_that_does_not_exist_is_an_index_error_that_names_it():
+    mesh = bf.Mesh(V, F)
+    for index in (16, -1, 2**40):
+        with pytest.raises(IndexError, match=str(index)) as error:
+            mesh.distance(index, method="dijkstra")
+        assert isinstance(error.value, bf.BrushfireError)
+        assert error.value.code == "index_out_of_range"
+        with pytest.raises(IndexError, match=str(index)):
+            mesh.distance_matrix([0, index], method="dijkstra")
+        with pytest.raises(IndexError, match=str(index)):
+            mesh.distances_within(1, [index], method="dijkstra")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {"method": "no-such-method"}, {"method": 7}, {"max_distance": -1}, {"max_distance": float("nan")},
+        {"max_distance": "far"}, {"max_distance": None}, {"offset": [1, 2]}, {"offset": float("nan")},
+        {"offset": float("inf")}, {"offset": "x"}, {"offset": None}, {"offset": [[0]]}, {"progress": 7, "method": "dijkstra"},
+    ],
+    ids=str,
+)  # fmt: skip
+def test_wrong_options_raise(arguments):
+    with pytest.raises(TYPED):
+        bf.Mesh(V, F).distance(0, **{"method": "dijkstra", **arguments})
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {"threads": -1},
+        {"threads": 10**6},
+        {"threads": 1.5},
+        {"dtype": int},
+        {"dtype": "nonsense"},
+        {"dtype": np.float16},
+    ],
+    ids=str,
+)
+def test_wrong_matrix_options_raise(arguments):
+    mesh = bf.Mesh(V, F)
+    with pytest.raises(TYPED):
+        mesh.distance_matrix(method="dijkstra", **arguments)
+    with pytest.raises(TYPED):
+        mesh.distances_within(1.0, method="dijkstra", **arguments)
+
+
+@pytest.mark.parametrize("radius", [-1, float("nan"), float("inf"), None, "x", [1, 2]], ids=repr)
+def test_wrong_radii_raise(radius):
+    with pytest.raises(TYPED):
+        bf.Mesh(V, F).distances_within(radius, method="dijkstra")
+
+
+def test_wrong_lengths_raise():
+    for lengths in (
+        [[1, 1]],
+        [[1, 1, 5]],
+        [[1, 1, float("nan")]],
+        [[-1, 1, 1]],
+        [1, 1, 1],
+        [["a", 1, 1]],
+        [],
+        np.ones((2, 3)),
+    ):
+        with pytest.raises(TYPED):
+            bf.Mesh.from_lengths([[0, 1, 2]], lengths)
+    for count in (2, -1):
+        with pytest.raises(TYPED):
+            bf.Mesh.from_lengths([[0, 1, 2]], [[1, 1, 1]], vertex_count=count)
+
+
+def test_errors_survive_pickling():
+    for error in (bf.BrushfireError("why", "too_large"), bf.BrushfireIndexError("vertex 7")):
+        again = pickle.loads(pickle.dumps(error))
+        assert type(again) is type(error)
+        assert (str(again), again.code) == (str(error), error.code)
