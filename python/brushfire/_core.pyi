@@ -1,14 +1,15 @@
 """The compiled core. Private: `brushfire` is the interface."""
 
 from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-_Floats = npt.NDArray[np.float64]
-_Ints = npt.NDArray[np.int64]
-_Signed = npt.NDArray[np.int32]
-_Progress = Callable[[float], object] | None
+_Floats: TypeAlias = npt.NDArray[np.float64]
+_Ints: TypeAlias = npt.NDArray[np.int64]
+_Signed: TypeAlias = npt.NDArray[np.int32]
+_Progress: TypeAlias = Callable[[float], object] | None
 
 version: str
 default_method: str

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal, Union, overload
+from typing import Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ from brushfire._errors import BrushfireError
 from brushfire._places import PlaceArrays, Places
 
 Labels = npt.NDArray[np.int32]
-Progress = Union[Callable[[float], object], None]
+Progress = Callable[[float], object] | None
 
 
 class Distances:

@@ -43,7 +43,7 @@ class Points(NamedTuple):
     weights: npt.ArrayLike
 
 
-Places = Union[int, Point, Points, Sequence[Union[int, Point]], npt.NDArray[np.integer[Any]], npt.NDArray[np.bool_]]
+Places = Union[int, Point, Points, Sequence[int | Point], npt.NDArray[np.integer[Any]], npt.NDArray[np.bool_]]
 """A vertex, a point, several of them, or a mask with one bool per vertex."""
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import brushfire as bf
 import numpy as np
 import pytest
+
+import brushfire as bf
 
 
 def grid(n: int, height: float = 0.0) -> tuple[np.ndarray, np.ndarray]:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import itertools
 import pickle
 
-import brushfire as bf
 import numpy as np
 import pytest
 
+import brushfire as bf
 from conftest import grid
 
 V, F = grid(4)

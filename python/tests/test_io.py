@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-import brushfire as bf
 import numpy as np
 import pytest
 
+import brushfire as bf
 from conftest import grid
 
 V, F = grid(4, 0.3)

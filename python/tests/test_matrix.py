@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import brushfire as bf
 import numpy as np
 import pytest
 
+import brushfire as bf
 from conftest import grid
 
 scipy_sparse = pytest.importorskip("scipy.sparse")

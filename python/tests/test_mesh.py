@@ -6,10 +6,10 @@ import copy
 import gc
 import pickle
 
-import brushfire as bf
 import numpy as np
 import pytest
 
+import brushfire as bf
 from conftest import grid
 
 V, F = grid(5, 0.3)

@@ -11,9 +11,9 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-import brushfire as bf
 import numpy as np
 
+import brushfire as bf
 from conftest import grid
 
 

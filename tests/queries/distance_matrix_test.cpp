@@ -177,6 +177,7 @@ TEST(MatrixFile, RowsOfAnotherMeshAreNotTakenOver) {
   const Mesh mesh = bumpy(6), other = bumpy(7);
   const fs::path path = fs::path(testing::TempDir()) / "matrix-other.npy";
   MatrixOptions o;
+  o.threads = 1;  // progress comes from the calling thread: it must be the one that computes
   o.distance.method = Method::Dijkstra;
   CancelToken cancel;
   o.distance.cancel = &cancel;
