@@ -395,6 +395,34 @@ class WindowEngine final : public Engine {
       const Index root = vertex ? at.vertex : targets_[i].ray.root;
       field_->target_source[i] = value < kInfinity ? label_of(root) : kNoIndex;
     }
+    if (problem_->options->keep_paths || problem_->options->keep_windows) keep();
+  }
+
+  // What paths and points inside of faces need later.
+  void keep() {
+    const Mesh& mesh = structure_.mesh;
+    auto data = std::make_shared<WindowFieldData>();
+    data->mesh = mesh;
+    data->sources.assign(problem_->sources.begin(), problem_->sources.end());
+    data->shift = shift_;
+    data->vertices.resize(mesh.vertex_count());
+    for (const Index v : touched_) {
+      if (field_->distance[v] < kInfinity) data->vertices[v] = {state_[v].lower, state_[v].label, state_[v].ray};
+    }
+    data->targets.assign(problem_->targets.begin(), problem_->targets.end());
+    for (const TargetState& t : targets_) {
+      data->target.push_back({t.lower, t.lower < kInfinity ? label_of(t.ray.root) : kNoIndex, t.ray});
+    }
+    data->all_points = problem_->options->keep_windows;
+    if (data->all_points) {
+      data->first_kept.assign(mesh.halfedge_count() + std::size_t{1}, 0);
+      for (const KeptWindow& k : kept_) ++data->first_kept[k.halfedge + 1];
+      for (std::size_t h = 0; h < mesh.halfedge_count(); ++h) data->first_kept[h + 1] += data->first_kept[h];
+      std::vector<std::size_t> fill(data->first_kept.begin(), data->first_kept.end() - 1);
+      data->kept.resize(kept_.size());
+      for (const KeptWindow& k : kept_) data->kept[fill[k.halfedge]++] = k.window;
+    }
+    field_->windows = std::make_shared<WindowField>(std::move(data));
   }
 
   // Around the corners of a target's face.

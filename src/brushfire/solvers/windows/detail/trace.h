@@ -1,0 +1,13 @@
+// Following a ray back to its root.
+#pragma once
+
+#include <brushfire/solvers/window_field.h>
+#include <brushfire/solvers/windows/detail/record.h>
+
+namespace brushfire::detail {
+
+// The leg that ends at the point `at` of the face of ray.halfedge and came along `ray`; value: of the point. Falls back
+// on the straight line to a corner of the face where rounding has led the ray astray.
+WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, double value);
+
+}  // namespace brushfire::detail

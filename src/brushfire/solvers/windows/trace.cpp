@@ -1,0 +1,184 @@
+// A ray is followed backwards from face to face, each laid flat over the edge just crossed, until its root is found.
+#include <brushfire/solvers/windows/detail/trace.h>
+
+#include <brushfire/solvers/windows/detail/face.h>
+
+#include <algorithm>
+
+namespace brushfire::detail {
+namespace {
+
+// A ray that crosses an edge this near (share of the edge) to an end passes through the vertex there, if the vertex'
+// value says so as well, to kAgreement of the value.
+constexpr double kThroughVertex = 1e-9;
+constexpr double kAgreement = 1e-9;
+// The root found must lie where the ray ends, to this share of the leg's length: far more than unfolding rounds, far
+// less than what tells apart the sheets over a non-manifold edge.
+constexpr double kAtRoot = 1e-7;
+
+struct Position {
+  Index halfedge;  // the next edge to cross, from inside of its face
+  Vec2 source;     // the ray's root, in the halfedge's frame: below
+  Vec2 point;      // where the ray is: above, or on the edge
+  double length;   // so far
+};
+
+class Tracer {
+ public:
+  Tracer(const WindowFieldData& data, const Ray& ray, double value) : data_(data), mesh_(data.mesh), ray_(ray) {
+    value_ = value;
+  }
+
+  bool run(const FaceWeights& at, WindowField::Leg& leg) {
+    const Frame frame = frame_at(ray_.halfedge);
+    leg.points.push_back({at.face, at.weights});
+    Position start{ray_.halfedge, ray_.source, in_frame(frame, ray_.halfedge % 3, at.weights), 0};
+    if (ends_in_face(start, leg)) return true;
+    open_.push_back({start, leg.points.size()});
+    std::size_t budget = 16 + 4 * static_cast<std::size_t>(mesh_.face_count());
+    while (!open_.empty() && budget-- > 0) {
+      const auto [position, count] = open_.back();
+      open_.pop_back();
+      leg.points.resize(count);
+      if (step(position, leg)) return true;
+    }
+    return false;
+  }
+
+ private:
+  Frame frame_at(Index h) const {
+    const auto l = mesh_.lengths();
+    const double length = l[h], left = l[Mesh::previous(h)], right = l[Mesh::next(h)];
+    return {length, left, right, apex_over_edge(length, left, right, mesh_.double_areas()[h / 3])};
+  }
+
+  double value_of(Index v) const { return data_.vertices[v].value; }
+
+  // Over position.halfedge into every other face there; true where the leg's start was found.
+  bool step(const Position& at, WindowField::Leg& leg) {
+    const Index h = at.halfedge;
+    const double length = mesh_.lengths()[h];
+    const double across = at.source.x * at.point.y - at.source.y * at.point.x, along = at.point.y - at.source.y;
+    if (!(along > 0) || !(length > 0)) return false;
+    const double x = std::clamp(across / along, 0.0, length);
+    const double so_far = at.length + length_of(at.point.x - x, at.point.y);
+    if (x <= kThroughVertex * length && ends_at_vertex(mesh_.from(h), h % 3, h, so_far, leg)) return true;
+    if (x >= (1 - kThroughVertex) * length && ends_at_vertex(mesh_.to(h), next3(h % 3), h, so_far, leg)) return true;
+    // On a shortest path the value here is what is left of it, which bounds the values at the edge's ends: this tells
+    // the right sheet over a non-manifold edge from the others within a few faces.
+    const double left = value_ - so_far + kAgreement * value_;
+    if (value_of(mesh_.from(h)) > left + x || value_of(mesh_.to(h)) > left + length - x) return false;
+    SurfacePoint crossing{Mesh::face_of(h), {0, 0, 0}};
+    crossing.weights[next3(h % 3)] = x / length;
+    crossing.weights[h % 3] = 1 - x / length;
+    leg.points.push_back(crossing);
+    const auto opposite = mesh_.opposite();
+    for (Index g = opposite[h]; g != h; g = opposite[g]) {
+      const bool turned = mesh_.from(g) == mesh_.to(h);
+      Position next{
+          g, {turned ? length - at.source.x : at.source.x, -at.source.y}, {turned ? length - x : x, 0}, so_far};
+      if (ends_in_face(next, leg)) return true;
+      open_.push_back({leave(next), leg.points.size()});
+    }
+    return false;
+  }
+
+  // From a position on an edge of a face (the ray's root above, beyond the face) to the edge through which it leaves.
+  Position leave(const Position& at) const {
+    const Frame frame = frame_at(at.halfedge);
+    const bool left = cross(frame.apex - at.point, at.source - at.point) > 0;
+    const Index h = left ? Mesh::previous(at.halfedge) : Mesh::next(at.halfedge);
+    const double side = left ? frame.left : frame.right;
+    const Vec2 origin = left ? frame.apex : Vec2{frame.length, 0};
+    const Vec2 end = left ? Vec2{0, 0} : frame.apex;
+    if (!(side > 0)) return {h, {0, 0}, {0, 0}, at.length};  // no such edge: step() gives up on it
+    const Vec2 u = (1 / side) * (end - origin);
+    const auto turn = [&](Vec2 p) { return Vec2{dot(u, p - origin), cross(u, p - origin)}; };
+    return {h, turn(at.source), turn(at.point), at.length};
+  }
+
+  bool ends_at_vertex(Index v, Index corner, Index h, double length, WindowField::Leg& leg) const {
+    const bool consistent = std::abs(value_of(v) + length - value_) <= kAgreement * value_ && value_of(v) < value_;
+    if (v != ray_.root && !consistent) return false;
+    SurfacePoint p{Mesh::face_of(h), {0, 0, 0}};
+    p.weights[corner] = 1;
+    leg.points.push_back(p);
+    leg.length = length;
+    leg.vertex = v;
+    return true;
+  }
+
+  // Whether the root is in the face of the position's halfedge, where the ray says.
+  bool ends_in_face(const Position& at, WindowField::Leg& leg) const {
+    const Index h = at.halfedge, k = h % 3, face = Mesh::face_of(h), n = mesh_.vertex_count();
+    const double rest = length_of(at.source.x - at.point.x, at.source.y - at.point.y);
+    const double within = kAtRoot * (at.length + rest);
+    const auto is_root = [&](const std::array<double, 3>& weights) {
+      const Vec2 p = in_frame(frame_at(h), k, weights);
+      return length_of(p.x - at.source.x, p.y - at.source.y) <= within;
+    };
+    const auto finish = [&](const std::array<double, 3>& weights) {
+      leg.points.push_back({face, weights});
+      leg.length = at.length + rest;
+      return true;
+    };
+    if (ray_.root < n) {
+      for (Index i = 0; i < 3; ++i) {
+        std::array<double, 3> weights{0, 0, 0};
+        weights[i] = 1;
+        if (mesh_.faces()[face][i] == ray_.root && is_root(weights)) {
+          leg.vertex = ray_.root;
+          return finish(weights);
+        }
+      }
+      return false;
+    }
+    for (const FaceWeights& f : faces_around(mesh_, data_.sources[ray_.root - n].at)) {
+      if (f.face == face && is_root(f.weights)) {
+        leg.source = ray_.root - n;
+        return finish(f.weights);
+      }
+    }
+    return false;
+  }
+
+  const WindowFieldData& data_;
+  const Mesh& mesh_;
+  const Ray& ray_;
+  double value_ = 0;
+  struct Open {
+    Position position;
+    std::size_t points;
+  };
+  std::vector<Open> open_;  // sheets of non-manifold edges that are still to be tried
+};
+
+}  // namespace
+
+WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, double value) {
+  WindowField::Leg leg;
+  if (Tracer(data, ray, value).run(at, leg)) return leg;
+  leg = {};
+  PointLocation here;
+  here.face = at.face;
+  here.weights = at.weights;
+  const std::array<double, 3> d = corner_distances(data.mesh, here);
+  Index best = 0;
+  double best_value = kInfinity;
+  for (Index i = 0; i < 3; ++i) {
+    const double via = data.vertices[data.mesh.faces()[at.face][i]].value;
+    if (via < value && via + d[i] < best_value) {
+      best = i;
+      best_value = via + d[i];
+    }
+  }
+  if (best_value == kInfinity) return leg;
+  SurfacePoint corner{at.face, {0, 0, 0}};
+  corner.weights[best] = 1;
+  leg.points = {{at.face, at.weights}, corner};
+  leg.length = d[best];
+  leg.vertex = data.mesh.faces()[at.face][best];
+  return leg;
+}
+
+}  // namespace brushfire::detail
