@@ -1,0 +1,122 @@
+// Paths read off fields, and between pairs of points.
+#include <brushfire/queries/path.h>
+
+#include <brushfire/core/error.h>
+#include <brushfire/mesh/flat_face.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace brushfire {
+namespace {
+
+bool same_point(const Mesh& mesh, const SurfacePoint& a, const SurfacePoint& b) {
+  const PointLocation at = locate(mesh, a), other = locate(mesh, b);
+  if (at.on != other.on) return false;
+  if (at.on == PointLocation::On::Vertex) return at.vertex == other.vertex;
+  const auto weights = weights_in(mesh, at, other.face);
+  return weights && *weights == other.weights;
+}
+
+// Appends b's points to a, the common one once.
+void join(const Mesh& mesh, SurfacePath& a, const SurfacePath& b) {
+  for (const SurfacePoint& p : b.points) {
+    if (a.points.empty() || !same_point(mesh, a.points.back(), p)) a.points.push_back(p);
+  }
+  a.length += b.length;
+}
+
+bool is_edge_tight(const DistanceField& field, Index from, Index to, double length) {
+  return field.source[from] == field.source[to] && field.distance[from] + length == field.distance[to];
+}
+
+}  // namespace
+
+SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
+  SurfacePath path;
+  WindowField::Leg leg = field.last_leg(target);
+  if (leg.points.empty()) return path;
+  path.length = leg.length;
+  path.points = std::move(leg.points);
+  while (leg.vertex != kNoIndex) {
+    leg = field.last_leg(leg.vertex);
+    path.length += leg.length;
+    path.points.insert(path.points.end(), leg.points.begin() + 1, leg.points.end());
+  }
+  std::reverse(path.points.begin(), path.points.end());
+  return path;
+}
+
+SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index target) {
+  if (field.method != Method::Dijkstra || field.distance.size() != mesh.vertex_count()) {
+    throw Error(ErrorCode::InvalidArgument, "an edge path needs a dijkstra field of the same mesh, not one of " +
+                                                std::string(name_of(field.method)));
+  }
+  SurfacePath path;
+  if (vertex_point(mesh, target); field.distance[target] == kInfinity) return path;
+  const std::span<const double> lengths = mesh.lengths();
+  path.points.push_back(vertex_point(mesh, target));
+  path.length = 0;
+  // The field holds sums of lengths, so the edge over which a value came is found by adding up again; values fall
+  // along it, or stay on edges without length, which a walk must not follow in a circle.
+  std::vector<Index> visited_at_value{target};
+  for (Index here = target;;) {
+    Index before = kNoIndex;
+    double step = 0;
+    for (const Index corner : mesh.corners(here)) {
+      for (const Index h : {corner, Mesh::previous(corner)}) {
+        const Index other = mesh.from(h) == here ? mesh.to(h) : mesh.from(h);
+        const double length = lengths[h] * mesh.unit();
+        const bool seen =
+            std::find(visited_at_value.begin(), visited_at_value.end(), other) != visited_at_value.end();
+        if (before == kNoIndex && !seen && is_edge_tight(field, other, here, length)) {
+          before = other;
+          step = length;
+        }
+      }
+    }
+    if (before == kNoIndex) break;
+    if (step > 0) visited_at_value.clear();
+    visited_at_value.push_back(before);
+    path.points.push_back(vertex_point(mesh, before));
+    path.length += step;
+    here = before;
+  }
+  std::reverse(path.points.begin(), path.points.end());
+  return path;
+}
+
+PathFinder::PathFinder(Mesh mesh) : solver_(std::make_unique<DistanceSolver>(std::move(mesh))) {}
+PathFinder::~PathFinder() = default;
+PathFinder::PathFinder(PathFinder&&) noexcept = default;
+PathFinder& PathFinder::operator=(PathFinder&&) noexcept = default;
+
+SurfacePath PathFinder::between(const SurfacePoint& from, const SurfacePoint& to, const CancelToken* cancel) {
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_paths = true;
+  options.targets = {to};
+  options.cancel = cancel;
+  const Source source{from};
+  return path_to(*solver_->distance(std::span(&source, 1), options).windows, to);
+}
+
+SurfacePath PathFinder::through(std::span<const SurfacePoint> waypoints, bool closed, const CancelToken* cancel) {
+  if (waypoints.empty()) throw Error(ErrorCode::InvalidArgument, "a path needs at least one waypoint");
+  const Mesh& mesh = solver_->mesh();
+  locate(mesh, waypoints.front());  // also where there is nothing to trace
+  SurfacePath path;
+  path.closed = closed;
+  path.length = 0;
+  path.points.push_back(waypoints.front());
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < waypoints.size(); ++i) {
+    const SurfacePath piece = between(waypoints[i], waypoints[(i + 1) % waypoints.size()], cancel);
+    if (piece.points.empty()) return {{}, kInfinity, closed};
+    join(mesh, path, piece);
+  }
+  if (closed && path.points.size() > 1) path.points.pop_back();  // the first point again
+  return path;
+}
+
+}  // namespace brushfire

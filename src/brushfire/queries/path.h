@@ -1,0 +1,43 @@
+// Shortest paths.
+#pragma once
+
+#include <brushfire/queries/surface_path.h>
+#include <brushfire/solvers/distance.h>
+
+#include <memory>
+#include <span>
+
+namespace brushfire {
+
+// The shortest path from the nearest source to the point, read off a run that kept it (DistanceOptions::keep_paths for
+// vertices and targets, keep_windows for all points; see WindowField). Straight within every strip of faces laid flat,
+// bending at saddle and boundary vertices only; no two consecutive points are the same; its length is the field's value
+// there minus the source's offset, to rounding. No points and length +inf where no source reaches. O(edges crossed).
+SurfacePath path_to(const WindowField& field, const SurfacePoint& target);
+
+// The path along edges that a run of Method::Dijkstra means: from the nearest source's vertex to vertex `target`.
+// Throws Error(InvalidArgument) for a field of another method or of another mesh. O(edges of the vertices on it).
+SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index target);
+
+// Shortest paths between points of one mesh; keeps its workspace between calls. Each front stops as soon as it has
+// reached its target, so a short path costs little however large the mesh is.
+class PathFinder {
+ public:
+  explicit PathFinder(Mesh mesh);
+  ~PathFinder();
+  PathFinder(PathFinder&&) noexcept;
+  PathFinder& operator=(PathFinder&&) noexcept;
+
+  // The shortest path from one point to the other, to rounding. Throws as distance() does.
+  SurfacePath between(const SurfacePoint& from, const SurfacePoint& to, const CancelToken* cancel = nullptr);
+
+  // Shortest paths from each waypoint to the next, joined; from the last back to the first where `closed`. It may bend
+  // at waypoints (shorten() takes it from there). At least one waypoint; two the same after each other add nothing.
+  SurfacePath through(std::span<const SurfacePoint> waypoints, bool closed = false,
+                      const CancelToken* cancel = nullptr);
+
+ private:
+  std::unique_ptr<DistanceSolver> solver_;
+};
+
+}  // namespace brushfire

@@ -1,0 +1,156 @@
+// Shortest paths: judged by coordinates, as long as the field says, the same in both directions.
+#include <brushfire/core/error.h>
+#include <brushfire/mesh/shapes.h>
+#include <brushfire/queries/path.h>
+
+#include "support/path_checker.h"
+#include "support/shared_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace brushfire {
+namespace {
+
+double uniform(std::mt19937& random) { return (random() % 1000000 + 0.5) / 1000000; }
+
+// A vertex, a point of an edge or a point inside a face.
+SurfacePoint any_point(const Mesh& mesh, std::mt19937& random) {
+  Index f = static_cast<Index>(random() % mesh.face_count());
+  while (!mesh.is_face_usable(f)) f = static_cast<Index>(random() % mesh.face_count());
+  const double a = uniform(random), b = (1 - a) * uniform(random);
+  switch (random() % 3) {
+    case 0: return {f, {1, 0, 0}};
+    case 1: return {f, {a, 1 - a, 0}};
+    default: return {f, {a, b, 1 - a - b}};
+  }
+}
+
+void expect_good_paths(const Mesh& mesh, int pairs, unsigned seed, const std::string& name) {
+  PathFinder finder(mesh);
+  DistanceSolver solver(mesh);
+  std::mt19937 random(seed);
+  for (int i = 0; i < pairs; ++i) {
+    const SurfacePoint from = any_point(mesh, random), to = any_point(mesh, random);
+    const SurfacePath path = finder.between(from, to);
+    ASSERT_EQ(test::judge(mesh, path), "") << name << ", pair " << i << ", seed " << seed;
+    DistanceOptions options;
+    options.method = Method::Exact;
+    options.targets = {to};
+    const Source source{from};
+    const double d = solver.distance(std::span(&source, 1), options).target_distance[0];
+    if (d == kInfinity) {
+      ASSERT_TRUE(path.points.empty()) << name << ", pair " << i;
+      ASSERT_EQ(path.length, kInfinity);
+      continue;
+    }
+    const double room = 1e-10 * std::max(d, 1e-3 * mesh.unit());
+    ASSERT_NEAR(path.length, d, room) << name << ", pair " << i << ", seed " << seed;
+    ASSERT_NEAR(finder.between(to, from).length, d, room) << name << ", pair " << i << " reversed";
+  }
+}
+
+TEST(Path, OnShapesIsJudgedGoodAndAsLongAsTheFieldSays) {
+  expect_good_paths(shapes::plane(9, 7).mesh(), 60, 1, "plane");
+  expect_good_paths(shapes::cube(3).mesh(), 60, 2, "cube");
+  expect_good_paths(shapes::saddle(10).mesh(), 60, 3, "saddle");
+  expect_good_paths(shapes::torus(20, 10).mesh(), 60, 4, "torus");
+  expect_good_paths(shapes::folded_sphere(3).mesh(), 60, 5, "folded sphere");
+  expect_good_paths(shapes::book(5, 4, 4).mesh(), 60, 6, "book");
+  expect_good_paths(shapes::noise_terrain(20, 20, 0.5).mesh(), 60, 7, "terrain");
+}
+
+TEST(Path, OnScansAndDirtyMeshesIsJudgedGood) {
+  BRUSHFIRE_NEEDS_SHARED_DATA();
+  for (const std::string& name : test::shared_mesh_names()) {
+    const Mesh mesh = test::shared_mesh(name);
+    expect_good_paths(mesh, mesh.vertex_count() > 20000 ? 1 : 4, 8, name);
+  }
+}
+
+TEST(Path, BetweenAPointAndItselfIsThePoint) {
+  const Mesh mesh = shapes::cube(2).mesh();
+  const SurfacePoint p{3, {0.2, 0.3, 0.5}};
+  const SurfacePath path = PathFinder(mesh).between(p, p);
+  EXPECT_EQ(path.points.size(), 1u);
+  EXPECT_EQ(path.length, 0);
+}
+
+TEST(Path, AcrossTheDiagonalOfABoxMatchesTheUnfoldedBox) {
+  // From a corner of the unit cube to the opposite one: over two faces laid flat, a 1 x 2 rectangle.
+  const Shape cube = shapes::cube(4);
+  const Mesh mesh = cube.mesh();
+  Index a = 0, b = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.positions()[v] == Vec3{0, 0, 0}) a = v;
+    if (mesh.positions()[v] == Vec3{1, 1, 1}) b = v;
+  }
+  EXPECT_NEAR(PathFinder(mesh).between(vertex_point(mesh, a), vertex_point(mesh, b)).length, std::sqrt(5.0), 1e-14);
+}
+
+TEST(Path, ThroughWaypointsIsTheSumOfItsPiecesAndRepeatsNoPoint) {
+  const Mesh mesh = shapes::torus(20, 10).mesh();
+  const std::vector<SurfacePoint> waypoints{vertex_point(mesh, 3), vertex_point(mesh, 77), vertex_point(mesh, 77),
+                                            vertex_point(mesh, 140)};
+  PathFinder finder(mesh);
+  const double sum = finder.between(waypoints[0], waypoints[1]).length + finder.between(waypoints[2], waypoints[3]).length;
+  const SurfacePath open = finder.through(waypoints);
+  EXPECT_NEAR(open.length, sum, 1e-12);
+  EXPECT_NEAR(length_of(mesh, open.points), open.length, 1e-12);
+  const SurfacePath closed = finder.through(waypoints, true);
+  EXPECT_NEAR(closed.length, sum + finder.between(waypoints[3], waypoints[0]).length, 1e-12);
+  EXPECT_NEAR(length_of(mesh, closed.points, true), closed.length, 1e-12);
+}
+
+TEST(Path, ThereAndBackAgainIsTwiceAsLong) {
+  const Mesh mesh = shapes::saddle(8).mesh();
+  const SurfacePoint a = vertex_point(mesh, 0), b = vertex_point(mesh, 44);
+  const std::vector<SurfacePoint> waypoints{a, b, a};
+  PathFinder finder(mesh);
+  EXPECT_NEAR(finder.through(waypoints).length, 2 * finder.between(a, b).length, 1e-13);
+}
+
+TEST(Path, ToAnotherComponentIsInfiniteAndHasNoPoints) {
+  const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+  const std::vector<Face> faces{{0, 1, 2}, {3, 4, 5}};
+  const Mesh mesh(positions, faces);
+  const SurfacePath path = PathFinder(mesh).between(vertex_point(mesh, 0), vertex_point(mesh, 4));
+  EXPECT_TRUE(path.points.empty());
+  EXPECT_EQ(path.length, kInfinity);
+}
+
+TEST(Path, GoesToTheNearestOfSeveralSources) {
+  const Mesh mesh = shapes::plane(10, 10).mesh();
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_paths = true;
+  const std::vector<Source> sources{{vertex_point(mesh, 0)}, {vertex_point(mesh, 120)}};
+  const DistanceField field = distance(mesh, sources, options);
+  for (Index v = 0; v < mesh.vertex_count(); v += 7) {
+    const SurfacePath path = path_to(*field.windows, vertex_point(mesh, v));
+    const Vec3 start = test::place(mesh, path.points.front());
+    EXPECT_EQ(start, mesh.positions()[field.source[v] == 0 ? 0 : 120]);
+    EXPECT_NEAR(path.length, field.distance[v], 1e-14);
+  }
+}
+
+TEST(Path, AlongEdgesIsADijkstraPathOfTheFieldsLength) {
+  const Mesh mesh = shapes::folded_sphere(3).mesh();
+  DistanceOptions options;
+  options.method = Method::Dijkstra;
+  const Source source{vertex_point(mesh, 5)};
+  const DistanceField field = distance(mesh, std::span(&source, 1), options);
+  for (Index v = 0; v < mesh.vertex_count(); v += 31) {
+    const SurfacePath path = edge_path_to(mesh, field, v);
+    EXPECT_NEAR(path.length, field.distance[v], 1e-12);
+    EXPECT_NEAR(length_of(mesh, path.points), path.length, 1e-12);
+    EXPECT_EQ(locate(mesh, path.points.front()).vertex, 5u);
+    EXPECT_EQ(locate(mesh, path.points.back()).vertex, v);
+  }
+  const DistanceField other = distance(mesh, std::span(&source, 1), {});
+  EXPECT_THROW(edge_path_to(mesh, other, 0), Error);
+}
+
+}  // namespace
+}  // namespace brushfire
