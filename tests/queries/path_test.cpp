@@ -13,7 +13,7 @@
 namespace brushfire {
 namespace {
 
-double uniform(std::mt19937& random) { return (random() % 1000000 + 0.5) / 1000000; }
+double uniform(std::mt19937& random) { return (static_cast<double>(random() % 1000000) + 0.5) / 1000000; }
 
 // A vertex, a point of an edge or a point inside a face.
 SurfacePoint any_point(const Mesh& mesh, std::mt19937& random) {
@@ -21,9 +21,12 @@ SurfacePoint any_point(const Mesh& mesh, std::mt19937& random) {
   while (!mesh.is_face_usable(f)) f = static_cast<Index>(random() % mesh.face_count());
   const double a = uniform(random), b = (1 - a) * uniform(random);
   switch (random() % 3) {
-    case 0: return {f, {1, 0, 0}};
-    case 1: return {f, {a, 1 - a, 0}};
-    default: return {f, {a, b, 1 - a - b}};
+    case 0:
+      return {f, {1, 0, 0}};
+    case 1:
+      return {f, {a, 1 - a, 0}};
+    default:
+      return {f, {a, b, 1 - a - b}};
   }
 }
 
@@ -94,7 +97,8 @@ TEST(Path, ThroughWaypointsIsTheSumOfItsPiecesAndRepeatsNoPoint) {
   const std::vector<SurfacePoint> waypoints{vertex_point(mesh, 3), vertex_point(mesh, 77), vertex_point(mesh, 77),
                                             vertex_point(mesh, 140)};
   PathFinder finder(mesh);
-  const double sum = finder.between(waypoints[0], waypoints[1]).length + finder.between(waypoints[2], waypoints[3]).length;
+  const double sum =
+      finder.between(waypoints[0], waypoints[1]).length + finder.between(waypoints[2], waypoints[3]).length;
   const SurfacePath open = finder.through(waypoints);
   EXPECT_NEAR(open.length, sum, 1e-12);
   EXPECT_NEAR(length_of(mesh, open.points), open.length, 1e-12);

@@ -15,7 +15,7 @@ namespace {
 
 using test::place;
 
-double uniform(std::mt19937& random) { return (random() % 1000000 + 0.5) / 1000000; }
+double uniform(std::mt19937& random) { return (static_cast<double>(random() % 1000000) + 0.5) / 1000000; }
 
 TEST(Straightest, OnAPlaneIsTheStraightLine) {
   const Mesh mesh = shapes::plane(16, 16, 4, 4).mesh();
@@ -64,7 +64,9 @@ TEST(Straightest, OnACylinderIsTheUnrolledLine) {
     const Vec3 end = place(mesh, trace.path.points.back());
     EXPECT_NEAR(end.z, height / 2 + rise, 1e-11);
     const double steps = 5 + run / side, whole = std::floor(steps), part = steps - whole;
-    const auto corner = [&](double k) { return Vec3{std::cos(k * 2 * kPi / segments), std::sin(k * 2 * kPi / segments), end.z}; };
+    const auto corner = [&](double k) {
+      return Vec3{std::cos(k * 2 * kPi / segments), std::sin(k * 2 * kPi / segments), end.z};
+    };
     const Vec3 expected = (1 - part) * corner(whole) + part * corner(whole + 1);
     EXPECT_NEAR(norm(end - expected), 0, 1e-10) << "rise " << rise << ", run " << run;
   }
@@ -107,7 +109,8 @@ TEST(Straightest, CrossesVerticesWithEqualAnglesOnBothSides) {
         return test::faces_holding(mesh, test::support_of(mesh, p), test::support_of(mesh, vertex_point(mesh, v)));
       };
       const SurfacePoint& after = trace.path.points[2];
-      const double angle = test::angle_around(mesh, v, holding(from), place(mesh, from), holding(after), place(mesh, after));
+      const double angle =
+          test::angle_around(mesh, v, holding(from), place(mesh, from), holding(after), place(mesh, after));
       EXPECT_NEAR(angle, 0.75 * kPi, 1e-9);
     }
   }
@@ -124,7 +127,8 @@ TEST(Straightest, OnASphereApproachesTheGreatCircleWithTheMeshSize) {
       const Trace trace = straightest(mesh, from, angle_of(mesh, from, up), kPi / 2);
       // The plane of the great circle that starts the same way.
       const Face& t = mesh.faces()[from.face];
-      const Vec3 n = cross(mesh.positions()[t[1]] - mesh.positions()[t[0]], mesh.positions()[t[2]] - mesh.positions()[t[0]]);
+      const Vec3 n =
+          cross(mesh.positions()[t[1]] - mesh.positions()[t[0]], mesh.positions()[t[2]] - mesh.positions()[t[0]]);
       const Vec3 tangent = up - (dot(up, n) / dot(n, n)) * n;
       const Vec3 axis = cross(begin, tangent);
       worst = std::max(worst, std::abs(dot(place(mesh, trace.path.points.back()), axis)) / norm(axis));

@@ -68,8 +68,7 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
       for (const Index h : {corner, Mesh::previous(corner)}) {
         const Index other = mesh.from(h) == here ? mesh.to(h) : mesh.from(h);
         const double length = lengths[h] * mesh.unit();
-        const bool seen =
-            std::find(visited_at_value.begin(), visited_at_value.end(), other) != visited_at_value.end();
+        const bool seen = std::find(visited_at_value.begin(), visited_at_value.end(), other) != visited_at_value.end();
         if (before == kNoIndex && !seen && is_edge_tight(field, other, here, length)) {
           before = other;
           step = length;

@@ -34,7 +34,7 @@ double wrapped(double angle, double turn) {
 struct Walker {
   Index face = kNoIndex;
   std::array<double, 3> weights{0, 0, 0};
-  Vec2 direction;                // unit
+  Vec2 direction;                 // unit
   Index entered_over = kNoIndex;  // the halfedge that the walk came in over: it does not leave there
   Index from_corner = kNoIndex;   // the corner that it started from: it leaves over the opposite edge
 };
@@ -63,7 +63,8 @@ class Tracer {
   bool start(const PointLocation& from, double angle) {
     if (from.on == On::Vertex) return leave_vertex(from.vertex, angle);
     const std::array<Vec2, 3> c = flat_corners(mesh_, from.face);
-    at_ = {from.face, from.weights, unit_vector(direction_of(c[1] - c[0]) + wrapped(angle, 2 * kPi)), kNoIndex, kNoIndex};
+    at_ = {from.face, from.weights, unit_vector(direction_of(c[1] - c[0]) + wrapped(angle, 2 * kPi)), kNoIndex,
+           kNoIndex};
     if (from.on != On::Edge) return true;
     const Index k = from.halfedge % 3;
     const double side = cross(c[(k + 1) % 3] - c[k], at_.direction);
@@ -153,7 +154,8 @@ class Tracer {
     const Index in = opposite[out];
     if (in == out) return stop(TraceEnd::Boundary);
     if (opposite[in] != out) return stop(TraceEnd::NonManifold);
-    const std::array<Vec2, 3> here = flat_corners(mesh_, Mesh::face_of(out)), there = flat_corners(mesh_, Mesh::face_of(in));
+    const std::array<Vec2, 3> here = flat_corners(mesh_, Mesh::face_of(out)),
+                              there = flat_corners(mesh_, Mesh::face_of(in));
     const Vec2 out_edge = here[Mesh::next(out) % 3] - here[out % 3];
     const Vec2 in_edge = there[Mesh::next(in) % 3] - there[in % 3];
     const bool same_start = mesh_.from(in) == mesh_.from(out);

@@ -11,8 +11,8 @@ namespace {
 
 Index first_usable_corner(const Mesh& mesh, Index vertex) {
   const auto corners = mesh.corners(vertex);
-  const auto first = std::find_if(corners.begin(), corners.end(),
-                                  [&](Index h) { return mesh.is_face_usable(Mesh::face_of(h)); });
+  const auto first =
+      std::find_if(corners.begin(), corners.end(), [&](Index h) { return mesh.is_face_usable(Mesh::face_of(h)); });
   return first == corners.end() ? kNoIndex : *first;
 }
 
@@ -37,8 +37,8 @@ double TangentFan::around(Index corner, double inside) const {
 
 std::pair<Index, double> TangentFan::at(double angle) const {
   // The last corner that begins at or before the angle.
-  auto next = std::upper_bound(corners.begin(), corners.end(), angle,
-                               [](double a, const FanCorner& c) { return a < c.start; });
+  auto next =
+      std::upper_bound(corners.begin(), corners.end(), angle, [](double a, const FanCorner& c) { return a < c.start; });
   const FanCorner& c = next == corners.begin() ? corners.front() : *(next - 1);
   const double inside = std::clamp(angle - c.start, 0.0, c.angle);
   return {c.corner, c.reversed ? c.angle - inside : inside};

@@ -1,0 +1,33 @@
+// write_lines(): curves on a mesh (paths, isolines) into files that other programs open.
+#pragma once
+
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_point.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace brushfire {
+
+// A curve and one number that belongs to it.
+struct SurfaceLine {
+  std::vector<SurfacePoint> points;
+  bool closed = false;
+  double value = 0;  // a path's length, an isoline's level
+};
+
+// Writes the curves; the extension decides (or `format`, an extension without dot, for names that have none):
+//   json  {"schema": 1, VALUE_NAME of the first line where there is one line, "lines": [{VALUE_NAME, "closed",
+//         "points": [{"face", "weights", "position"}, ...]}, ...]}; a single line's points also at the top level
+//   obj   v and l records, full precision; a closed curve repeats its first vertex number
+//   ply   ascii: vertices in double and edge elements
+//   vtp   VTK XML PolyData with lines, ascii; VALUE_NAME as cell data, the faces as point data
+//   csv   line,VALUE_NAME,point,x,y,z,face,w0,w1,w2
+//   svg   the curves seen along the shortest side of their bounding box, one path element each, units of the mesh
+// A mesh without positions has json only, without "position". The file appears complete or not at all; "-" is standard
+// output and needs `format`. Throws Error(FileNotWritable), Error(UnknownFormat), Error(InvalidArgument).
+void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfaceLine> lines,
+                 const std::string& value_name, const std::string& format = "");
+
+}  // namespace brushfire
