@@ -248,7 +248,7 @@ void write_svg(Output& out, const Drawing& d) {
     out.write("\" d=\"");
     for (std::size_t k = 0; k < d.positions[i].size(); ++k) {
       out.write(k == 0 ? "M" : "L");
-      write_numbers(out, {axis(d.positions[i][k], across), -axis(d.positions[i][k], up)}, ' ');
+      write_numbers(out, {axis(d.positions[i][k], across), 0.0 - axis(d.positions[i][k], up)}, ' ');
     }
     out.write(d.lines[i].closed ? "Z\"/>\n" : "\"/>\n");
   }
