@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Union
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -43,16 +43,18 @@ class Points(NamedTuple):
     weights: npt.ArrayLike
 
 
-Places = Union[int, Point, Points, Sequence[int | Point], npt.NDArray[np.integer[Any]], npt.NDArray[np.bool_]]
-"""A vertex, a point, several of them, or a mask with one bool per vertex."""
-
-
 @dataclass(frozen=True)
 class PlaceArrays:
     """As the core takes it: a vertex where the three weights are 0 (or there are none), else a face and its weights."""
 
     index: Ints
     weights: Floats | None
+
+
+Places: TypeAlias = (
+    "int | Point | Points | PlaceArrays | Sequence[int | Point] | npt.NDArray[np.integer[Any]] | npt.NDArray[np.bool_]"
+)
+"""A vertex, a point, several of them, or a mask with one bool per vertex."""
 
 
 def _points(points: Points, what: str) -> PlaceArrays:
@@ -95,6 +97,8 @@ def is_one(places: Any) -> bool:
 
 def place_arrays(places: Any, vertex_count: int, what: str) -> PlaceArrays:
     """Any spelling of places, as arrays."""
+    if isinstance(places, PlaceArrays):
+        return places
     if isinstance(places, Points):
         return _points(places, what)
     if is_one(places):
