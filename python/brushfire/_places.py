@@ -44,6 +44,27 @@ class Points(NamedTuple):
 
 
 @dataclass(frozen=True)
+class At:
+    """Positions in space that stand for the surface points nearest to them: see :func:`at`."""
+
+    xyz: Floats
+
+
+def at(xyz: npt.ArrayLike) -> At:
+    """Positions in space as sources, targets, rows or columns: each is snapped to the nearest point of the surface.
+
+    :param xyz: (3,) or (k, 3).
+
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
+    >>> mesh.distance(bf.at([1, 0, 0.3]), method="exact").round(6).tolist()
+    [1.0, 1.0, 2.236068]
+    """
+    array = floats(xyz, "at")
+    return At(triples(array.reshape(1, 3) if array.shape == (3,) else array, "at"))
+
+
+@dataclass(frozen=True)
 class PlaceArrays:
     """As the core takes it: a vertex where the three weights are 0 (or there are none), else a face and its weights."""
 
@@ -51,9 +72,7 @@ class PlaceArrays:
     weights: Floats | None
 
 
-Places: TypeAlias = (
-    "int | Point | Points | PlaceArrays | Sequence[int | Point] | npt.NDArray[np.integer[Any]] | npt.NDArray[np.bool_]"
-)
+Places: TypeAlias = "int | Point | Points | At | PlaceArrays | Sequence[int | Point] | npt.NDArray[np.integer[Any]] | npt.NDArray[np.bool_]"
 """A vertex, a point, several of them, or a mask with one bool per vertex."""
 
 

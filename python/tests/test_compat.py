@@ -12,6 +12,7 @@ pytest.importorskip("scipy")
 from brushfire.compat import gdist as our_gdist
 from brushfire.compat import igl as our_igl
 from brushfire.compat import potpourri3d as our_pp3d
+from brushfire.compat.pygeodesic import geodesic as our_pygeodesic
 
 V, F = grid(14, 0.4)
 F32 = F.astype(np.int32)
@@ -146,3 +147,30 @@ def test_unreachable_targets_read_infinity():
     v, f = np.vstack([V, V + 100]), np.vstack([F, F + N])
     assert our_igl.exact_geodesic(v, f, VS=[0], VT=[N]).tolist() == [np.inf]
     assert np.isinf(our_gdist.compute_gdist(v, f, source_indices=[0])[N:]).all()
+
+
+class TestPygeodesic:
+    @pytest.fixture(autouse=True)
+    def original(self):
+        module = pytest.importorskip("pygeodesic.geodesic", reason="the original pygeodesic is not installed")
+        self.theirs = module.PyGeodesicAlgorithmExact(V, F)
+        self.ours = our_pygeodesic.PyGeodesicAlgorithmExact(V, F)
+
+    @pytest.mark.parametrize(("source", "target"), [(0, N - 1), (7, 8), (100, 20), (3, 3)])
+    def test_distance_and_path(self, source, target):
+        d, path = self.theirs.geodesicDistance(source, target)
+        ours, our_path = self.ours.geodesicDistance(source, target)
+        assert ours == pytest.approx(d, rel=1e-10, abs=1e-12)
+        assert our_path.shape[1] == 3
+        assert np.allclose(our_path[0], path[0])
+        assert np.allclose(our_path[-1], path[-1])
+        assert np.linalg.norm(np.diff(our_path, axis=0), axis=1).sum() == pytest.approx(ours, rel=1e-10, abs=1e-12)
+
+    @pytest.mark.parametrize("targets", [None, [1, 2, 150], np.array([5])])
+    def test_distances_and_best_sources(self, targets):
+        expected, best = self.theirs.geodesicDistances(np.array([0, 77, N - 1]), targets)
+        ours, our_best = self.ours.geodesicDistances(np.array([0, 77, N - 1]), targets)
+        assert ours.dtype == expected.dtype
+        assert our_best.dtype == best.dtype
+        assert np.allclose(ours, expected, rtol=1e-10)
+        assert (our_best == best).mean() > 0.98  # equally near sources: ours names the first
