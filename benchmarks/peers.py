@@ -2,7 +2,6 @@
 
     python peers.py MESH --json results.json [--refine ROUNDS] [--source V] [--rounds N] [--core C]
                          [--methods A,B] [--peers A,B] [--other NAME=COMMAND ...] [--truth FILE.npy | NAME]
-                         [--patience SECONDS]
 
 Every program sits in a process of its own, all on one core, and gets one round after the other in turn, so that
 whatever disturbs the machine disturbs all of them; the median of the rounds counts. Times are processor time. Errors
@@ -16,7 +15,6 @@ import argparse
 import contextlib
 import json
 import os
-import select
 import shlex
 import statistics
 import subprocess
@@ -38,17 +36,15 @@ class Contestant:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )
 
-    def round(self, patience):
+    def round(self):
         if self.failure:
             return
-        with contextlib.suppress(BrokenPipeError):
+        try:
             self.process.stdin.write("\n")
             self.process.stdin.flush()
-        if not select.select([self.process.stdout], [], [], patience)[0]:
-            self.process.kill()
-            self.failure = f"no answer after {patience:g} s"
-            return
-        answer = self.process.stdout.readline()
+            answer = self.process.stdout.readline()
+        except BrokenPipeError:
+            answer = ""
         if answer:
             self.rounds.append(json.loads(answer))
         else:
@@ -97,14 +93,13 @@ def command_of(name, build, files):
     return [build / "time_solver", files["v"], files["f"], files["s"], name, files["d"]]
 
 
-def parse(arguments=None):
+def parse():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("mesh", type=Path)
     parser.add_argument("--name", help="of the mesh in the results; default: its file name")
     parser.add_argument("--refine", type=int, default=0, help="rounds of curved one-to-four subdivision")
     parser.add_argument("--source", type=int, default=0, help="vertex")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--patience", type=float, default=60, help="seconds to wait for one round")
     parser.add_argument("--core", type=int, help="pin everything to this processor")
     parser.add_argument("--methods", default="novotni-klein,kimmel-sethian")
     parser.add_argument("--peers", default="meshlib,pymeshlab,gc-fmm")
@@ -112,7 +107,7 @@ def parse(arguments=None):
     parser.add_argument("--truth", default="exact", help="a .npy file or the name of a contestant")
     parser.add_argument("--build", type=Path, default=HERE.parent / "build/benchmark/benchmarks")
     parser.add_argument("--json", type=Path, help="results are added to this file")
-    return parser.parse_args(arguments)
+    return parser.parse_args()
 
 
 def measure(options, folder):
@@ -133,7 +128,7 @@ def measure(options, folder):
         contestants.append(Contestant(name.removeprefix("peer:"), command, files["d"]))
     for _ in range(options.rounds):
         for contestant in contestants:
-            contestant.round(options.patience)
+            contestant.round()
     for contestant in contestants:
         contestant.close()
 
@@ -175,7 +170,8 @@ def show(row):
         )
 
 
-def run(options):
+def main():
+    options = parse()
     if options.core is not None:
         os.sched_setaffinity(0, {options.core})
     with tempfile.TemporaryDirectory() as folder:
@@ -188,4 +184,4 @@ def run(options):
 
 
 if __name__ == "__main__":
-    run(parse())
+    main()

@@ -98,6 +98,15 @@ TEST(Render, FacesWithAnInfiniteValueAreGreyAndDoNotStretchTheRange) {
   EXPECT_GT(image.pixel(66, 50)[1], image.pixel(66, 50)[2]);  // near the largest finite value: the map's far end
 }
 
+TEST(Render, BeyondTheFrontTheSurfaceIsPlain) {
+  Panel panel = square();
+  panel.front = 0.5;
+  const Image image = render_one(panel, front(100)), whole = render_one(square(), front(100));
+  EXPECT_EQ(image.pixel(20, 50)[0], whole.pixel(20, 50)[0]);
+  EXPECT_NEAR(image.pixel(80, 50)[0], image.pixel(80, 50)[2], 20);  // no hue
+  EXPECT_NEAR(image.pixel(60, 50)[0], image.pixel(90, 50)[0], 1);   // and the same everywhere
+}
+
 TEST(Render, DotsAndPathsOnTheFarSideAreHidden) {
   Panel panel;
   panel.mesh = shapes::icosphere(4).mesh();

@@ -25,7 +25,8 @@ struct Panel {
   std::vector<double> scalar;            // [vertex_count]; faces with a value that is not finite are grey
   std::vector<Index> labels;             // [vertex_count]; coloured by label instead of by scalar; kNoIndex is grey
   std::vector<std::string> label_names;  // for the legend; by number where there are none
-  std::vector<double> isolines;          // levels of `scalar`, ascending; drawn as lines of constant screen width
+  double front = kInfinity;      // where `scalar` is greater, the surface is plain: what a fire has not reached yet
+  std::vector<double> isolines;  // levels of `scalar`, ascending; drawn as lines of constant screen width
   std::vector<Polyline> paths;
   std::vector<Vec3> dots;  // sources
   std::string title;

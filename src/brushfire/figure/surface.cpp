@@ -124,6 +124,7 @@ Color SurfaceShader::base_color(double value, std::array<float, 3> w) const {
   }
   if (panel.scalar.empty()) return kPlain;
   if (!has_value_) return kGrey;
+  if (value > panel.front) return kPlain;
   const ScalarRange range = surface_.range_;
   const double span = range.high - range.low;
   const Color c = color_of(surface_.options_.colormap, span > 0 ? (value - range.low) / span : 0);

@@ -5,18 +5,23 @@
 #include <brushfire/mesh/flat_face.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
 namespace brushfire {
 namespace {
 
+// Whether two points are one, to what weights can tell.
 bool same_point(const Mesh& mesh, const SurfacePoint& a, const SurfacePoint& b) {
   const PointLocation at = locate(mesh, a), other = locate(mesh, b);
-  if (at.on != other.on) return false;
-  if (at.on == PointLocation::On::Vertex) return at.vertex == other.vertex;
+  if (at.on == PointLocation::On::Vertex && other.on == PointLocation::On::Vertex) return at.vertex == other.vertex;
   const auto weights = weights_in(mesh, at, other.face);
-  return weights && *weights == other.weights;
+  if (!weights) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (std::abs((*weights)[k] - other.weights[k]) > kWeightSnap) return false;
+  }
+  return true;
 }
 
 // Appends b's points to a, the common one once.
@@ -37,12 +42,16 @@ SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
   SurfacePath path;
   WindowField::Leg leg = field.last_leg(target);
   if (leg.points.empty()) return path;
-  path.length = leg.length;
-  path.points = std::move(leg.points);
-  while (leg.vertex != kNoIndex) {
-    leg = field.last_leg(leg.vertex);
+  path.length = 0;
+  path.points.push_back(leg.points.front());
+  while (true) {
     path.length += leg.length;
-    path.points.insert(path.points.end(), leg.points.begin() + 1, leg.points.end());
+    for (std::size_t i = 1; i < leg.points.size(); ++i) {
+      // A leg names a point on an edge once for either face, where it starts or ends there.
+      if (!same_point(field.mesh(), path.points.back(), leg.points[i])) path.points.push_back(leg.points[i]);
+    }
+    if (leg.vertex == kNoIndex) break;
+    leg = field.last_leg(leg.vertex);
   }
   std::reverse(path.points.begin(), path.points.end());
   return path;

@@ -50,6 +50,8 @@ class WindowField {
   Leg last_leg(Index vertex) const;
   Leg last_leg(const SurfacePoint& point) const;
 
+  const Mesh& mesh() const noexcept;
+
   explicit WindowField(std::shared_ptr<const detail::WindowFieldData> data);
 
  private:

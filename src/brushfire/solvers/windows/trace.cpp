@@ -54,6 +54,9 @@ class Tracer {
 
   double value_of(Index v) const { return data_.vertices[v].value; }
 
+  // A run that stopped early does not know the values of all vertices along a path: those exclude nothing.
+  bool is_above(Index v, double bound) const { return value_of(v) != kInfinity && value_of(v) > bound; }
+
   // Over position.halfedge into every other face there; true where the leg's start was found.
   bool step(const Position& at, WindowField::Leg& leg) {
     const Index h = at.halfedge;
@@ -67,7 +70,7 @@ class Tracer {
     // On a shortest path the value here is what is left of it, which bounds the values at the edge's ends: this tells
     // the right sheet over a non-manifold edge from the others within a few faces.
     const double left = value_ - so_far + kAgreement * value_;
-    if (value_of(mesh_.from(h)) > left + x || value_of(mesh_.to(h)) > left + length - x) return false;
+    if (is_above(mesh_.from(h), left + x) || is_above(mesh_.to(h), left + length - x)) return false;
     SurfacePoint crossing{Mesh::face_of(h), {0, 0, 0}};
     crossing.weights[next3(h % 3)] = x / length;
     crossing.weights[h % 3] = 1 - x / length;

@@ -162,6 +162,8 @@ WindowField::Leg last_leg_of(const detail::WindowFieldData& data, const Found& f
 
 WindowField::WindowField(std::shared_ptr<const detail::WindowFieldData> data) : data_(std::move(data)) {}
 
+const Mesh& WindowField::mesh() const noexcept { return data_->mesh; }
+
 WindowField::Value WindowField::value(const SurfacePoint& point) const {
   const PointRecord record = Look(*data_).point(point).record;
   return {record.value == kInfinity ? kInfinity : data_->mesh.unit() * (record.value - data_->shift), record.label};
