@@ -3,9 +3,7 @@
 
 #include <brushfire/core/error.h>
 
-#include <sys/resource.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +35,16 @@ void write_array(const std::string& path, std::span<const T> values) {
   if (!out) throw Error(ErrorCode::FileNotWritable, path + ": cannot be written");
 }
 
+// A line of /proc/self/status. (getrusage's ru_maxrss would do, but it includes the program that started this one.)
+double status_mib(const std::string& key) {
+  std::ifstream in("/proc/self/status");
+  for (std::string word; in >> word;) {
+    double kib = 0;
+    if (word == key && in >> kib) return kib / 1024;
+  }
+  return 0;
+}
+
 }  // namespace
 
 double cpu_seconds() {
@@ -45,18 +53,8 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-double memory_mib() {
-  std::ifstream in("/proc/self/statm");
-  double total = 0, resident = 0;
-  in >> total >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
-}
-
-double peak_memory_mib() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
+double memory_mib() { return status_mib("VmRSS:"); }
+double peak_memory_mib() { return status_mib("VmHWM:"); }
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;

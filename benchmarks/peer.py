@@ -8,7 +8,6 @@ own, everything is in the solve. Converting the arrays to the number type that t
 """
 
 import json
-import resource
 import sys
 from time import process_time
 
@@ -153,13 +152,10 @@ PEERS = {
 }
 
 
-def resident_mib():
-    with open("/proc/self/statm") as statm:
-        return int(statm.read().split()[1]) * resource.getpagesize() / 2**20
-
-
-def peak_mib():
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+def memory_mib(key):
+    """VmRSS: now; VmHWM: at most so far. (ru_maxrss includes the program that started this one.)"""
+    with open("/proc/self/status") as status:
+        return next(int(line.split()[1]) for line in status if line.startswith(key)) / 1024
 
 
 def main():
@@ -167,7 +163,7 @@ def main():
     faces = np.fromfile(sys.argv[2], dtype="<i4").reshape(-1, 3)
     source = int(sys.argv[3])
     peer = PEERS[sys.argv[4]](vertices, faces)
-    before, memory = resident_mib(), None
+    before, memory = memory_mib("VmRSS"), None
     for _ in sys.stdin:
         begin = process_time()
         peer.set_up()
@@ -175,7 +171,7 @@ def main():
         result = peer.solve(source)
         first = process_time()
         if memory is None:
-            memory = peak_mib() - before
+            memory = memory_mib("VmHWM") - before
             if len(sys.argv) > 5:
                 np.asarray(peer.distances(result), dtype="<f8").tofile(sys.argv[5])
         solve = first - ready

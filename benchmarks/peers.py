@@ -2,6 +2,7 @@
 
     python peers.py MESH --json results.json [--refine ROUNDS] [--source V] [--rounds N] [--core C]
                          [--methods A,B] [--peers A,B] [--other NAME=COMMAND ...] [--truth FILE.npy | NAME]
+                         [--patience SECONDS]
 
 Every program sits in a process of its own, all on one core, and gets one round after the other in turn, so that
 whatever disturbs the machine disturbs all of them; the median of the rounds counts. Times are processor time. Errors
@@ -15,6 +16,7 @@ import argparse
 import contextlib
 import json
 import os
+import select
 import shlex
 import statistics
 import subprocess
@@ -36,15 +38,17 @@ class Contestant:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )
 
-    def round(self):
+    def round(self, patience):
         if self.failure:
             return
-        try:
+        with contextlib.suppress(BrokenPipeError):
             self.process.stdin.write("\n")
             self.process.stdin.flush()
-            answer = self.process.stdout.readline()
-        except BrokenPipeError:
-            answer = ""
+        if not select.select([self.process.stdout], [], [], patience)[0]:
+            self.process.kill()
+            self.failure = f"no answer after {patience:g} s"
+            return
+        answer = self.process.stdout.readline()
         if answer:
             self.rounds.append(json.loads(answer))
         else:
@@ -93,13 +97,14 @@ def command_of(name, build, files):
     return [build / "time_solver", files["v"], files["f"], files["s"], name, files["d"]]
 
 
-def parse():
+def parse(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("mesh", type=Path)
     parser.add_argument("--name", help="of the mesh in the results; default: its file name")
     parser.add_argument("--refine", type=int, default=0, help="rounds of curved one-to-four subdivision")
     parser.add_argument("--source", type=int, default=0, help="vertex")
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--patience", type=float, default=60, help="seconds to wait for one round")
     parser.add_argument("--core", type=int, help="pin everything to this processor")
     parser.add_argument("--methods", default="novotni-klein,kimmel-sethian")
     parser.add_argument("--peers", default="meshlib,pymeshlab,gc-fmm")
@@ -107,7 +112,7 @@ def parse():
     parser.add_argument("--truth", default="exact", help="a .npy file or the name of a contestant")
     parser.add_argument("--build", type=Path, default=HERE.parent / "build/benchmark/benchmarks")
     parser.add_argument("--json", type=Path, help="results are added to this file")
-    return parser.parse_args()
+    return parser.parse_args(arguments)
 
 
 def measure(options, folder):
@@ -128,7 +133,7 @@ def measure(options, folder):
         contestants.append(Contestant(name.removeprefix("peer:"), command, files["d"]))
     for _ in range(options.rounds):
         for contestant in contestants:
-            contestant.round()
+            contestant.round(options.patience)
     for contestant in contestants:
         contestant.close()
 
@@ -170,8 +175,7 @@ def show(row):
         )
 
 
-def main():
-    options = parse()
+def run(options):
     if options.core is not None:
         os.sched_setaffinity(0, {options.core})
     with tempfile.TemporaryDirectory() as folder:
@@ -184,4 +188,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(parse())

@@ -18,19 +18,23 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 from brushfire._core import version as __version__
 from brushfire._errors import BrushfireError, BrushfireIndexError
 from brushfire._io import FileInfo, from_any, read
-from brushfire._mesh import Mesh, MeshReport, Solver, methods
-from brushfire._places import Point, Points
+from brushfire._mesh import LogMap, Mesh, MeshReport, Path, Solver, methods
+from brushfire._places import At, Point, Points, at
 
 __all__ = [
+    "At",
     "BrushfireError",
     "BrushfireIndexError",
     "FileInfo",
+    "LogMap",
     "Mesh",
     "MeshReport",
+    "Path",
     "Point",
     "Points",
     "Solver",
     "__version__",
+    "at",
     "from_any",
     "methods",
     "read",

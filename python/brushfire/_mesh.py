@@ -13,7 +13,7 @@ from brushfire import _arrays, _core
 from brushfire._arrays import Floats, number
 from brushfire._distance import Distances, Progress
 from brushfire._errors import BrushfireError
-from brushfire._places import PlaceArrays, Places, is_one, place_arrays
+from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -61,6 +61,32 @@ class MeshReport:
         return "\n".join([head, *self.remarks])
 
 
+@dataclass(frozen=True)
+class Path:
+    """A polyline on the surface; straight between consecutive points, which share a face.
+
+    ``points``: its nodes as :class:`Points`; none where there is no path. ``positions``: the same in coordinates, (k, 3);
+    (0, 3) for a mesh from lengths. ``length``: +inf where there is no path.
+    """
+
+    points: Points
+    positions: Floats
+    length: float
+
+
+@dataclass(frozen=True)
+class LogMap:
+    """Polar coordinates of every vertex around a source.
+
+    ``radius`` (vertex_count,): the exact distance. ``angle`` (vertex_count,): the direction in which the shortest path
+    leaves the source, NaN where there is none. ``total_angle``: the full turn at the source.
+    """
+
+    radius: Floats
+    angle: Floats
+    total_angle: float
+
+
 class Mesh(Distances):
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
@@ -80,6 +106,7 @@ class Mesh(Distances):
     """
 
     _mesh: _core.Mesh
+    _finder: _core.NearestPointFinder | None = None
 
     def __init__(self, vertices: npt.ArrayLike, faces: npt.ArrayLike) -> None:
         self._mesh = _core.make_mesh(_arrays.vertices(vertices), _arrays.faces(faces))
@@ -153,6 +180,104 @@ class Mesh(Distances):
         arrays = self._arrays(places, "places")
         xyz = self._mesh.positions(arrays.index, arrays.weights)
         return xyz[0] if is_one(places) else xyz
+
+    def nearest(self, xyz: npt.ArrayLike) -> tuple[Points, Floats]:
+        """The points of the surface nearest to positions in space, and how far away they are.
+
+        :param xyz: (k, 3), or (3,) for a single one.
+        :return: :class:`Points` and distances, (k,) each.
+        :raises BrushfireError: for a mesh from lengths or without faces, and for positions that are not finite.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
+        >>> points, distance = mesh.nearest([[0.5, 0.5, 3]])
+        >>> points.face.tolist(), points.weights.tolist(), distance.tolist()
+        ([0], [[0.5, 0.25, 0.25]], [3.0])
+        """
+        if self._finder is None:
+            self._finder = _core.NearestPointFinder(self._mesh)
+        face, weights, distance = self._finder.nearest(at(xyz).xyz)
+        return Points(face, weights), distance
+
+    def masked(self, open_vertices: npt.ArrayLike) -> Mesh:
+        """The mesh of the faces whose three vertices are all open; vertices keep their numbers.
+
+        :param open_vertices: one bool per vertex. Closed vertices, and those left without a face, read +inf.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.masked([True, True, True, False]).distance(0, method="exact").tolist()
+        [0.0, 3.0, 5.0, inf]
+        """
+        mask = np.asarray(open_vertices)
+        if mask.dtype != np.bool_ or mask.shape != (self.vertex_count,):
+            raise BrushfireError(
+                f"open_vertices: one bool per vertex is needed, not {mask.dtype} of shape {mask.shape}"
+            )
+        chosen = mask[self.faces].all(axis=1) if self.face_count else np.zeros(0, dtype=bool)
+        if self._mesh.has_positions:
+            return type(self)(self.vertices, self.faces[chosen])
+        return type(self).from_lengths(self.faces[chosen], self._mesh.lengths()[chosen], self.vertex_count)
+
+    def path(self, *places: Places, closed: bool = False) -> Path:
+        """The shortest path from a place to the next, exactly: ``path(a, b)``, or through all that are given.
+
+        :param places: vertices, points, or lists of them, in order.
+        :param closed: also from the last back to the first.
+        :return: a :class:`Path`, from the first place to the last; without points and of length +inf where there is none.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> path = mesh.path(1, 3)
+        >>> path.length, path.positions.round(6).tolist()
+        (5.0, [[3.0, 0.0, 0.0], [1.5, 2.0, 0.0], [0.0, 4.0, 0.0]])
+        """
+        arrays = [self._arrays(place, "places") for place in places]
+        if not arrays:
+            raise BrushfireError("path: at least one place is needed")
+        index = np.concatenate([a.index for a in arrays])
+        weights = np.concatenate([np.zeros((len(a.index), 3)) if a.weights is None else a.weights for a in arrays])
+        return self._path(*_core.path(self._mesh, index, weights, bool(closed)))
+
+    def trace(self, start: Places, direction: npt.ArrayLike, length: float) -> tuple[Path, str]:
+        """Straight on from a point, for a length.
+
+        :param direction: an angle (radians, counter-clockwise from the face's first edge, or at a vertex from the edge of
+            its first face), or a vector in space, (3,), which is projected onto the surface.
+        :return: the path, and how it ended: ``"length"``, ``"boundary"`` or ``"non-manifold"``.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> path, end = mesh.trace(0, [1, 1, 0], 2.0)
+        >>> path.positions[-1].round(6).tolist(), end
+        ([1.414214, 1.414214, 0.0], 'length')
+        """
+        arrays = self._arrays(start, "start")
+        vector = _arrays.floats(direction, "direction")
+        angle, along = (float(vector), None) if vector.ndim == 0 else (0.0, vector)
+        if along is not None and along.shape != (3,):
+            raise BrushfireError(f"direction: an angle or shape (3,) is needed, not {along.shape}")
+        face, weights, walked, end = _core.trace(
+            self._mesh, arrays.index, arrays.weights, angle, along, number(length, "length")
+        )
+        return self._path(face, weights, walked), end
+
+    def log_map(self, source: Places, max_radius: float = np.inf) -> LogMap:
+        """Polar coordinates around a source: exact distance, and the direction of the shortest path.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+        >>> polar = mesh.log_map(0)
+        >>> polar.radius.round(3).tolist(), (polar.angle / polar.total_angle).round(3).tolist()
+        ([0.0, 1.0, 1.414, 1.0], [0.0, 0.0, 0.5, 1.0])
+        """
+        arrays = self._arrays(source, "source")
+        limit = number(max_radius, "max_radius")
+        return LogMap(*_core.log_map(self._mesh, arrays.index, arrays.weights, limit))
+
+    def _path(self, face: npt.NDArray[np.int32], weights: Floats, length: float) -> Path:
+        points = Points(face, weights)
+        return Path(points, self.position(points) if self._mesh.has_positions else np.zeros((0, 3)), length)
 
     def solver(self) -> Solver:
         """A solver for many calls on this mesh: see :class:`Solver`."""
@@ -294,6 +419,8 @@ class Mesh(Distances):
         return _core.Solver(self._mesh)
 
     def _arrays(self, places: Any, what: str) -> PlaceArrays:
+        if isinstance(places, At):
+            places = self.nearest(places.xyz)[0]
         return place_arrays(places, self.vertex_count, what)
 
     def _optional(self, places: Any, what: str) -> tuple[tuple[Any, Any], int]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Union
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -43,8 +43,25 @@ class Points(NamedTuple):
     weights: npt.ArrayLike
 
 
-Places = Union[int, Point, Points, Sequence[int | Point], npt.NDArray[np.integer[Any]], npt.NDArray[np.bool_]]
-"""A vertex, a point, several of them, or a mask with one bool per vertex."""
+@dataclass(frozen=True)
+class At:
+    """Positions in space that stand for the surface points nearest to them: see :func:`at`."""
+
+    xyz: Floats
+
+
+def at(xyz: npt.ArrayLike) -> At:
+    """Positions in space as sources, targets, rows or columns: each is snapped to the nearest point of the surface.
+
+    :param xyz: (3,) or (k, 3).
+
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
+    >>> mesh.distance(bf.at([1, 0, 0.3]), method="exact").round(6).tolist()
+    [1.0, 1.0, 2.236068]
+    """
+    array = floats(xyz, "at")
+    return At(triples(array.reshape(1, 3) if array.shape == (3,) else array, "at"))
 
 
 @dataclass(frozen=True)
@@ -53,6 +70,10 @@ class PlaceArrays:
 
     index: Ints
     weights: Floats | None
+
+
+Places: TypeAlias = "int | Point | Points | At | PlaceArrays | Sequence[int | Point] | npt.NDArray[np.integer[Any]] | npt.NDArray[np.bool_]"
+"""A vertex, a point, several of them, or a mask with one bool per vertex."""
 
 
 def _points(points: Points, what: str) -> PlaceArrays:
@@ -95,6 +116,8 @@ def is_one(places: Any) -> bool:
 
 def place_arrays(places: Any, vertex_count: int, what: str) -> PlaceArrays:
     """Any spelling of places, as arrays."""
+    if isinstance(places, PlaceArrays):
+        return places
     if isinstance(places, Points):
         return _points(places, what)
     if is_one(places):

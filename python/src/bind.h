@@ -25,6 +25,7 @@ void bind_errors(nb::module_& m);
 void bind_mesh(nb::module_& m);
 void bind_distance(nb::module_& m);
 void bind_matrix(nb::module_& m);
+void bind_curves(nb::module_& m);
 
 // Arrays as the Python files hand them over: converted already, C order, exactly these types.
 template <class T>

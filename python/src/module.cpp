@@ -9,4 +9,5 @@ NB_MODULE(_core, m) {
   brushfire::python::bind_mesh(m);
   brushfire::python::bind_distance(m);
   brushfire::python::bind_matrix(m);
+  brushfire::python::bind_curves(m);
 }
