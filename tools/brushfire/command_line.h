@@ -92,6 +92,7 @@ class CommandLine {
 // One function per verb, each in the file of that name.
 void add_info(CommandLine& command_line);
 void add_distance(CommandLine& command_line);
+void add_matrix(CommandLine& command_line);
 void add_compare(CommandLine& command_line);
 void add_completion(CommandLine& command_line);
 

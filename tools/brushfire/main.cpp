@@ -6,6 +6,7 @@ int main(int argc, char** argv) {
   CommandLine command_line;
   add_info(command_line);
   add_distance(command_line);
+  add_matrix(command_line);
   add_compare(command_line);
   add_completion(command_line);
   return command_line.run(argc, argv);

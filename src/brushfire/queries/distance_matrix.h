@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -64,6 +65,11 @@ struct SparseMatrix {
 // close), and during the run should the expectation have been too low.
 template <class T>
 SparseMatrix<T> distances_within(const Mesh& mesh, double radius, Places rows = {}, const MatrixOptions& options = {});
+
+// The matrix as .npz (what scipy.sparse.load_npz() reads: CSR, uncompressed) or .mtx (MatrixMarket), by extension. The
+// file appears complete or not at all. Throws Error(UnknownFormat) for another extension, Error(FileNotWritable).
+template <class T>
+void write_sparse_matrix(const std::string& path, const SparseMatrix<T>& matrix);
 
 // The dense matrix as a .npy file (little-endian, C order, version 1.0), a row at a time: memory for one row per
 // thread. The rows go into PATH.part, and which are there into PATH.part.rows; when all are, PATH.part becomes PATH.

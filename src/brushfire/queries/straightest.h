@@ -44,8 +44,8 @@ Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, doub
 struct LogMap {
   std::vector<double> radius;  // [vertex_count] exact distance; +inf: unreachable or beyond max_radius
   std::vector<double> angle;   // [vertex_count] the direction in which the shortest path leaves the source, as above;
-                              // NaN where there is no path, 0 at the source itself
-  double total_angle = 0;  // the full turn at the source
+                               // NaN where there is no path, 0 at the source itself
+  double total_angle = 0;      // the full turn at the source
 };
 
 // Inside the injectivity radius of a point, straightest(source, angle[v], radius[v]) ends at v; behind a saddle or a

@@ -1,0 +1,99 @@
+// brushfire matrix: what it writes, and what it refuses.
+#include "program.h"
+
+#include <brushfire/io/npy.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+namespace brushfire::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MatrixVerb : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              ("brushfire_matrix_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::create_directories(folder_);
+    std::ofstream(path("m.off")) << "OFF\n5 2 0\n0 0 0\n3 0 0\n3 4 0\n0 4 0\n9 9 9\n3 0 1 2\n3 0 2 3\n";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  Ended run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"matrix", path("m.off"), "--method", "exact"});
+    return run_program(arguments);
+  }
+  std::string content(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(MatrixVerb, WritesTheDenseMatrixOfChosenRowsAndColumns) {
+  std::ofstream(path("columns.txt")) << "3 # a corner\n1.5,2,7\nf:0:0,1,0\n";
+  const Ended ended = run({"--rows", "1,4", "--cols", path("columns.txt"), "--dtype", "float64", "-o", path("d.npy")});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  const NpyArray d = read_npy(path("d.npy"));
+  EXPECT_EQ(d.type, "<f8");
+  EXPECT_EQ(d.shape, (std::vector<std::size_t>{2, 3}));
+  const double inf = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(d.values, (std::vector<double>{5, 2.5, 0, inf, inf, inf}));
+}
+
+TEST_F(MatrixVerb, WritesAllPairsInFloatByDefault) {
+  EXPECT_EQ(run({"-o", path("d.npy"), "--quiet"}).err, "");
+  const NpyArray d = read_npy(path("d.npy"));
+  EXPECT_EQ(d.type, "<f4");
+  EXPECT_EQ(d.shape, (std::vector<std::size_t>{5, 5}));
+  EXPECT_EQ(d.values[1 * 5 + 3], 5);
+}
+
+TEST_F(MatrixVerb, WritesWhatIsWithinARadiusAsMatrixMarket) {
+  const Ended ended = run({"--radius", "3", "--rows", "0,2", "-o", path("d.mtx")});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(content("d.mtx"), "%%MatrixMarket matrix coordinate real general\n2 5 4\n1 1 0\n1 2 3\n2 3 0\n2 4 3\n");
+}
+
+TEST_F(MatrixVerb, WritesAnArchiveOfArraysForScipy) {
+  EXPECT_EQ(run({"--radius", "3", "-o", path("d.npz")}).code, 0);
+  const std::string bytes = content("d.npz");
+  EXPECT_EQ(bytes.substr(0, 4), "PK\x03\x04");
+  for (const char* member : {"indices.npy", "indptr.npy", "format.npy", "shape.npy", "data.npy"}) {
+    EXPECT_NE(bytes.find(member), std::string::npos) << member;
+  }
+  EXPECT_EQ(run({"--radius", "3", "-o", path("again.npz")}).code, 0);
+  EXPECT_EQ(bytes, content("again.npz"));
+}
+
+TEST_F(MatrixVerb, RefusesWhatMakesNoSenseWithOneLine) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {},
+           {"-o", path("d.txt")},
+           {"-o", path("d.npz")},
+           {"-o", path("d.npz"), "--radius", "3", "--cols", "0"},
+           {"-o", path("d.npy"), "--radius", "-1"},
+           {"-o", path("d.npy"), "--threads", "1.5"},
+           {"-o", path("d.npy"), "--rows", "0,5"},
+           {"-o", path("d.npy"), "--rows", "0,,1"},
+           {"-o", path("d.npy"), "--dtype", "int8"},
+       }) {
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.code, 2) << ended.err;
+    EXPECT_EQ(ended.out, "");
+    EXPECT_EQ(ended.err.find('\n'), ended.err.size() - 1) << ended.err;
+  }
+  EXPECT_EQ(run({"-o", path("d.npy"), "--rows", path("absent.txt")}).code, 3);
+}
+
+}  // namespace
+}  // namespace brushfire::test

@@ -1,0 +1,188 @@
+// brushfire matrix: distances from many places to many places.
+#include "command_line.h"
+#include "interrupt.h"
+#include "where.h"
+
+#include <brushfire/core/error.h>
+#include <brushfire/io/read_mesh.h>
+#include <brushfire/mesh/nearest_point.h>
+#include <brushfire/queries/distance_matrix.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+namespace brushfire::tool {
+namespace {
+
+constexpr const char* kExamples = R"(Rows and columns:
+  all               every vertex, in the file's order
+  0,5,9             these vertices
+  FILE              one place per line, as for `brushfire distance --sources`
+
+Examples:
+  brushfire matrix cortex.gii -o d.npy
+  brushfire matrix cortex.gii --rows 0,5,9 --cols landmarks.txt --dtype float64 -o d.npy
+  brushfire matrix cortex.gii --radius 20 --method exact -o near.npz
+
+.npy is the dense matrix, written row by row: interrupted, the same command goes on where it stopped. With --radius,
+.npz (scipy.sparse.load_npz) and .mtx (MatrixMarket) hold what is within it; there, columns are all vertices.)";
+
+struct Arguments {
+  std::string file, output;
+  std::string rows = "all", columns = "all";
+  std::string method{name_of(DistanceOptions{}.method)};
+  std::string type = "float32";
+  std::optional<double> radius, threads;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool is_list_of_vertices(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789,") == std::string::npos;
+}
+
+std::vector<Where> parse_places(const std::string& text) {
+  if (!is_list_of_vertices(text)) return read_where_file(text);
+  std::vector<Where> places;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    places.push_back(parse_where(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return places;
+}
+
+// The places of a list; nullopt for all vertices.
+std::optional<std::vector<Place>> places_on(const Mesh& mesh, const std::string& text) {
+  if (text == "all") return std::nullopt;
+  std::optional<NearestPointFinder> finder;
+  const auto snap = [&](Vec3 position) {
+    if (!finder) finder.emplace(mesh);
+    return (*finder)(position).point;
+  };
+  std::vector<Place> places;
+  for (const Where& where : parse_places(text)) {
+    if (where.has_offset) throw Error(ErrorCode::InvalidArgument, "'" + where.text + "': a matrix has no offsets");
+    // A vertex in no face is a legal row (of infinities), but not a point of the surface.
+    const VertexPlace* vertex = std::get_if<VertexPlace>(&where.place);
+    if (vertex && vertex->index < mesh.vertex_count()) {
+      places.push_back(static_cast<Index>(vertex->index));
+    } else {
+      places.push_back(resolve(where, mesh, snap));
+    }
+  }
+  return places;
+}
+
+bool is_sparse(const std::string& path) { return path.ends_with(".npz") || path.ends_with(".mtx"); }
+
+unsigned threads_of(const Arguments& arguments) {
+  const double threads = arguments.threads.value_or(0);
+  if (!(threads >= 0 && threads <= 4096 && threads == std::floor(threads))) {
+    throw Error(ErrorCode::InvalidArgument, "--threads takes a whole number: 0 means one per processor");
+  }
+  return static_cast<unsigned>(threads);
+}
+
+void check(const Arguments& arguments) {
+  const bool sparse = is_sparse(arguments.output);
+  if (!sparse && !arguments.output.ends_with(".npy")) {
+    throw Error(ErrorCode::InvalidArgument, "where to? give -o FILE.npy, .npz or .mtx");
+  }
+  if (sparse && !arguments.radius) {
+    throw Error(ErrorCode::InvalidArgument, arguments.output + ": a sparse matrix needs a --radius");
+  }
+  if (sparse && arguments.columns != "all") {
+    throw Error(ErrorCode::InvalidArgument, arguments.output + ": the columns of a sparse matrix are all vertices");
+  }
+  if (arguments.radius && !(*arguments.radius >= 0)) {
+    throw Error(ErrorCode::InvalidArgument, "--radius " + exact(*arguments.radius) + " is not a number >= 0");
+  }
+}
+
+template <class T>
+std::uint64_t write_sparse(const Arguments& arguments, const Mesh& mesh, Places rows, const MatrixOptions& options) {
+  const SparseMatrix<T> matrix = distances_within<T>(mesh, *arguments.radius, rows, options);
+  write_sparse_matrix(arguments.output, matrix);
+  return matrix.value.size();
+}
+
+int matrix_verb(const Arguments& arguments, const Talk& talk) {
+  check(arguments);
+  MatrixOptions options;
+  options.threads = threads_of(arguments);
+  options.distance.method = method_named(arguments.method);
+  options.distance.max_distance = arguments.radius.value_or(kInfinity);
+  options.distance.cancel = &cancel_token();
+  options.distance.progress = talk.progress("matrix");
+
+  const Mesh mesh = read_mesh(arguments.file).mesh;
+  stop_if_interrupted();
+  const std::optional<std::vector<Place>> row_places = places_on(mesh, arguments.rows);
+  const std::optional<std::vector<Place>> column_places = places_on(mesh, arguments.columns);
+  const Places rows = row_places ? Places(*row_places) : std::nullopt;
+  const Places columns = column_places ? Places(*column_places) : std::nullopt;
+  const std::uint64_t row_count = rows ? rows->size() : mesh.vertex_count();
+  const std::uint64_t column_count = columns ? columns->size() : mesh.vertex_count();
+
+  const auto start = std::chrono::steady_clock::now();
+  const bool is_float = arguments.type == "float32";
+  std::uint64_t entries = row_count * column_count;
+  if (is_sparse(arguments.output)) {
+    entries = is_float ? write_sparse<float>(arguments, mesh, rows, options)
+                       : write_sparse<double>(arguments, mesh, rows, options);
+  } else {
+    write_distance_matrix(arguments.output, mesh, rows, columns, is_float ? ValueType::Float32 : ValueType::Float64,
+                          options);
+  }
+  const double solve_s = seconds_since(start);
+  talk.end_progress();
+
+  if (talk.json) {
+    write_stdout(Record()
+                     .add("file", arguments.file)
+                     .add("method", arguments.method)
+                     .add("vertices", std::int64_t{mesh.vertex_count()})
+                     .add("rows", static_cast<std::int64_t>(row_count))
+                     .add("columns", static_cast<std::int64_t>(column_count))
+                     .add("entries", static_cast<std::int64_t>(entries))
+                     .add("radius", arguments.radius.value_or(kInfinity))
+                     .add("dtype", arguments.type)
+                     .add("solve_s", solve_s)
+                     .add("output", arguments.output)
+                     .json());
+  } else {
+    talk.say(arguments.output + ": " + std::to_string(row_count) + " x " + std::to_string(column_count) + ", " +
+             counted(entries, "entry", "entries") + ", in " + duration(solve_s));
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void add_matrix(CommandLine& command_line) {
+  const auto arguments = std::make_shared<Arguments>();
+  std::vector<std::string> methods;
+  for (const Method m : all_methods()) methods.emplace_back(name_of(m));
+  command_line.add("matrix", "Distances from many places to many places", [&](Verb& verb) {
+    verb.argument("FILE", arguments->file, "The mesh; - reads standard input");
+    verb.option("--rows", arguments->rows, "PLACES", "all, a list of vertices, or a file with one place per line");
+    verb.option("--cols", arguments->columns, "PLACES", "The same for the columns");
+    verb.option("-r,--radius", arguments->radius, "R",
+                "Stop at this distance; what is farther reads inf or is left out");
+    verb.choice("-m,--method", arguments->method, methods, "How to compute");
+    verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
+    verb.option("--threads", arguments->threads, "N", "How many threads; one per processor if not given");
+    verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy, with --radius also .npz .mtx");
+    verb.talks();
+    verb.examples(kExamples);
+    verb.run([arguments](Talk& talk) { return matrix_verb(*arguments, talk); });
+  });
+}
+
+}  // namespace brushfire::tool
