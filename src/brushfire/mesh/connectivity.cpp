@@ -76,6 +76,10 @@ std::vector<Index> build_opposite(std::span<const Face> faces, const VertexCorne
   return opposite;
 }
 
+void open_ring(Index h, std::vector<Index>& opposite) {
+  while (opposite[h] != h) h = std::exchange(opposite[h], h);
+}
+
 std::vector<Link> build_links(std::span<const Face> faces, const VertexCorners& corners,
                               std::span<const Index> opposite) {
   const Index vertex_count = static_cast<Index>(corners.offset.size() - 1);

@@ -108,6 +108,7 @@ struct Mesh::Data {
   std::vector<Vec3> positions;
   std::vector<Face> faces;
   std::vector<double> input_lengths;  // [halfedge_count], meshes from lengths only
+  std::vector<Index> slits;           // halfedges whose rings are opened
 
   Lazy<detail::VertexCorners> corners;
   Lazy<std::vector<Index>> opposite;
@@ -119,7 +120,11 @@ struct Mesh::Data {
     return corners.get([this] { return detail::build_corners(vertex_count, faces); });
   }
   const std::vector<Index>& get_opposite() const {
-    return opposite.get([this] { return detail::build_opposite(faces, get_corners()); });
+    return opposite.get([this] {
+      std::vector<Index> ring = detail::build_opposite(faces, get_corners());
+      for (const Index h : slits) detail::open_ring(h, ring);
+      return ring;
+    });
   }
   const std::vector<Link>& get_links() const {
     return links.get([this] { return detail::build_links(faces, get_corners(), get_opposite()); });
@@ -229,6 +234,24 @@ Mesh Mesh::from_lengths(Index vertex_count, std::span<const Face> faces,
   data->input_lengths.reserve(3 * lengths.size());
   for (const auto& l : lengths) data->input_lengths.insert(data->input_lengths.end(), l.begin(), l.end());
   data->check_lengths();
+  return Mesh(std::move(data));
+}
+
+Mesh Mesh::with_slits(std::span<const Index> halfedges) const {
+  for (const Index h : halfedges) {
+    if (h >= halfedge_count()) {
+      throw Error(ErrorCode::IndexOutOfRange, "halfedge " + std::to_string(h) + " does not exist: the mesh has " +
+                                                  std::to_string(halfedge_count()));
+    }
+  }
+  auto data = std::make_shared<Data>();
+  data->vertex_count = data_->vertex_count;
+  data->has_positions = data_->has_positions;
+  data->positions = data_->positions;
+  data->faces = data_->faces;
+  data->input_lengths = data_->input_lengths;
+  data->slits = data_->slits;
+  data->slits.insert(data->slits.end(), halfedges.begin(), halfedges.end());
   return Mesh(std::move(data));
 }
 

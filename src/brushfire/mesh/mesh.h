@@ -50,6 +50,11 @@ class Mesh {
   static Mesh from_lengths(Index vertex_count, std::span<const Face> faces,
                            std::span<const std::array<double, 3>> lengths);
 
+  // The same mesh with the edge of each of these halfedges opened into a slit: its faces no longer meet over it, every
+  // side is boundary; its two vertices stay whole. (cut.h opens walls, and parts the vertices in them.) Throws
+  // Error(IndexOutOfRange).
+  Mesh with_slits(std::span<const Index> halfedges) const;
+
   Index vertex_count() const noexcept;
   Index face_count() const noexcept;
   Index halfedge_count() const noexcept { return 3 * face_count(); }

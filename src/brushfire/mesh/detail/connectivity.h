@@ -20,6 +20,9 @@ VertexCorners build_corners(Index vertex_count, std::span<const Face> faces);
 // linear where valences are bounded.
 std::vector<Index> build_opposite(std::span<const Face> faces, const VertexCorners& corners);
 
+// Makes every halfedge of the ring of h its own opposite.
+void open_ring(Index h, std::vector<Index>& opposite);
+
 std::vector<Link> build_links(std::span<const Face> faces, const VertexCorners& corners,
                               std::span<const Index> opposite);
 
