@@ -1,8 +1,7 @@
 // Wavefront OBJ: v and f lines; texture coordinates, normals, groups and materials are passed over.
+#include <brushfire/io/detail/colours.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/text.h>
-
-#include <fast_float/fast_float.h>
 
 namespace brushfire::detail {
 
@@ -98,6 +97,35 @@ MeshParts read_obj(const Input& input) {
     input.fail("has neither a vertex nor a face: no OBJ file");
   }
   return parts;
+}
+
+// Colours behind the coordinates, as MeshLab, Blender and others read them.
+void write_obj(Output& out, const Mesh& mesh, const FieldView& field) {
+  const ColourScale scale(field.values);
+  out.write("# " + counted(mesh.vertex_count(), "vertex", "vertices") + ", " + counted(mesh.face_count(), "face", "faces") + "\n");
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3& p = mesh.positions()[v];
+    out.write('v');
+    for (const double x : {p.x, p.y, p.z}) {
+      out.write(' ');
+      out.number(x);
+    }
+    if (!field.values.empty()) {
+      for (const std::uint8_t c : scale(field.values[v])) {
+        out.write(' ');
+        out.number(static_cast<float>(c) / 255.0f);
+      }
+    }
+    out.write('\n');
+  }
+  for (const Face& f : mesh.faces()) {
+    out.write('f');
+    for (const Index v : f) {
+      out.write(' ');
+      out.number(std::int64_t{v} + 1);
+    }
+    out.write('\n');
+  }
 }
 
 }  // namespace brushfire::detail

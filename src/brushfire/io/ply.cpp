@@ -1,5 +1,6 @@
 // PLY: ascii and binary of both byte orders, any property types, faces and triangle strips.
 #include <brushfire/io/detail/binary.h>
+#include <brushfire/io/detail/colours.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/ply.h>
 #include <brushfire/io/detail/text.h>
@@ -123,28 +124,6 @@ using ply::Header;
 using ply::Property;
 using ply::Type;
 
-double load_number(Type type, const char* p, std::endian order) {
-  switch (type) {
-    case Type::Int8:
-      return load<std::int8_t>(p, order);
-    case Type::UInt8:
-      return load<std::uint8_t>(p, order);
-    case Type::Int16:
-      return load<std::int16_t>(p, order);
-    case Type::UInt16:
-      return load<std::uint16_t>(p, order);
-    case Type::Int32:
-      return load<std::int32_t>(p, order);
-    case Type::UInt32:
-      return load<std::uint32_t>(p, order);
-    case Type::Float32:
-      return static_cast<double>(load<float>(p, order));
-    case Type::Float64:
-      return load<double>(p, order);
-  }
-  return 0;
-}
-
 // Rows of binary elements: a bounds-checked walk over bytes.
 class BinaryRows {
  public:
@@ -170,7 +149,7 @@ class BinaryRows {
   }
 
   double number(Type type, const Element& e, std::uint64_t row) {
-    return load_number(type, take(ply::size_of(type), e, row), order_);
+    return load_number(type, take(size_of(type), e, row), order_);
   }
 
   // What the header promises must be there, at the shortest: every number, and no entries in lists.
@@ -181,7 +160,7 @@ class BinaryRows {
                                     std::to_string(input_->size() - at_) + " bytes follow");
     }
   }
-  static std::size_t shortest(const Property& p) { return ply::size_of(p.is_list ? p.count_type : p.type); }
+  static std::size_t shortest(const Property& p) { return size_of(p.is_list ? p.count_type : p.type); }
 
   [[noreturn]] void fail(std::size_t place, const std::string& cause) const { input_->fail_byte(place, cause); }
 
@@ -224,10 +203,7 @@ class PlyReader {
     parts_.places_are_lines = header_->encoding == Encoding::Ascii;
     bool has_vertices = false;
     for (const Element& e : header_->elements) {
-      std::size_t shortest_row = 0;
-      for (const Property& p : e.properties) shortest_row += Rows::shortest(p);
-      if (shortest_row == 0) continue;  // rows without properties are nothing
-      rows_.check_promise(e, shortest_row);
+      if (check_rows(e) == 0) continue;  // rows without properties are nothing
       if (e.name == "vertex") {
         read_vertices(e);
         has_vertices = true;
@@ -243,7 +219,42 @@ class PlyReader {
     return std::move(parts_);
   }
 
+  // The vertex property `name`; "" takes `quality`, or the first that is no coordinate, normal or colour.
+  LoadedField read_field(const std::string& name) {
+    LoadedField field;
+    for (const Element& e : header_->elements) {
+      const Property* p = e.name == "vertex" ? scalar(e, name) : nullptr;
+      check_rows(e);
+      if (p != nullptr) {
+        field.name = p->name;
+        read_column(e, *p, field.values);
+        return field;
+      }
+      if (!e.properties.empty()) skip(e);
+    }
+    rows_.fail(rows_.place(), "the vertices have no scalar" + (name.empty() ? std::string() : " " + quote(name)));
+  }
+
  private:
+  static const Property* scalar(const Element& e, const std::string& name) {
+    const Property* p = e.find(name.empty() ? "quality" : name);
+    if (p != nullptr) return p->is_list ? nullptr : p;
+    if (!name.empty()) return nullptr;
+    static constexpr std::string_view kOthers[]{"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha", "s", "t", "u", "v"};
+    for (const Property& q : e.properties) {
+      if (!q.is_list && std::find(std::begin(kOthers), std::end(kOthers), q.name) == std::end(kOthers)) return &q;
+    }
+    return nullptr;
+  }
+
+  // Returns the fewest bytes of a row, after checking that there are enough for all.
+  std::size_t check_rows(const Element& e) const {
+    std::size_t shortest_row = 0;
+    for (const Property& p : e.properties) shortest_row += Rows::shortest(p);
+    rows_.check_promise(e, shortest_row);
+    return shortest_row;
+  }
+
   static const Property* corner_list(const Element& e) {
     const Property* p = e.find("vertex_indices");
     if (p == nullptr) p = e.find("vertex_index");
@@ -296,7 +307,7 @@ class PlyReader {
       for (std::size_t a = 0; a < 3; ++a) {
         if (axis[a] == k) offset[a] = stride;
       }
-      stride += ply::size_of(e.properties[k].type);
+      stride += size_of(e.properties[k].type);
     }
     const std::size_t begin = rows_.place();
     const char* block = rows_.take(stride * e.count, e, e.count);
@@ -347,7 +358,7 @@ class PlyReader {
   void skip_list(const Element& e, std::uint64_t row, const Property& p) {
     const std::size_t n = list_length(e, row, p);
     if constexpr (std::is_same_v<Rows, BinaryRows>) {
-      rows_.take(n * ply::size_of(p.type), e, row);
+      rows_.take(n * size_of(p.type), e, row);
     } else {
       for (std::size_t k = 0; k < n; ++k) rows_.number(p.type, e, row);
     }
@@ -358,6 +369,19 @@ class PlyReader {
       skip_list(e, row, p);
     } else {
       rows_.number(p.type, e, row);
+    }
+  }
+
+  // One number of every row.
+  void read_column(const Element& e, const Property& wanted, std::vector<double>& values) {
+    for (std::uint64_t row = 0; row < e.count; ++row) {
+      for (const Property& p : e.properties) {
+        if (&p == &wanted) {
+          values.push_back(rows_.number(p.type, e, row));
+        } else {
+          skip_property(e, row, p);
+        }
+      }
     }
   }
 
@@ -460,6 +484,41 @@ MeshParts read_ply(const Input& input) {
   const Header header = ply::read_header(input);
   if (header.encoding == Encoding::Ascii) return PlyReader<AsciiRows>(input, header).read();
   return PlyReader<BinaryRows>(input, header).read();
+}
+
+LoadedField read_ply_field(const Input& input, const std::string& name) {
+  const Header header = ply::read_header(input);
+  if (header.encoding == Encoding::Ascii) return PlyReader<AsciiRows>(input, header).read_field(name);
+  return PlyReader<BinaryRows>(input, header).read_field(name);
+}
+
+// Binary, little-endian. MeshLab reads `quality` and the colours.
+void write_ply(Output& out, const Mesh& mesh, const FieldView& field) {
+  constexpr std::endian kOrder = std::endian::little;
+  const bool has_values = !field.values.empty(), has_labels = !field.labels.empty();
+  out.write("ply\nformat binary_little_endian 1.0\n");
+  if (has_values) out.write("comment quality is " + printable(field.name) + "\n");
+  out.write("element vertex " + std::to_string(mesh.vertex_count()) + "\n");
+  out.write("property double x\nproperty double y\nproperty double z\n");
+  if (has_values) {
+    out.write("property double quality\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n");
+  }
+  if (has_labels) out.write("property int " + field.label_name + "\n");
+  out.write("element face " + std::to_string(mesh.face_count()) + "\nproperty list uchar int vertex_indices\nend_header\n");
+  const ColourScale scale(field.values);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3& p = mesh.positions()[v];
+    for (const double x : {p.x, p.y, p.z}) out.value(x, kOrder);
+    if (has_values) {
+      out.value(field.values[v], kOrder);
+      for (const std::uint8_t c : scale(field.values[v])) out.value(c, kOrder);
+    }
+    if (has_labels) out.value(field.labels[v], kOrder);
+  }
+  for (const Face& f : mesh.faces()) {
+    out.value(std::uint8_t{3}, kOrder);
+    for (const Index v : f) out.value(v, kOrder);
+  }
 }
 
 }  // namespace brushfire::detail

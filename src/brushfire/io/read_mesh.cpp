@@ -20,6 +20,14 @@ bool is_off(std::string_view b) {
   return starts_with(b, "OFF") || starts_with(b, "COFF") || starts_with(b, "NOFF") || starts_with(b, "CNOFF") ||
          starts_with(b, "STOFF");
 }
+bool is_vtk(std::string_view b) { return starts_with(b, "# vtk DataFile"); }
+bool is_gmsh(std::string_view b) { return starts_with(b, "$MeshFormat"); }
+bool is_medit(std::string_view b) { return starts_with(b, "MeshVersionFormatted"); }
+bool is_freesurfer(std::string_view b) { return starts_with(b, "\xff\xff\xfe") || starts_with(b, "\xff\xff\xfd"); }
+// XML says what it is within its first lines.
+std::string_view xml_head(std::string_view b) { return starts_with(b, "<") ? b.substr(0, 1024) : std::string_view(); }
+bool is_vtp(std::string_view b) { return xml_head(b).find("<VTKFile") != std::string_view::npos; }
+bool is_gifti(std::string_view b) { return xml_head(b).find("<GIFTI") != std::string_view::npos; }
 bool is_unmarked(std::string_view) { return false; }
 
 struct Format {
@@ -34,6 +42,14 @@ const Format kFormats[]{
     {"PLY", {"ply"}, is_ply, read_ply},
     {"OBJ", {"obj"}, is_unmarked, read_obj},
     {"OFF", {"off", "coff", "noff", "cnoff"}, is_off, read_off},
+    {"VTK", {"vtk"}, is_vtk, read_vtk},
+    {"VTP", {"vtp"}, is_vtp, read_vtp},
+    {"GIFTI", {"gii"}, is_gifti, read_gifti},
+    {"FreeSurfer", {"white", "pial", "inflated", "sphere", "orig", "smoothwm"}, is_freesurfer, read_freesurfer},
+    {"glTF", {"gltf", "glb"}, is_gltf, read_gltf},
+    {"Gmsh", {"msh"}, is_gmsh, read_gmsh},
+    {"MEDIT", {"mesh"}, is_medit, read_medit},
+    {"STL", {"stl"}, is_stl, read_stl},
 };
 
 const Format& format_of(const Input& input, std::vector<std::string>& remarks) {

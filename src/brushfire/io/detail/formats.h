@@ -1,13 +1,51 @@
-// The readers, one per format: each turns bytes into MeshParts or throws Error(FileMalformed).
+// The readers and writers, a file of its own for each format. Readers turn bytes into MeshParts or throw
+// Error(FileMalformed); writers are given what fits the mesh.
 #pragma once
 
 #include <brushfire/io/detail/input.h>
 #include <brushfire/io/detail/mesh_parts.h>
+#include <brushfire/io/detail/output.h>
+#include <brushfire/io/read_field.h>
+#include <brushfire/io/write_field.h>
 
 namespace brushfire::detail {
 
+MeshParts read_freesurfer(const Input& input);
+MeshParts read_gifti(const Input& input);
+MeshParts read_gltf(const Input& input);
+MeshParts read_gmsh(const Input& input);
+MeshParts read_medit(const Input& input);
 MeshParts read_obj(const Input& input);
 MeshParts read_off(const Input& input);
 MeshParts read_ply(const Input& input);
+MeshParts read_stl(const Input& input);
+MeshParts read_vtk(const Input& input);
+MeshParts read_vtp(const Input& input);
+
+// Does the content say itself that it is of this format?
+bool is_gltf(std::string_view bytes);
+bool is_stl(std::string_view bytes);
+
+// Scalars on vertices; `name` chooses the array, "" takes the first.
+LoadedField read_csv_field(const Input& input, const std::string& name);
+LoadedField read_freesurfer_annot(const Input& input, const std::string& name);
+LoadedField read_freesurfer_curv(const Input& input, const std::string& name);
+LoadedField read_freesurfer_label(const Input& input, const std::string& name);
+LoadedField read_gifti_field(const Input& input, const std::string& name);
+LoadedField read_json_field(const Input& input, const std::string& name);
+LoadedField read_npy_field(const Input& input, const std::string& name);
+LoadedField read_ply_field(const Input& input, const std::string& name);
+LoadedField read_text_field(const Input& input, const std::string& name);
+LoadedField read_vtk_field(const Input& input, const std::string& name);
+LoadedField read_vtp_field(const Input& input, const std::string& name);
+
+void write_csv(Output& out, const Mesh& mesh, const FieldView& field);
+void write_freesurfer_curv(Output& out, const Mesh& mesh, const FieldView& field);
+void write_gifti(Output& out, const Mesh& mesh, const FieldView& field);
+void write_json(Output& out, const Mesh& mesh, const FieldView& field);
+void write_obj(Output& out, const Mesh& mesh, const FieldView& field);
+void write_ply(Output& out, const Mesh& mesh, const FieldView& field);
+void write_vtk(Output& out, const Mesh& mesh, const FieldView& field);
+void write_vtp(Output& out, const Mesh& mesh, const FieldView& field);
 
 }  // namespace brushfire::detail

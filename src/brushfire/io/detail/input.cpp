@@ -1,5 +1,6 @@
 // Reading whole files, inflating them, and wording errors.
 #include <brushfire/core/error.h>
+#include <brushfire/io/detail/inflate.h>
 #include <brushfire/io/detail/input.h>
 
 #include <algorithm>
@@ -11,10 +12,6 @@
 #include <new>
 #include <system_error>
 #include <vector>
-
-#ifdef BRUSHFIRE_HAS_ZLIB
-#include <zlib.h>
-#endif
 
 namespace brushfire::detail {
 
@@ -94,8 +91,6 @@ void refuse_what_is_no_file(const std::string& path) {
   }
 }
 
-bool is_gzip(std::string_view bytes) { return bytes.size() >= 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b'; }
-
 std::string escape(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -131,12 +126,6 @@ std::string quote(std::string_view text) {
     }
   }
   return out + (text.size() > kLongest ? "...'" : "'");
-}
-
-std::size_t inflate_budget(std::size_t size) {
-  constexpr std::size_t kFree = std::size_t{64} << 20, kRatio = 100;
-  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
-  return size > (kMost - kFree) / kRatio ? kMost : kFree + kRatio * size;
 }
 
 Input Input::from_file(const std::string& path) {
@@ -205,86 +194,6 @@ void Input::fail(const std::string& cause) const {
   throw Error(ErrorCode::FileMalformed, printable(name_) + ": " + cause);
 }
 
-#ifdef BRUSHFIRE_HAS_ZLIB
-
-namespace {
-
-// A z_stream that is released whatever happens.
-class Inflater {
- public:
-  explicit Inflater(std::string_view compressed) : rest_(compressed) {
-    constexpr int kZlibOrGzip = 15 + 32;
-    ok_ = inflateInit2(&stream_, kZlibOrGzip) == Z_OK;
-  }
-  Inflater(const Inflater&) = delete;
-  Inflater& operator=(const Inflater&) = delete;
-  ~Inflater() { inflateEnd(&stream_); }
-
-  // Fills `target` as far as the stream reaches and returns how far; sets error() where the data is damaged.
-  std::size_t read(char* target, std::size_t size) {
-    constexpr std::size_t kChunk = std::size_t{1} << 30;  // zlib counts in 32 bits
-    std::size_t done = 0;
-    while (ok_ && !ended_ && done < size) {
-      const std::size_t in = std::min(rest_.size(), kChunk), out = std::min(size - done, kChunk);
-      stream_.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(rest_.data()));
-      stream_.avail_in = static_cast<uInt>(in);
-      stream_.next_out = reinterpret_cast<Bytef*>(target + done);
-      stream_.avail_out = static_cast<uInt>(out);
-      const int status = inflate(&stream_, Z_NO_FLUSH);
-      rest_.remove_prefix(in - stream_.avail_in);
-      done += out - stream_.avail_out;
-      if (status == Z_STREAM_END) {
-        next_member();
-      } else if (status == Z_BUF_ERROR || (status == Z_OK && rest_.empty() && stream_.avail_out != 0)) {
-        error_ = "compressed data ends early";
-        ok_ = false;
-      } else if (status != Z_OK) {
-        error_ = std::string("compressed data is damaged") + (stream_.msg ? std::string(": ") + stream_.msg : "");
-        ok_ = false;
-      }
-    }
-    return done;
-  }
-
-  // True once the stream has come to its proper end.
-  bool ended() {
-    if (ok_ && !ended_) {
-      char beyond;
-      overflow_ = read(&beyond, 1) != 0;
-    }
-    return ended_ && !overflow_;
-  }
-  const std::string& error() const { return error_; }
-
- private:
-  // gzip files may be several streams in a row; anything else behind the end is ignored, as gzip does.
-  void next_member() {
-    ended_ = !is_gzip(rest_);
-    if (!ended_) ok_ = inflateReset(&stream_) == Z_OK;
-  }
-
-  z_stream stream_{};
-  std::string_view rest_;
-  bool ok_ = false, ended_ = false, overflow_ = false;
-  std::string error_;
-};
-
-}  // namespace
-
-std::string inflate_exactly(std::string_view compressed, char* target, std::size_t expected) {
-  Inflater inflater(compressed);
-  const std::size_t done = inflater.read(target, expected);
-  if (!inflater.error().empty()) return inflater.error();
-  if (done < expected) {
-    return "inflates to " + std::to_string(done) + " bytes, but " + std::to_string(expected) + " are needed";
-  }
-  if (!inflater.ended()) {
-    if (!inflater.error().empty()) return inflater.error();
-    return "inflates to more than the " + std::to_string(expected) + " bytes that are needed";
-  }
-  return {};
-}
-
 void Input::inflate_gzip() {
   inflate_budget_ = detail::inflate_budget(bytes_.size());
   if (!is_gzip(bytes_)) return;
@@ -314,18 +223,5 @@ void Input::inflate_gzip() {
   bytes_ = {all.get(), total};
   storage_ = std::move(all);
 }
-
-#else
-
-std::string inflate_exactly(std::string_view, char*, std::size_t) {
-  return "is compressed, but this program was built without zlib";
-}
-
-void Input::inflate_gzip() {
-  inflate_budget_ = detail::inflate_budget(bytes_.size());
-  if (is_gzip(bytes_)) fail("is compressed with gzip, but this program was built without zlib");
-}
-
-#endif
 
 }  // namespace brushfire::detail

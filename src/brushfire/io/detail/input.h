@@ -44,12 +44,6 @@ class Input {
   std::size_t inflate_budget_ = 0;
 };
 
-// How much compressed content of a file of `size` bytes may inflate to, in total.
-std::size_t inflate_budget(std::size_t size);
-
-// Inflates a zlib or gzip stream into exactly `expected` bytes at `target`. Returns an empty string or what is wrong.
-std::string inflate_exactly(std::string_view compressed, char* target, std::size_t expected);
-
 // Text for an error message: at most 40 characters, quoted, control characters and foreign bytes as \xNN.
 std::string quote(std::string_view text);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/io/detail/input.h>
+#include <brushfire/io/detail/numbers.h>
 
 #include <bit>
 #include <cstdint>
@@ -10,12 +11,7 @@
 
 namespace brushfire::detail::ply {
 
-enum class Type : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
-constexpr std::size_t size_of(Type t) {
-  constexpr std::uint8_t kSize[]{1, 1, 2, 2, 4, 4, 4, 8};
-  return kSize[static_cast<std::size_t>(t)];
-}
-constexpr bool is_integer(Type t) { return t < Type::Float32; }
+using Type = NumberType;
 
 struct Property {
   std::string name;

@@ -177,6 +177,14 @@ class TextCursor {
     }
   }
 
+  // `n` items of `size` bytes as they are; fewer, and nothing taken, where the text ends before. Lines are not counted.
+  std::string_view take(std::size_t n, std::size_t size) {
+    if (n > left() / size) return {};
+    const char* begin = at_;
+    at_ += n * size;
+    return {begin, n * size};
+  }
+
   // Takes the character at the cursor where it is `c`.
   bool accept(char c) {
     if (at_ == end_ || *at_ != c) return false;

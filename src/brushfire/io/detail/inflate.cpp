@@ -1,0 +1,112 @@
+// zlib's streams, and what to say without them.
+#include <brushfire/io/detail/inflate.h>
+
+#include <algorithm>
+#include <limits>
+
+#ifdef BRUSHFIRE_HAS_ZLIB
+#include <zlib.h>
+#endif
+
+namespace brushfire::detail {
+
+std::size_t inflate_budget(std::size_t size) {
+  constexpr std::size_t kFree = std::size_t{64} << 20, kRatio = 100;
+  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  return size > (kMost - kFree) / kRatio ? kMost : kFree + kRatio * size;
+}
+
+bool is_gzip(std::string_view bytes) { return bytes.size() >= 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b'; }
+
+std::string inflate_exactly(std::string_view compressed, char* target, std::size_t expected) {
+  Inflater inflater(compressed);
+  const std::size_t done = inflater.read(target, expected);
+  if (!inflater.error().empty()) return inflater.error();
+  if (done < expected) {
+    return "inflates to " + std::to_string(done) + " bytes, but " + std::to_string(expected) + " are needed";
+  }
+  if (!inflater.ended()) {
+    if (!inflater.error().empty()) return inflater.error();
+    return "inflates to more than the " + std::to_string(expected) + " bytes that are needed";
+  }
+  return {};
+}
+
+#ifdef BRUSHFIRE_HAS_ZLIB
+
+struct Inflater::Stream {
+  z_stream z{};
+  std::string_view rest;
+  bool ok = false, ended = false, overflow = false;
+
+  // What is behind the end and no gzip stream again is ignored, as gzip does.
+  void next_member() {
+    ended = !is_gzip(rest);
+    if (!ended) ok = inflateReset(&z) == Z_OK;
+  }
+};
+
+Inflater::Inflater(std::string_view compressed) : stream_(std::make_unique<Stream>()) {
+  constexpr int kZlibOrGzip = 15 + 32;
+  stream_->rest = compressed;
+  stream_->ok = inflateInit2(&stream_->z, kZlibOrGzip) == Z_OK;
+  if (!stream_->ok) error_ = "zlib cannot start";
+}
+
+Inflater::~Inflater() { inflateEnd(&stream_->z); }
+
+std::size_t Inflater::read(char* target, std::size_t size) {
+  constexpr std::size_t kChunk = std::size_t{1} << 30;  // zlib counts in 32 bits
+  Stream& s = *stream_;
+  std::size_t done = 0;
+  while (s.ok && !s.ended && done < size) {
+    const std::size_t in = std::min(s.rest.size(), kChunk), out = std::min(size - done, kChunk);
+    s.z.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(s.rest.data()));
+    s.z.avail_in = static_cast<uInt>(in);
+    s.z.next_out = reinterpret_cast<Bytef*>(target + done);
+    s.z.avail_out = static_cast<uInt>(out);
+    const int status = inflate(&s.z, Z_NO_FLUSH);
+    s.rest.remove_prefix(in - s.z.avail_in);
+    done += out - s.z.avail_out;
+    if (status == Z_STREAM_END) {
+      s.next_member();
+    } else if (status == Z_BUF_ERROR || (status == Z_OK && s.rest.empty() && s.z.avail_out != 0)) {
+      error_ = "compressed data ends early";
+      s.ok = false;
+    } else if (status != Z_OK) {
+      error_ = std::string("compressed data is damaged") + (s.z.msg != nullptr ? std::string(": ") + s.z.msg : "");
+      s.ok = false;
+    }
+  }
+  return done;
+}
+
+bool Inflater::ended() {
+  if (stream_->ok && !stream_->ended) {
+    char beyond;
+    stream_->overflow = read(&beyond, 1) != 0;
+  }
+  return stream_->ended && !stream_->overflow;
+}
+
+std::string deflate(std::string_view bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::string out(size, '\0');
+  compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+           static_cast<uLong>(bytes.size()));
+  out.resize(size);
+  return out;
+}
+
+#else
+
+struct Inflater::Stream {};
+Inflater::Inflater(std::string_view) : error_("is compressed, but this program was built without zlib") {}
+Inflater::~Inflater() = default;
+std::size_t Inflater::read(char*, std::size_t) { return 0; }
+bool Inflater::ended() { return true; }
+std::string deflate(std::string_view) { return {}; }
+
+#endif
+
+}  // namespace brushfire::detail

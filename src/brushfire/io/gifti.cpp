@@ -1,0 +1,278 @@
+// GIFTI (.gii): surfaces, and functional, shape and label data; ascii, base64, zlib and external binary.
+//
+// Based on: GIFTI Surface Data Format, version 1.0 (NITRC 2008).
+#include <brushfire/core/error.h>
+#include <brushfire/io/detail/base64.h>
+#include <brushfire/io/detail/formats.h>
+#include <brushfire/io/detail/inflate.h>
+#include <brushfire/io/detail/numbers.h>
+#include <brushfire/io/detail/text.h>
+#include <brushfire/io/detail/xml.h>
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+namespace brushfire::detail {
+
+namespace {
+
+struct GiftiArray {
+  std::string intent, encoding, external_file, name;
+  NumberType type = NumberType::Float32;
+  std::endian order = std::endian::little;
+  bool column_major = false;
+  std::uint64_t rows = 0, columns = 1, external_offset = 0;
+  std::size_t line = 0, begin = 0, end = 0;
+  bool has_data = false;
+};
+
+struct GiftiFile {
+  std::vector<GiftiArray> arrays;
+  std::vector<LoadedField::Label> labels;
+};
+
+class GiftiParser {
+ public:
+  explicit GiftiParser(const Input& input) : input_(&input) {
+    bool is_gifti = false;
+    parse_xml(input, "", [&](std::span<const XmlElement> path) {
+      is_gifti = path.front().name == "GIFTI";
+      element(path);
+    });
+    if (!is_gifti) input.fail("has no <GIFTI>");
+  }
+  GiftiFile file;
+
+ private:
+  void element(std::span<const XmlElement> path) {
+    const XmlElement& e = path.back();
+    const std::string_view parent = path.size() > 1 ? path[path.size() - 2].name : "";
+    if (e.name == "DataArray") {
+      finish_array(e);
+    } else if (e.name == "Data" && parent == "DataArray") {
+      array_.begin = e.text_begin;
+      array_.end = e.text_end;
+      array_.has_data = true;
+    } else if (e.name == "Name" && parent == "MD") {
+      name_is_next_ = text(e) == "Name";
+    } else if (e.name == "Value" && parent == "MD" && name_is_next_ && path.size() > 3 && path[path.size() - 4].name == "DataArray") {
+      array_.name = text(e);
+    } else if (e.name == "Label" && parent == "LabelTable") {
+      add_label(e);
+    }
+  }
+
+  // The text of an element, without CDATA's brackets.
+  std::string_view text(const XmlElement& e) const {
+    std::string_view t = input_->bytes().substr(e.text_begin, e.text_end - e.text_begin);
+    constexpr std::string_view kOpen = "<![CDATA[", kClose = "]]>";
+    const std::size_t open = t.find(kOpen);
+    if (open != std::string_view::npos) {
+      t.remove_prefix(open + kOpen.size());
+      t = t.substr(0, t.find(kClose));
+    }
+    return t;
+  }
+
+  void add_label(const XmlElement& e) {
+    std::string_view key = e.attribute("Key");
+    if (key.empty()) key = e.attribute("Index");
+    std::int64_t value = 0;
+    const auto result = std::from_chars(key.data(), key.data() + key.size(), value);
+    if (result.ec != std::errc() || result.ptr != key.data() + key.size()) {
+      input_->fail_line(e.line, "a label's key is " + quote(key) + ", not a number");
+    }
+    file.labels.push_back({value, std::string(text(e))});
+  }
+
+  void finish_array(const XmlElement& e) {
+    GiftiArray a = std::move(array_);
+    array_ = {};
+    name_is_next_ = false;
+    a.line = e.line;
+    a.intent = e.attribute("Intent");
+    a.encoding = e.attribute("Encoding");
+    a.external_file = e.attribute("ExternalFileName");
+    a.external_offset = e.count(*input_, "ExternalFileOffset");
+    a.order = e.attribute("Endian") == "BigEndian" ? std::endian::big : std::endian::little;
+    a.column_major = e.attribute("ArrayIndexingOrder") == "ColumnMajorOrder";
+    a.type = type_of(e);
+    const std::uint64_t dimensions = e.count(*input_, "Dimensionality", 1);
+    if (dimensions < 1 || dimensions > 2) {
+      input_->fail_line(e.line, "arrays of " + std::to_string(dimensions) + " dimensions are not read");
+    }
+    a.rows = e.count(*input_, "Dim0");
+    a.columns = dimensions == 2 ? e.count(*input_, "Dim1") : 1;
+    file.arrays.push_back(std::move(a));
+  }
+
+  NumberType type_of(const XmlElement& e) const {
+    struct Name {
+      std::string_view name;
+      NumberType type;
+    };
+    static constexpr Name kNames[]{{"NIFTI_TYPE_UINT8", NumberType::UInt8},     {"NIFTI_TYPE_INT8", NumberType::Int8},
+                                   {"NIFTI_TYPE_INT16", NumberType::Int16},     {"NIFTI_TYPE_UINT16", NumberType::UInt16},
+                                   {"NIFTI_TYPE_INT32", NumberType::Int32},     {"NIFTI_TYPE_UINT32", NumberType::UInt32},
+                                   {"NIFTI_TYPE_INT64", NumberType::Int64},     {"NIFTI_TYPE_UINT64", NumberType::UInt64},
+                                   {"NIFTI_TYPE_FLOAT32", NumberType::Float32}, {"NIFTI_TYPE_FLOAT64", NumberType::Float64}};
+    for (const Name& n : kNames) {
+      if (n.name == e.attribute("DataType")) return n.type;
+    }
+    input_->fail_line(e.line, "numbers of type " + quote(e.attribute("DataType")) + " are not read");
+  }
+
+  const Input* input_;
+  GiftiArray array_;
+  bool name_is_next_ = false;
+};
+
+// The values of an array in row order.
+std::vector<double> values_of(const Input& input, const GiftiArray& a) {
+  const std::size_t budget = input.inflate_budget();
+  if (a.columns != 0 && a.rows > budget / a.columns / size_of(a.type)) {
+    input.fail_line(a.line, "an array of " + std::to_string(a.rows) + " times " + std::to_string(a.columns) + " numbers is beyond what the file can hold");
+  }
+  const std::size_t count = a.rows * a.columns, size = count * size_of(a.type);
+  const std::string_view text = input.bytes().substr(a.begin, a.end - a.begin);
+  const auto short_of = [&](std::size_t have) {
+    input.fail_line(a.line, "the array has " + std::to_string(have) + " bytes, but its dimensions ask for " + std::to_string(size));
+  };
+  std::vector<double> values;
+  const auto take = [&](const char* p) {
+    values.resize(count);
+    load_numbers(a.type, p, a.order, count, values.data());
+  };
+  if (a.encoding == "ASCII") {
+    TextCursor cursor(input, text, a.line);
+    cursor.check_count(count, "the number of values", 2);
+    values.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) values.push_back(cursor.number("a number"));
+  } else if (a.encoding == "Base64Binary" || a.encoding == "GZipBase64Binary") {
+    const Base64Result decoded = decode_base64(text);
+    if (!decoded.ok) input.fail_byte(a.begin + decoded.consumed, "the data is not base64");
+    if (a.encoding == "Base64Binary") {
+      if (decoded.bytes.size() != size) short_of(decoded.bytes.size());
+      take(decoded.bytes.data());
+    } else {
+      const std::string_view compressed(decoded.bytes.data(), decoded.bytes.size());
+      if (!can_inflate_to(size, compressed)) short_of(compressed.size());
+      std::vector<char> raw(size);
+      const std::string error = inflate_exactly(compressed, raw.data(), size);
+      if (!error.empty()) input.fail_line(a.line, "the array " + error);
+      take(raw.data());
+    }
+  } else if (a.encoding == "ExternalFileBinary") {
+    const Input data = input.companion(a.external_file, a.line);
+    if (a.external_offset > data.size() || size > data.size() - a.external_offset) short_of(data.size());
+    take(data.bytes().data() + a.external_offset);
+  } else {
+    input.fail_line(a.line, "data of encoding " + quote(a.encoding) + " is not read");
+  }
+  if (a.column_major && a.columns > 1) {
+    std::vector<double> rows(values.size());
+    for (std::size_t r = 0; r < a.rows; ++r) {
+      for (std::size_t c = 0; c < a.columns; ++c) rows[r * a.columns + c] = values[c * a.rows + r];
+    }
+    values = std::move(rows);
+  }
+  return values;
+}
+
+void need_columns(const Input& input, const GiftiArray& a, std::uint64_t columns) {
+  if (a.columns != columns) {
+    input.fail_line(a.line, "an array of " + a.intent + " has " + std::to_string(a.columns) + " columns, not " + std::to_string(columns));
+  }
+}
+
+}  // namespace
+
+MeshParts read_gifti(const Input& input) {
+  const GiftiFile file = GiftiParser(input).file;
+  const GiftiArray* points = nullptr;
+  const GiftiArray* triangles = nullptr;
+  MeshParts parts;
+  bool others = false;
+  for (const GiftiArray& a : file.arrays) {
+    const GiftiArray*& slot = a.intent == "NIFTI_INTENT_POINTSET" ? points : triangles;
+    if (a.intent != "NIFTI_INTENT_POINTSET" && a.intent != "NIFTI_INTENT_TRIANGLE") continue;
+    others = others || slot != nullptr;
+    if (slot == nullptr) slot = &a;
+  }
+  if (points == nullptr) input.fail("has no array of points: no surface");
+  if (triangles == nullptr) input.fail("has no array of triangles: no surface");
+  if (others) parts.remarks.push_back("several surfaces, of which the first was read");
+  need_columns(input, *points, 3);
+  need_columns(input, *triangles, 3);
+  const std::vector<double> xyz = values_of(input, *points);
+  parts.positions.resize(xyz.size() / 3);
+  for (std::size_t v = 0; v < parts.positions.size(); ++v) {
+    parts.positions[v] = {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
+    if (!std::isfinite(xyz[3 * v]) || !std::isfinite(xyz[3 * v + 1]) || !std::isfinite(xyz[3 * v + 2])) {
+      input.fail_line(points->line, "point " + std::to_string(v) + " has a coordinate that is not finite");
+    }
+  }
+  const std::vector<double> corners = values_of(input, *triangles);
+  parts.faces.reserve(corners.size() / 3);
+  for (std::size_t f = 0; f + 2 < corners.size(); f += 3) {
+    for (std::size_t k = f; k < f + 3; ++k) {
+      if (!(corners[k] >= 0) || corners[k] >= static_cast<double>(kNoIndex) || corners[k] != std::floor(corners[k])) {
+        input.fail_line(triangles->line, "triangle " + std::to_string(f / 3) + " names point " + std::to_string(corners[k]));
+      }
+    }
+    parts.faces.add_triangle(static_cast<Index>(corners[f]), static_cast<Index>(corners[f + 1]), static_cast<Index>(corners[f + 2]), triangles->line);
+  }
+  return parts;
+}
+
+LoadedField read_gifti_field(const Input& input, const std::string& name) {
+  GiftiFile file = GiftiParser(input).file;
+  for (const GiftiArray& a : file.arrays) {
+    if (a.intent == "NIFTI_INTENT_POINTSET" || a.intent == "NIFTI_INTENT_TRIANGLE") continue;
+    if (!name.empty() && a.name != name) continue;
+    need_columns(input, a, 1);
+    LoadedField field;
+    field.values = values_of(input, a);
+    field.name = a.name;
+    field.label_names = std::move(file.labels);
+    return field;
+  }
+  input.fail(name.empty() ? "has no data on vertices" : "has no array " + quote(name));
+}
+
+namespace {
+
+template <class T>
+void write_gifti_array(Output& out, const std::string& name, const char* intent, const char* type, std::span<const T> values) {
+  std::string raw(values.size() * sizeof(T), '\0');
+  for (std::size_t k = 0; k < values.size(); ++k) store(values[k], raw.data() + k * sizeof(T), std::endian::little);
+  const std::string compressed = deflate(raw);
+  out.write("<DataArray Intent=\"" + std::string(intent) + "\" DataType=\"" + type +
+            "\" ArrayIndexingOrder=\"RowMajorOrder\" Dimensionality=\"1\" Dim0=\"" + std::to_string(values.size()) +
+            "\" Encoding=\"" + (compressed.empty() ? "Base64Binary" : "GZipBase64Binary") +
+            "\" Endian=\"LittleEndian\" ExternalFileName=\"\" ExternalFileOffset=\"\">\n<MetaData><MD><Name><![CDATA[Name]]></Name><Value><![CDATA[" +
+            name + "]]></Value></MD></MetaData>\n<Data>");
+  out.write(encode_base64(compressed.empty() ? raw : compressed));
+  out.write("</Data>\n</DataArray>\n");
+}
+
+}  // namespace
+
+void write_gifti(Output& out, const Mesh&, const FieldView& field) {
+  const int arrays = (field.values.empty() ? 0 : 1) + (field.labels.empty() ? 0 : 1);
+  out.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE GIFTI SYSTEM \"http://www.nitrc.org/frs/download.php/115/gifti.dtd\">\n");
+  out.write("<GIFTI Version=\"1.0\" NumberOfDataArrays=\"" + std::to_string(arrays) + "\">\n<MetaData/>\n<LabelTable/>\n");
+  if (!field.values.empty()) {
+    const std::vector<float> narrow(field.values.begin(), field.values.end());
+    write_gifti_array<float>(out, field.name, "NIFTI_INTENT_NONE", "NIFTI_TYPE_FLOAT32", narrow);
+  }
+  if (!field.labels.empty()) {
+    const std::vector<std::int32_t> keys(field.labels.begin(), field.labels.end());
+    write_gifti_array<std::int32_t>(out, field.label_name, "NIFTI_INTENT_NONE", "NIFTI_TYPE_INT32", keys);
+  }
+  out.write("</GIFTI>\n");
+}
+
+}  // namespace brushfire::detail

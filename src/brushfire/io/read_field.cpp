@@ -1,0 +1,306 @@
+// Which format a field has, and the formats that hold numbers only: .npy, CSV, text, JSON.
+#include <brushfire/core/error.h>
+#include <brushfire/io/detail/formats.h>
+#include <brushfire/io/detail/text.h>
+#include <brushfire/io/npy.h>
+#include <brushfire/io/read_field.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+
+namespace brushfire {
+
+namespace detail {
+
+LoadedField read_npy_field(const Input& input, const std::string&) {
+  NpyArray array = read_npy(std::as_bytes(std::span(input.bytes())), input.name());
+  const std::size_t columns = array.shape.size() == 2 ? array.shape[1] : 1;
+  if (array.shape.empty() || array.shape.size() > 2 || columns != 1) {
+    input.fail("an array of " + std::to_string(array.shape.size()) + " dimensions is not one value per vertex");
+  }
+  LoadedField field;
+  field.values = std::move(array.values);
+  return field;
+}
+
+LoadedField read_text_field(const Input& input, const std::string&) {
+  TextCursor text(input, input.bytes(), 1, '#');
+  LoadedField field;
+  while (text.to_word()) field.values.push_back(text.number_here("a number"));
+  return field;
+}
+
+namespace {
+
+// One line of a CSV file at a time, cut into cells.
+class CsvRows {
+ public:
+  explicit CsvRows(const Input& input) : input_(&input), text_(input, input.bytes()) {
+    const std::string_view first = input.bytes().substr(0, input.bytes().find('\n'));
+    for (const char c : {',', ';', '\t'}) {
+      if (first.find(c) != std::string_view::npos) {
+        separator_ = c;
+        break;
+      }
+    }
+  }
+
+  // The next line that is not empty.
+  bool next(std::vector<std::string_view>& cells) {
+    while (!text_.at_end()) {
+      line_ = text_.line();
+      const char* begin = text_.position();
+      text_.skip_to_end_of_line();
+      std::string_view row(begin, static_cast<std::size_t>(text_.position() - begin));
+      text_.next_line();
+      if (!row.empty() && row.back() == '\r') row.remove_suffix(1);
+      if (row.find_first_not_of(" \t") == std::string_view::npos || row[0] == '#') continue;
+      cells.clear();
+      while (true) {
+        const std::size_t end = row.find(separator_);
+        cells.push_back(trimmed(row.substr(0, end)));
+        if (end == std::string_view::npos) return true;
+        row.remove_prefix(end + 1);
+      }
+    }
+    return false;
+  }
+
+  bool is_number(std::string_view cell, double& value) const {
+    if (!cell.empty() && cell[0] == '+') cell.remove_prefix(1);
+    const auto result = fast_float::from_chars(cell.data(), cell.data() + cell.size(), value);
+    return result.ec == std::errc() && result.ptr == cell.data() + cell.size();
+  }
+  double number(std::string_view cell) const {
+    double value = 0;
+    if (!is_number(cell, value)) fail(quote(cell) + " where a number is expected");
+    return value;
+  }
+  [[noreturn]] void fail(const std::string& cause) const { input_->fail_line(line_, cause); }
+
+ private:
+  static std::string_view trimmed(std::string_view cell) {
+    const std::size_t begin = cell.find_first_not_of(" \t");
+    if (begin == std::string_view::npos) return {};
+    cell = cell.substr(begin, cell.find_last_not_of(" \t") - begin + 1);
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+    return cell;
+  }
+
+  const Input* input_;
+  TextCursor text_;
+  char separator_ = ',';
+  std::size_t line_ = 1;
+};
+
+constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
+
+// Which columns hold the vertex and the value.
+struct CsvColumns {
+  std::size_t vertex = kNoColumn, value = kNoColumn;
+};
+
+CsvColumns columns_of(const CsvRows& rows, const std::vector<std::string_view>& header, const std::string& name) {
+  CsvColumns columns;
+  for (std::size_t k = 0; k < header.size(); ++k) {
+    if (header[k] == "vertex") {
+      columns.vertex = k;
+    } else if (columns.value == kNoColumn && (name.empty() || header[k] == name)) {
+      columns.value = k;
+    }
+  }
+  if (columns.value == kNoColumn) rows.fail(name.empty() ? "the header names no column of values" : "there is no column " + quote(name));
+  return columns;
+}
+
+}  // namespace
+
+LoadedField read_csv_field(const Input& input, const std::string& name) {
+  CsvRows rows(input);
+  LoadedField field;
+  std::vector<std::string_view> cells;
+  if (!rows.next(cells)) return field;
+  CsvColumns columns;
+  double value = 0;
+  const bool has_header = std::none_of(cells.begin(), cells.end(), [&](std::string_view c) { return rows.is_number(c, value); });
+  if (has_header) {
+    columns = columns_of(rows, cells, name);
+    field.name = cells[columns.value];
+  } else {
+    if (!name.empty()) rows.fail("there is no header, and no column " + quote(name));
+    if (cells.size() > 2) rows.fail(std::to_string(cells.size()) + " columns without a header: which one is it?");
+    columns.value = cells.size() - 1;  // alone, or behind the vertex
+    if (cells.size() == 2) columns.vertex = 0;
+  }
+  const std::size_t width = cells.size();
+  for (bool more = !has_header || rows.next(cells); more; more = rows.next(cells)) {
+    if (cells.size() != width) rows.fail(counted(cells.size(), "cell", "cells") + ", but the first line has " + std::to_string(width));
+    field.values.push_back(rows.number(cells[columns.value]));
+    if (columns.vertex == kNoColumn) continue;
+    const double v = rows.number(cells[columns.vertex]);
+    if (!(v >= 0) || v >= static_cast<double>(kNoIndex) || v != std::floor(v)) rows.fail(quote(cells[columns.vertex]) + " is no vertex number");
+    field.vertices.push_back(static_cast<Index>(v));
+  }
+  return field;
+}
+
+namespace {
+
+// Picks one list of numbers out of JSON as it streams by: memory is that of the list.
+class JsonList : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  JsonList(const Input& input, const std::string& wanted) : input_(&input), wanted_(&wanted) {}
+
+  LoadedField field;
+  bool found = false;
+
+  bool null() override { return add(kInfinity); }
+  bool boolean(bool v) override { return add(v ? 1 : 0); }
+  bool number_integer(number_integer_t v) override { return add(static_cast<double>(v)); }
+  bool number_unsigned(number_unsigned_t v) override { return add(static_cast<double>(v)); }
+  bool number_float(number_float_t v, const string_t&) override { return add(v); }
+  bool string(string_t&) override {
+    if (inside_) input_->fail("the list " + quote(field.name) + " holds a string");
+    return true;
+  }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override { return open(); }
+  bool end_object() override { return --depth_, true; }
+  bool key(string_t& k) override {
+    if (depth_ == 1) key_ = k;
+    return true;
+  }
+  bool start_array(std::size_t) override {
+    const bool is_it = depth_ <= 1 && !found && (wanted_->empty() || key_ == *wanted_);
+    if (is_it) {
+      inside_ = found = true;
+      field.name = key_;
+    }
+    return open();
+  }
+  bool end_array() override {
+    inside_ = false;
+    return --depth_, true;
+  }
+  bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception&) override {
+    input_->fail_byte(byte > 0 ? byte - 1 : 0, "not JSON");
+  }
+
+ private:
+  bool add(double v) {
+    if (inside_) field.values.push_back(v);
+    return true;
+  }
+  bool open() {
+    constexpr int kDeepest = 64;
+    if (++depth_ > kDeepest) input_->fail("JSON is nested more than 64 deep");
+    if (inside_ && depth_ > 2) input_->fail("the list " + quote(field.name) + " holds other lists");
+    return true;
+  }
+
+  const Input* input_;
+  const std::string* wanted_;
+  std::string key_;
+  int depth_ = 0;
+  bool inside_ = false;
+};
+
+}  // namespace
+
+LoadedField read_json_field(const Input& input, const std::string& name) {
+  JsonList list(input, name);
+  nlohmann::json::sax_parse(input.bytes().begin(), input.bytes().end(), &list);
+  if (!list.found) input.fail(name.empty() ? "has no list of numbers" : "has no list " + quote(name));
+  return std::move(list.field);
+}
+
+namespace {
+
+bool starts_with(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+
+struct FieldFormat {
+  const char* name;
+  std::initializer_list<std::string_view> extensions;
+  LoadedField (*read)(const Input& input, const std::string& name);
+};
+
+// A new reader is one line here.
+const FieldFormat kFormats[]{
+    {"NPY", {"npy"}, read_npy_field},
+    {"CSV", {"csv", "tsv"}, read_csv_field},
+    {"text", {"txt", "dat", "asc", "1d"}, read_text_field},
+    {"JSON", {"json"}, read_json_field},
+    {"GIFTI", {"gii"}, read_gifti_field},
+    {"FreeSurfer annotation", {"annot"}, read_freesurfer_annot},
+    {"FreeSurfer label", {"label"}, read_freesurfer_label},
+    {"FreeSurfer curvature", {"curv", "sulc", "thickness", "area", "volume", "avg_curv"}, read_freesurfer_curv},
+    {"PLY", {"ply"}, read_ply_field},
+    {"VTK", {"vtk"}, read_vtk_field},
+    {"VTP", {"vtp"}, read_vtp_field},
+};
+
+const FieldFormat* format_named(std::string_view name) {
+  for (const FieldFormat& f : kFormats) {
+    if (name == f.name) return &f;
+  }
+  return nullptr;
+}
+
+const FieldFormat* format_by_content(std::string_view bytes) {
+  if (starts_with(bytes, "\x93NUMPY")) return format_named("NPY");
+  if (starts_with(bytes, "\xff\xff\xff")) return format_named("FreeSurfer curvature");
+  if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return format_named("PLY");
+  if (starts_with(bytes, "# vtk DataFile")) return format_named("VTK");
+  return nullptr;
+}
+
+LoadedField read(const Input& input, const std::string& name) {
+  if (input.size() == 0) input.fail("the file is empty");
+  const FieldFormat* format = format_by_content(input.bytes());
+  const std::string extension = input.extension();
+  std::string known;
+  for (const FieldFormat& f : kFormats) {
+    known += std::string(known.empty() ? "" : ", ") + f.name;
+    const bool is_named = std::find(f.extensions.begin(), f.extensions.end(), extension) != f.extensions.end();
+    if (format == nullptr && is_named) format = &f;
+  }
+  if (format == nullptr) {
+    throw Error(ErrorCode::UnknownFormat, printable(input.name()) + ": neither name nor content tell the format of the values (known: " + known + ")");
+  }
+  LoadedField field = format->read(input, name);
+  field.format = format->name;
+  return field;
+}
+
+}  // namespace
+
+}  // namespace detail
+
+LoadedField read_field(const std::string& path, const std::string& name) {
+  return detail::read(detail::Input::from_file(path), name);
+}
+
+LoadedField read_field(std::span<const std::byte> content, const std::string& file_name, const std::string& name) {
+  return detail::read(detail::Input::from_memory({reinterpret_cast<const char*>(content.data()), content.size()}, file_name), name);
+}
+
+std::vector<double> values_on_vertices(const LoadedField& field, Index vertex_count, double otherwise) {
+  if (field.vertices.empty()) {
+    if (field.values.size() != vertex_count) {
+      throw Error(ErrorCode::InvalidArgument, std::to_string(field.values.size()) + " values for " + std::to_string(vertex_count) + " vertices");
+    }
+    return field.values;
+  }
+  std::vector<double> values(vertex_count, otherwise);
+  for (std::size_t k = 0; k < field.vertices.size(); ++k) {
+    if (field.vertices[k] >= vertex_count) {
+      throw Error(ErrorCode::IndexOutOfRange, "entry " + std::to_string(k) + " names vertex " + std::to_string(field.vertices[k]) + ", but there are " + std::to_string(vertex_count));
+    }
+    values[field.vertices[k]] = field.values[k];
+  }
+  return values;
+}
+
+}  // namespace brushfire

@@ -1,0 +1,384 @@
+// VTK XML PolyData (.vtp): ascii, base64 and appended data, raw or compressed with zlib.
+#include <brushfire/core/error.h>
+#include <brushfire/io/detail/base64.h>
+#include <brushfire/io/detail/formats.h>
+#include <brushfire/io/detail/inflate.h>
+#include <brushfire/io/detail/numbers.h>
+#include <brushfire/io/detail/text.h>
+#include <brushfire/io/detail/vtk_cells.h>
+#include <brushfire/io/detail/xml.h>
+
+#include <cmath>
+#include <optional>
+
+namespace brushfire::detail {
+
+namespace {
+
+// Where an array stands, before it is decoded.
+struct ArrayPlace {
+  std::string name, format;
+  NumberType type = NumberType::Float64;
+  std::size_t line = 0, begin = 0, end = 0;  // bytes of the text, or of the appended data
+  std::uint64_t components = 1;
+};
+
+// One <Piece>: arrays by the element that holds them.
+struct Piece {
+  std::uint64_t points = 0;
+  std::size_t line = 0;
+  std::optional<ArrayPlace> positions, poly_connectivity, poly_offsets, strip_connectivity, strip_offsets;
+  std::vector<ArrayPlace> point_data;
+  std::uint64_t left_out = 0;  // vertices and lines
+};
+
+NumberType type_of(const Input& input, const XmlElement& e) {
+  struct Name {
+    std::string_view name;
+    NumberType type;
+  };
+  static constexpr Name kNames[]{{"Int8", NumberType::Int8},       {"UInt8", NumberType::UInt8},
+                                 {"Int16", NumberType::Int16},     {"UInt16", NumberType::UInt16},
+                                 {"Int32", NumberType::Int32},     {"UInt32", NumberType::UInt32},
+                                 {"Int64", NumberType::Int64},     {"UInt64", NumberType::UInt64},
+                                 {"Float32", NumberType::Float32}, {"Float64", NumberType::Float64}};
+  for (const Name& n : kNames) {
+    if (n.name == e.attribute("type")) return n.type;
+  }
+  input.fail_line(e.line, "numbers of type " + quote(e.attribute("type")) + " are not read");
+}
+
+class VtpReader {
+ public:
+  explicit VtpReader(const Input& input) : input_(&input), budget_(input.inflate_budget()) {
+    appended_ = parse_xml(input, "AppendedData", [this](std::span<const XmlElement> path) { element(path); });
+    if (!is_poly_data_) input.fail("has no <VTKFile type=\"PolyData\">");
+    if (pieces_.empty()) input.fail("has no <Piece>");
+    find_appended();
+  }
+
+  MeshParts read() {
+    MeshParts parts;
+    VtkCells cells;
+    for (const Piece& piece : pieces_) read_piece(piece, cells, parts);
+    if (pieces_.size() > 1) parts.remarks.push_back(std::to_string(pieces_.size()) + " pieces merged");
+    cells.remark(parts);
+    return parts;
+  }
+
+  LoadedField field(const std::string& wanted) {
+    LoadedField field;
+    bool found = false;
+    for (const Piece& piece : pieces_) {
+      for (const ArrayPlace& array : piece.point_data) {
+        if (array.components != 1 || (wanted.empty() ? found && array.name != field.name : array.name != wanted)) continue;
+        const std::vector<double> values = numbers(array, piece.points);
+        field.values.insert(field.values.end(), values.begin(), values.end());
+        field.name = array.name;
+        found = true;
+        break;
+      }
+    }
+    if (!found) input_->fail("has no scalars" + (wanted.empty() ? std::string() : " " + quote(wanted)) + " on its points");
+    return field;
+  }
+
+ private:
+  void element(std::span<const XmlElement> path) {
+    const XmlElement& e = path.back();
+    const XmlElement& root = path.front();
+    if (path.size() == 1 || e.name == "AppendedData") read_root(root);
+    if (e.name == "AppendedData") appended_is_base64_ = e.attribute("encoding") == "base64";
+    if (e.name == "Piece") finish_piece(e);
+    if (e.name != "DataArray" || path.size() < 3) return;
+    const std::string& section = path[path.size() - 2].name;
+    const std::string_view name = e.attribute("Name");
+    if (section == "Points") {
+      piece_.positions = place_of(e);
+    } else if (section == "Polys" && name == "connectivity") {
+      piece_.poly_connectivity = place_of(e);
+    } else if (section == "Polys" && name == "offsets") {
+      piece_.poly_offsets = place_of(e);
+    } else if (section == "Strips" && name == "connectivity") {
+      piece_.strip_connectivity = place_of(e);
+    } else if (section == "Strips" && name == "offsets") {
+      piece_.strip_offsets = place_of(e);
+    } else if (section == "PointData" && e.attribute("type") != "String") {
+      piece_.point_data.push_back(place_of(e));
+    }
+  }
+
+  void read_root(const XmlElement& root) {
+    is_poly_data_ = root.name == "VTKFile" && root.attribute("type") == "PolyData";
+    order_ = root.attribute("byte_order") == "BigEndian" ? std::endian::big : std::endian::little;
+    header_is_64_ = root.attribute("header_type") == "UInt64";
+    const std::string_view compressor = root.attribute("compressor");
+    compressed_ = !compressor.empty();
+    if (compressed_ && compressor != "vtkZLibDataCompressor") {
+      input_->fail_line(root.line, "compressor " + quote(compressor) + " is not read, only vtkZLibDataCompressor");
+    }
+  }
+
+  void finish_piece(const XmlElement& e) {
+    piece_.points = e.count(*input_, "NumberOfPoints");
+    piece_.left_out = e.count(*input_, "NumberOfVerts") + e.count(*input_, "NumberOfLines");
+    piece_.line = e.line;
+    if (e.count(*input_, "NumberOfPolys") == 0) piece_.poly_connectivity.reset();
+    if (e.count(*input_, "NumberOfStrips") == 0) piece_.strip_connectivity.reset();
+    constexpr std::size_t kMostPieces = 65536;
+    if (pieces_.size() == kMostPieces) input_->fail_line(e.line, "more than 65536 pieces");
+    pieces_.push_back(std::move(piece_));
+    piece_ = {};
+  }
+
+  ArrayPlace place_of(const XmlElement& e) const {
+    ArrayPlace a;
+    a.name = e.attribute("Name");
+    a.format = e.attribute("format");
+    a.type = type_of(*input_, e);
+    a.line = e.line;
+    a.components = e.count(*input_, "NumberOfComponents", 1);
+    a.begin = a.format == "appended" ? e.count(*input_, "offset") : e.text_begin;
+    a.end = e.text_end;
+    return a;
+  }
+
+  // The data starts behind the underscore.
+  void find_appended() {
+    const std::string_view bytes = input_->bytes();
+    if (appended_ >= bytes.size()) return;
+    const std::size_t underscore = bytes.find('_', appended_);
+    if (underscore == std::string_view::npos) input_->fail_byte(appended_, "appended data does not start with '_'");
+    appended_ = underscore + 1;
+  }
+
+  void read_piece(const Piece& piece, VtkCells& cells, MeshParts& parts) {
+    if (piece.points > input_->inflate_budget()) {
+      input_->fail_line(piece.line, "NumberOfPoints is " + std::to_string(piece.points) + ", beyond what the file can hold");
+    }
+    const std::size_t first = parts.positions.size();
+    if (piece.positions) {
+      const std::vector<double> xyz = numbers(*piece.positions, 3 * piece.points);
+      parts.positions.reserve(first + piece.points);
+      for (std::size_t v = 0; v < piece.points; ++v) {
+        const Vec3 p{xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+          input_->fail_line(piece.positions->line, "point " + std::to_string(v) + " has a coordinate that is not finite");
+        }
+        parts.positions.push_back(p);
+      }
+    } else if (piece.points != 0) {
+      input_->fail_line(piece.line, "the piece has no <Points>");
+    }
+    const auto first_point = static_cast<double>(first);
+    read_cells(piece.poly_connectivity, piece.poly_offsets, piece, first_point, [&](std::span<const double> corners, std::size_t line) {
+      cells.add_polygon(*input_, corners, line, parts);
+    });
+    read_cells(piece.strip_connectivity, piece.strip_offsets, piece, first_point, [&](std::span<const double> corners, std::size_t line) {
+      cells.add_strip(*input_, corners, line, parts);
+    });
+    cells.leave_out(piece.left_out);
+  }
+
+  template <class Use>
+  void read_cells(const std::optional<ArrayPlace>& connectivity, const std::optional<ArrayPlace>& offsets,
+                  const Piece& piece, double first_point, Use use) {
+    if (!connectivity) return;
+    if (!offsets) input_->fail_line(connectivity->line, "cells without an array of offsets");
+    std::vector<double> corners = numbers(*connectivity);
+    const std::vector<double> ends = numbers(*offsets);
+    for (double& v : corners) {
+      if (!(v >= 0) || v >= static_cast<double>(piece.points)) {
+        input_->fail_line(connectivity->line, "a cell names point " + printable(std::to_string(v)) + ", but there are " + std::to_string(piece.points));
+      }
+      v += first_point;
+    }
+    std::size_t begin = 0;
+    for (const double e : ends) {
+      if (!(e >= static_cast<double>(begin)) || e != std::floor(e) || e > static_cast<double>(corners.size())) {
+        input_->fail_line(offsets->line, "offsets do not fit the " + std::to_string(corners.size()) + " corners");
+      }
+      const auto end = static_cast<std::size_t>(e);
+      use(std::span<const double>(corners).subspan(begin, end - begin), connectivity->line);
+      begin = end;
+    }
+  }
+
+  // The values of an array: `expected` of them, or as many as there are.
+  std::vector<double> numbers(const ArrayPlace& a, std::optional<std::uint64_t> expected = std::nullopt) {
+    std::vector<double> values;
+    if (a.format == "ascii" || a.format.empty()) {
+      TextCursor text(*input_, input_->bytes().substr(a.begin, a.end - a.begin), a.line);
+      while (text.to_word()) values.push_back(text.number_here("a number"));
+    } else {
+      const std::vector<char> raw = decode(a);
+      spend(a, raw.size());
+      values.resize(raw.size() / size_of(a.type));
+      load_numbers(a.type, raw.data(), order_, values.size(), values.data());
+    }
+    if (expected && values.size() != *expected) {
+      input_->fail_line(a.line, "the array has " + std::to_string(values.size()) + " numbers, but " + std::to_string(*expected) + " are needed");
+    }
+    return values;
+  }
+
+  // Many pieces may name the same appended data: what comes out altogether is bounded by the file's size.
+  void spend(const ArrayPlace& a, std::size_t bytes) {
+    if (bytes > budget_) input_->fail_line(a.line, "the arrays come to far more than the file's size: refused");
+    budget_ -= bytes;
+  }
+
+  std::vector<char> decode(const ArrayPlace& a) {
+    if (a.format == "binary") return decode_base64_block(a, input_->bytes().substr(a.begin, a.end - a.begin));
+    if (a.format != "appended") input_->fail_line(a.line, "data of format " + quote(a.format) + " is not read");
+    const std::string_view data = input_->bytes().substr(std::min(appended_, input_->size()));
+    if (a.begin >= data.size()) input_->fail_line(a.line, "offset " + std::to_string(a.begin) + " is beyond the appended data");
+    if (appended_is_base64_) return decode_base64_block(a, data.substr(a.begin));
+    return unpack(a, data.substr(a.begin));
+  }
+
+  std::size_t header_size() const { return header_is_64_ ? 8 : 4; }
+  std::uint64_t header_word(std::string_view bytes, std::size_t k) const {
+    const char* p = bytes.data() + k * header_size();
+    return header_is_64_ ? load<std::uint64_t>(p, order_) : load<std::uint32_t>(p, order_);
+  }
+
+  // Raw bytes: [size] data, or [blocks][block size][last block size][compressed sizes...] data.
+  std::vector<char> unpack(const ArrayPlace& a, std::string_view bytes) {
+    if (!compressed_) {
+      if (bytes.size() < header_size()) fail_short(a);
+      const std::uint64_t size = header_word(bytes, 0);
+      bytes.remove_prefix(header_size());
+      if (size > bytes.size()) fail_short(a);
+      return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)};
+    }
+    const std::size_t header = compressed_header_size(a, bytes);
+    return inflate_blocks(a, bytes.substr(0, header), bytes.substr(header));
+  }
+
+  std::size_t compressed_header_size(const ArrayPlace& a, std::string_view bytes) const {
+    if (bytes.size() < header_size()) fail_short(a);
+    const std::uint64_t blocks = header_word(bytes, 0);
+    if (bytes.size() / header_size() < 3 || blocks > bytes.size() / header_size() - 3) fail_short(a);
+    return (3 + blocks) * header_size();
+  }
+
+  std::vector<char> inflate_blocks(const ArrayPlace& a, std::string_view header, std::string_view data) {
+    const std::uint64_t blocks = header_word(header, 0), size = header_word(header, 1), last = header_word(header, 2);
+    const std::uint64_t whole = blocks == 0 ? 0 : last == 0 ? blocks : blocks - 1;
+    const bool too_large = (whole != 0 && size > budget_ / whole) || last > budget_ || (blocks != 0 && whole * size > budget_ - last);
+    if (too_large) input_->fail_line(a.line, "the array inflates to far more than the file's size: refused");
+    std::vector<char> out;
+    for (std::uint64_t b = 0; b < blocks; ++b) {
+      const std::uint64_t length = header_word(header, 3 + b);
+      if (length > data.size()) fail_short(a);
+      const std::uint64_t wanted = b + 1 == blocks && last != 0 ? last : size;
+      const std::size_t at = out.size();
+      if (!can_inflate_to(wanted, data.substr(0, length))) fail_short(a);
+      out.resize(at + wanted);
+      const std::string error = inflate_exactly(data.substr(0, length), out.data() + at, wanted);
+      if (!error.empty()) input_->fail_line(a.line, "block " + std::to_string(b) + " of the array: " + error);
+      data.remove_prefix(length);
+    }
+    return out;
+  }
+
+  // The header of compressed data is a base64 stream of its own.
+  std::vector<char> decode_base64_block(const ArrayPlace& a, std::string_view text) {
+    const auto view = [](const std::vector<char>& bytes) { return std::string_view(bytes.data(), bytes.size()); };
+    if (!compressed_) {
+      const std::vector<char> head = checked(a, decode_base64(text, 9)).bytes;
+      if (head.size() < header_size()) fail_short(a);
+      const std::uint64_t size = header_word(view(head), 0);
+      if (size > text.size()) fail_short(a);
+      return unpack(a, view(checked(a, decode_base64(text, size + header_size() + 3)).bytes));
+    }
+    const std::vector<char> start = checked(a, decode_base64(text, 9)).bytes;
+    if (start.size() < header_size()) fail_short(a);
+    const std::uint64_t blocks = header_word(view(start), 0);
+    if (blocks > text.size() / header_size()) fail_short(a);
+    const std::size_t size = static_cast<std::size_t>(3 + blocks) * header_size();
+    const std::size_t characters = base64_characters(text, size);
+    const Base64Result header = checked(a, decode_base64(text.substr(0, characters)));
+    if (header.bytes.size() < size) fail_short(a);
+    const Base64Result data = checked(a, decode_base64(text.substr(header.consumed)));
+    return inflate_blocks(a, view(header.bytes).substr(0, size), view(data.bytes));
+  }
+
+  // How much of `text` encodes `size` bytes, padding included.
+  static std::size_t base64_characters(std::string_view text, std::size_t size) {
+    const std::size_t wanted = (size + 2) / 3 * 4;
+    std::size_t have = 0, k = 0;
+    for (; k < text.size() && have < wanted; ++k) have += TextCursor::is_space(text[k]) ? 0 : 1;
+    return k;
+  }
+
+  // What follows an array in appended base64 data is the next array, so only what is needed is looked at.
+  Base64Result checked(const ArrayPlace& a, Base64Result result) const {
+    if (!result.ok) input_->fail_line(a.line, "the array's data is not base64");
+    return result;
+  }
+
+  [[noreturn]] void fail_short(const ArrayPlace& a) const {
+    input_->fail_line(a.line, "the array's data ends early");
+  }
+
+  const Input* input_;
+  std::size_t budget_;
+  std::size_t appended_ = 0;
+  bool is_poly_data_ = false, header_is_64_ = false, compressed_ = false, appended_is_base64_ = false;
+  std::endian order_ = std::endian::little;
+  Piece piece_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace
+
+MeshParts read_vtp(const Input& input) { return VtpReader(input).read(); }
+
+LoadedField read_vtp_field(const Input& input, const std::string& name) { return VtpReader(input).field(name); }
+
+// Appended raw data, each array behind its size in 64 bits.
+void write_vtp(Output& out, const Mesh& mesh, const FieldView& field) {
+  constexpr std::endian kOrder = std::endian::little;
+  const std::uint64_t vertices = mesh.vertex_count(), faces = mesh.face_count();
+  std::uint64_t offset = 0;
+  const auto array = [&](const std::string& type, const std::string& attributes, std::uint64_t size) {
+    out.write("<DataArray type=\"" + type + "\" " + attributes + " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n");
+    offset += sizeof(std::uint64_t) + size;
+  };
+  out.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n");
+  out.write("<PolyData>\n<Piece NumberOfPoints=\"" + std::to_string(vertices) + "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+            std::to_string(faces) + "\">\n<Points>\n");
+  array("Float64", "NumberOfComponents=\"3\"", 24 * vertices);
+  out.write("</Points>\n<Polys>\n");
+  array("Int32", "Name=\"connectivity\"", 12 * faces);
+  array("Int32", "Name=\"offsets\"", 4 * faces);
+  out.write("</Polys>\n<PointData");
+  if (!field.values.empty()) out.write(" Scalars=\"" + field.name + "\"");
+  out.write(">\n");
+  if (!field.values.empty()) array("Float64", "Name=\"" + field.name + "\"", 8 * vertices);
+  if (!field.labels.empty()) array("Int32", "Name=\"" + field.label_name + "\"", 4 * vertices);
+  out.write("</PointData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
+  out.value(24 * vertices, kOrder);
+  for (const Vec3& p : mesh.positions()) {
+    for (const double x : {p.x, p.y, p.z}) out.value(x, kOrder);
+  }
+  out.value(12 * faces, kOrder);
+  for (const Face& f : mesh.faces()) {
+    for (const Index v : f) out.value(v, kOrder);
+  }
+  out.value(4 * faces, kOrder);
+  for (std::uint64_t f = 0; f < faces; ++f) out.value(static_cast<std::int32_t>(3 * (f + 1)), kOrder);
+  if (!field.values.empty()) {
+    out.value(8 * vertices, kOrder);
+    out.values(field.values, kOrder);
+  }
+  if (!field.labels.empty()) {
+    out.value(4 * vertices, kOrder);
+    out.values(field.labels, kOrder);
+  }
+  out.write("\n</AppendedData>\n</VTKFile>\n");
+}
+
+}  // namespace brushfire::detail
