@@ -6,7 +6,9 @@
 #include <brushfire/core/progress.h>
 #include <brushfire/core/types.h>
 #include <brushfire/io/npy.h>
+#include <brushfire/io/read_field.h>
 #include <brushfire/io/read_mesh.h>
+#include <brushfire/io/write_field.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/surface_point.h>

@@ -28,13 +28,15 @@ class Bytes {
   std::int32_t int32(const char* what) { return load<std::int32_t>(take(4, what), std::endian::big); }
   std::uint32_t int24(const char* what) {
     const char* p = take(3, what);
-    return static_cast<std::uint32_t>(load<std::uint8_t>(p, std::endian::big)) << 16 | load<std::uint16_t>(p + 1, std::endian::big);
+    return static_cast<std::uint32_t>(load<std::uint8_t>(p, std::endian::big)) << 16 |
+           load<std::uint16_t>(p + 1, std::endian::big);
   }
 
   // A count of items of `bytes_each`, all of which must be there.
   std::size_t count(std::int64_t n, std::size_t bytes_each, const char* what) const {
     if (n < 0 || static_cast<std::uint64_t>(n) > left() / bytes_each) {
-      input_->fail_byte(at_, std::string("the number of ") + what + " is " + std::to_string(n) + ", but " + std::to_string(left()) + " bytes follow");
+      input_->fail_byte(at_, std::string("the number of ") + what + " is " + std::to_string(n) + ", but " +
+                                 std::to_string(left()) + " bytes follow");
     }
     return static_cast<std::size_t>(n);
   }
@@ -72,8 +74,9 @@ void read_float_points(Bytes& bytes, std::size_t n, MeshParts& parts) {
   for (std::size_t v = 0; v < n; ++v) {
     const std::size_t place = bytes.place();
     const char* p = bytes.take(12, "the vertices");
-    add_point(bytes, parts, place,
-              {load<float>(p, std::endian::big), load<float>(p + 4, std::endian::big), load<float>(p + 8, std::endian::big)});
+    add_point(
+        bytes, parts, place,
+        {load<float>(p, std::endian::big), load<float>(p + 4, std::endian::big), load<float>(p + 8, std::endian::big)});
   }
 }
 
@@ -164,7 +167,8 @@ LoadedField read_freesurfer_curv(const Input& input, const std::string&) {
   constexpr double kHundredths = 100;
   field.values.resize(bytes.count(magic, 2, "vertices"));
   for (double& v : field.values) v = load<std::int16_t>(bytes.take(2, "the values"), std::endian::big) / kHundredths;
-  if (bytes.left() != 0) bytes.fail(bytes.place(), counted(bytes.left(), "byte is", "bytes are") + " left: no curvature file");
+  if (bytes.left() != 0)
+    bytes.fail(bytes.place(), counted(bytes.left(), "byte is", "bytes are") + " left: no curvature file");
   return field;
 }
 
@@ -178,7 +182,8 @@ LoadedField read_freesurfer_annot(const Input& input, const std::string&) {
     const std::size_t place = bytes.place();
     const std::int32_t v = bytes.int32("the vertices");
     if (v < 0 || static_cast<std::size_t>(v) >= vertices) {
-      bytes.fail(place, "entry " + std::to_string(k) + " names vertex " + std::to_string(v) + ", but there are " + std::to_string(vertices));
+      bytes.fail(place, "entry " + std::to_string(k) + " names vertex " + std::to_string(v) + ", but there are " +
+                            std::to_string(vertices));
     }
     colour[static_cast<std::size_t>(v)] = bytes.int32("the vertices");
   }
@@ -201,7 +206,8 @@ LoadedField read_freesurfer_annot(const Input& input, const std::string&) {
     bytes.name("the colour table");
     for (std::size_t row = 0; row < rows; ++row) add_row(static_cast<std::int64_t>(row));
   } else {
-    if (version != -2) bytes.fail(bytes.place(), "a colour table of version " + std::to_string(version) + " is not read");
+    if (version != -2)
+      bytes.fail(bytes.place(), "a colour table of version " + std::to_string(version) + " is not read");
     bytes.int32("the colour table");  // the largest row, which need not be filled
     bytes.name("the colour table");
     const std::size_t rows = bytes.count(bytes.int32("the colour table"), 24, "rows");

@@ -48,7 +48,7 @@ class GiftiParser {
  private:
   void element(std::span<const XmlElement> path) {
     const XmlElement& e = path.back();
-    const std::string_view parent = path.size() > 1 ? path[path.size() - 2].name : "";
+    const std::string_view parent = path.size() > 1 ? std::string_view(path[path.size() - 2].name) : std::string_view();
     if (e.name == "DataArray") {
       finish_array(e);
     } else if (e.name == "Data" && parent == "DataArray") {
@@ -57,7 +57,8 @@ class GiftiParser {
       array_.has_data = true;
     } else if (e.name == "Name" && parent == "MD") {
       name_is_next_ = text(e) == "Name";
-    } else if (e.name == "Value" && parent == "MD" && name_is_next_ && path.size() > 3 && path[path.size() - 4].name == "DataArray") {
+    } else if (e.name == "Value" && parent == "MD" && name_is_next_ && path.size() > 3 &&
+               path[path.size() - 4].name == "DataArray") {
       array_.name = text(e);
     } else if (e.name == "Label" && parent == "LabelTable") {
       add_label(e);
@@ -113,11 +114,12 @@ class GiftiParser {
       std::string_view name;
       NumberType type;
     };
-    static constexpr Name kNames[]{{"NIFTI_TYPE_UINT8", NumberType::UInt8},     {"NIFTI_TYPE_INT8", NumberType::Int8},
-                                   {"NIFTI_TYPE_INT16", NumberType::Int16},     {"NIFTI_TYPE_UINT16", NumberType::UInt16},
-                                   {"NIFTI_TYPE_INT32", NumberType::Int32},     {"NIFTI_TYPE_UINT32", NumberType::UInt32},
-                                   {"NIFTI_TYPE_INT64", NumberType::Int64},     {"NIFTI_TYPE_UINT64", NumberType::UInt64},
-                                   {"NIFTI_TYPE_FLOAT32", NumberType::Float32}, {"NIFTI_TYPE_FLOAT64", NumberType::Float64}};
+    static constexpr Name kNames[]{
+        {"NIFTI_TYPE_UINT8", NumberType::UInt8},     {"NIFTI_TYPE_INT8", NumberType::Int8},
+        {"NIFTI_TYPE_INT16", NumberType::Int16},     {"NIFTI_TYPE_UINT16", NumberType::UInt16},
+        {"NIFTI_TYPE_INT32", NumberType::Int32},     {"NIFTI_TYPE_UINT32", NumberType::UInt32},
+        {"NIFTI_TYPE_INT64", NumberType::Int64},     {"NIFTI_TYPE_UINT64", NumberType::UInt64},
+        {"NIFTI_TYPE_FLOAT32", NumberType::Float32}, {"NIFTI_TYPE_FLOAT64", NumberType::Float64}};
     for (const Name& n : kNames) {
       if (n.name == e.attribute("DataType")) return n.type;
     }
@@ -133,12 +135,14 @@ class GiftiParser {
 std::vector<double> values_of(const Input& input, const GiftiArray& a) {
   const std::size_t budget = input.inflate_budget();
   if (a.columns != 0 && a.rows > budget / a.columns / size_of(a.type)) {
-    input.fail_line(a.line, "an array of " + std::to_string(a.rows) + " times " + std::to_string(a.columns) + " numbers is beyond what the file can hold");
+    input.fail_line(a.line, "an array of " + std::to_string(a.rows) + " times " + std::to_string(a.columns) +
+                                " numbers is beyond what the file can hold");
   }
   const std::size_t count = a.rows * a.columns, size = count * size_of(a.type);
   const std::string_view text = input.bytes().substr(a.begin, a.end - a.begin);
   const auto short_of = [&](std::size_t have) {
-    input.fail_line(a.line, "the array has " + std::to_string(have) + " bytes, but its dimensions ask for " + std::to_string(size));
+    input.fail_line(
+        a.line, "the array has " + std::to_string(have) + " bytes, but its dimensions ask for " + std::to_string(size));
   };
   std::vector<double> values;
   const auto take = [&](const char* p) {
@@ -183,7 +187,8 @@ std::vector<double> values_of(const Input& input, const GiftiArray& a) {
 
 void need_columns(const Input& input, const GiftiArray& a, std::uint64_t columns) {
   if (a.columns != columns) {
-    input.fail_line(a.line, "an array of " + a.intent + " has " + std::to_string(a.columns) + " columns, not " + std::to_string(columns));
+    input.fail_line(a.line, "an array of " + a.intent + " has " + std::to_string(a.columns) + " columns, not " +
+                                std::to_string(columns));
   }
 }
 
@@ -219,10 +224,12 @@ MeshParts read_gifti(const Input& input) {
   for (std::size_t f = 0; f + 2 < corners.size(); f += 3) {
     for (std::size_t k = f; k < f + 3; ++k) {
       if (!(corners[k] >= 0) || corners[k] >= static_cast<double>(kNoIndex) || corners[k] != std::floor(corners[k])) {
-        input.fail_line(triangles->line, "triangle " + std::to_string(f / 3) + " names point " + std::to_string(corners[k]));
+        input.fail_line(triangles->line,
+                        "triangle " + std::to_string(f / 3) + " names point " + std::to_string(corners[k]));
       }
     }
-    parts.faces.add_triangle(static_cast<Index>(corners[f]), static_cast<Index>(corners[f + 1]), static_cast<Index>(corners[f + 2]), triangles->line);
+    parts.faces.add_triangle(static_cast<Index>(corners[f]), static_cast<Index>(corners[f + 1]),
+                             static_cast<Index>(corners[f + 2]), triangles->line);
   }
   return parts;
 }
@@ -245,14 +252,16 @@ LoadedField read_gifti_field(const Input& input, const std::string& name) {
 namespace {
 
 template <class T>
-void write_gifti_array(Output& out, const std::string& name, const char* intent, const char* type, std::span<const T> values) {
+void write_gifti_array(Output& out, const std::string& name, const char* intent, const char* type,
+                       std::span<const T> values) {
   std::string raw(values.size() * sizeof(T), '\0');
   for (std::size_t k = 0; k < values.size(); ++k) store(values[k], raw.data() + k * sizeof(T), std::endian::little);
   const std::string compressed = deflate(raw);
   out.write("<DataArray Intent=\"" + std::string(intent) + "\" DataType=\"" + type +
             "\" ArrayIndexingOrder=\"RowMajorOrder\" Dimensionality=\"1\" Dim0=\"" + std::to_string(values.size()) +
             "\" Encoding=\"" + (compressed.empty() ? "Base64Binary" : "GZipBase64Binary") +
-            "\" Endian=\"LittleEndian\" ExternalFileName=\"\" ExternalFileOffset=\"\">\n<MetaData><MD><Name><![CDATA[Name]]></Name><Value><![CDATA[" +
+            "\" Endian=\"LittleEndian\" ExternalFileName=\"\" "
+            "ExternalFileOffset=\"\">\n<MetaData><MD><Name><![CDATA[Name]]></Name><Value><![CDATA[" +
             name + "]]></Value></MD></MetaData>\n<Data>");
   out.write(encode_base64(compressed.empty() ? raw : compressed));
   out.write("</Data>\n</DataArray>\n");
@@ -262,8 +271,11 @@ void write_gifti_array(Output& out, const std::string& name, const char* intent,
 
 void write_gifti(Output& out, const Mesh&, const FieldView& field) {
   const int arrays = (field.values.empty() ? 0 : 1) + (field.labels.empty() ? 0 : 1);
-  out.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE GIFTI SYSTEM \"http://www.nitrc.org/frs/download.php/115/gifti.dtd\">\n");
-  out.write("<GIFTI Version=\"1.0\" NumberOfDataArrays=\"" + std::to_string(arrays) + "\">\n<MetaData/>\n<LabelTable/>\n");
+  out.write(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE GIFTI SYSTEM "
+      "\"http://www.nitrc.org/frs/download.php/115/gifti.dtd\">\n");
+  out.write("<GIFTI Version=\"1.0\" NumberOfDataArrays=\"" + std::to_string(arrays) +
+            "\">\n<MetaData/>\n<LabelTable/>\n");
   if (!field.values.empty()) {
     const std::vector<float> narrow(field.values.begin(), field.values.end());
     write_gifti_array<float>(out, field.name, "NIFTI_INTENT_NONE", "NIFTI_TYPE_FLOAT32", narrow);

@@ -52,7 +52,8 @@ Chunks split_glb(const Input& input) {
   Chunks chunks;
   for (std::size_t at = kHeader; at + kChunkHeader <= bytes.size();) {
     const std::uint32_t size = word(at), type = word(at + 4);
-    if (size > bytes.size() - at - kChunkHeader) input.fail_byte(at, "a chunk of " + std::to_string(size) + " bytes reaches beyond the end of the file");
+    if (size > bytes.size() - at - kChunkHeader)
+      input.fail_byte(at, "a chunk of " + std::to_string(size) + " bytes reaches beyond the end of the file");
     const std::string_view content = bytes.substr(at + kChunkHeader, size);
     if (type == kJson && chunks.json.empty()) {
       chunks.json = content;
@@ -112,7 +113,10 @@ class GltfReader {
   static std::optional<std::size_t> number(const Json& object, const char* key, const Input& input) {
     const auto found = object.find(key);
     if (found == object.end()) return std::nullopt;
-    if (!found->is_number_unsigned()) input.fail(std::string(key) + " is " + quote(found->dump(-1, ' ', true, Json::error_handler_t::replace).substr(0, 60)) + ", not a whole number");
+    if (!found->is_number_unsigned())
+      input.fail(std::string(key) + " is " +
+                 quote(found->dump(-1, ' ', true, Json::error_handler_t::replace).substr(0, 60)) +
+                 ", not a whole number");
     return found->get<std::size_t>();
   }
   std::optional<std::size_t> number(const Json& object, const char* key) const { return number(object, key, *input_); }
@@ -136,8 +140,11 @@ class GltfReader {
     } else {
       add_roots(nodes);
     }
-    if (left_out_ != 0) parts_.remarks.push_back(counted(left_out_, "primitive of points or lines", "primitives of points or lines") + " left out");
-    if (primitives_ > 1) parts_.remarks.push_back(std::to_string(primitives_) + " primitives merged, their vertices one after the other");
+    if (left_out_ != 0)
+      parts_.remarks.push_back(counted(left_out_, "primitive of points or lines", "primitives of points or lines") +
+                               " left out");
+    if (primitives_ > 1)
+      parts_.remarks.push_back(std::to_string(primitives_) + " primitives merged, their vertices one after the other");
     parts_.remarks.push_back("glTF stores coordinates as 32-bit floats");
     return std::move(parts_);
   }
@@ -153,7 +160,8 @@ class GltfReader {
   }
 
   std::size_t node_number(const Json& node) const {
-    if (!node.is_number_unsigned() || node.get<std::size_t>() >= visited_.size()) fail("a node that does not exist is named");
+    if (!node.is_number_unsigned() || node.get<std::size_t>() >= visited_.size())
+      fail("a node that does not exist is named");
     return node.get<std::size_t>();
   }
 
@@ -199,7 +207,8 @@ class GltfReader {
   std::array<double, N> numbers(const Json& object, const char* key, const std::array<double, N>& otherwise) const {
     if (!object.contains(key)) return otherwise;
     const Json& list = object.at(key);
-    if (!list.is_array() || list.size() != N) fail(std::string(key) + " does not have " + std::to_string(N) + " numbers");
+    if (!list.is_array() || list.size() != N)
+      fail(std::string(key) + " does not have " + std::to_string(N) + " numbers");
     std::array<double, N> values;
     for (std::size_t k = 0; k < N; ++k) values[k] = list[k].template get<double>();
     return values;
@@ -211,10 +220,22 @@ class GltfReader {
     const auto q = numbers<4>(node, "rotation", {0, 0, 0, 1});  // x y z w
     const auto s = numbers<3>(node, "scale", {1, 1, 1});
     const double x = q[0], y = q[1], z = q[2], w = q[3];
-    return {s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w), s[0] * 2 * (x * z - y * w), 0,
-            s[1] * 2 * (x * y - z * w), s[1] * (1 - 2 * (x * x + z * z)), s[1] * 2 * (y * z + x * w), 0,
-            s[2] * 2 * (x * z + y * w), s[2] * 2 * (y * z - x * w), s[2] * (1 - 2 * (x * x + y * y)), 0,
-            t[0], t[1], t[2], 1};
+    return {s[0] * (1 - 2 * (y * y + z * z)),
+            s[0] * 2 * (x * y + z * w),
+            s[0] * 2 * (x * z - y * w),
+            0,
+            s[1] * 2 * (x * y - z * w),
+            s[1] * (1 - 2 * (x * x + z * z)),
+            s[1] * 2 * (y * z + x * w),
+            0,
+            s[2] * 2 * (x * z + y * w),
+            s[2] * 2 * (y * z - x * w),
+            s[2] * (1 - 2 * (x * x + y * y)),
+            0,
+            t[0],
+            t[1],
+            t[2],
+            1};
   }
 
   void add_mesh(std::size_t number_of_mesh, const Matrix& transform) {
@@ -237,7 +258,8 @@ class GltfReader {
     const std::vector<double> xyz = accessor(needed(primitive.at("attributes"), "POSITION"), 3);
     const auto first = parts_.positions.size();
     const std::size_t count = xyz.size() / 3;
-    if (first + count >= kNoIndex) throw Error(ErrorCode::TooLarge, printable(input_->name()) + ": more than 2^32 vertices");
+    if (first + count >= kNoIndex)
+      throw Error(ErrorCode::TooLarge, printable(input_->name()) + ": more than 2^32 vertices");
     for (std::size_t v = 0; v < count; ++v) {
       const Vec3 p = apply(transform, {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]});
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
@@ -254,12 +276,14 @@ class GltfReader {
     }
     for (const double v : corners) {
       if (!(v >= 0) || v >= static_cast<double>(count) || v != std::floor(v)) {
-        fail("a primitive names vertex " + std::to_string(static_cast<std::int64_t>(v)) + ", but has " + std::to_string(count));
+        fail("a primitive names vertex " + std::to_string(static_cast<std::int64_t>(v)) + ", but has " +
+             std::to_string(count));
       }
     }
     const auto corner = [&](std::size_t k) { return static_cast<Index>(first + static_cast<std::size_t>(corners[k])); };
     if (mode == kTriangles) {
-      for (std::size_t k = 0; k + 2 < corners.size(); k += 3) parts_.faces.add_triangle(corner(k), corner(k + 1), corner(k + 2), 0);
+      for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
+        parts_.faces.add_triangle(corner(k), corner(k + 1), corner(k + 2), 0);
       return;
     }
     for (std::size_t k = 2; k < corners.size(); ++k) {
@@ -279,7 +303,8 @@ class GltfReader {
     const NumberType type = component_type(needed(a, "componentType"));
     const std::size_t count = needed(a, "count");
     // Many primitives may share one accessor: what comes out altogether is bounded by the file's size.
-    if (count > budget_ / (components * sizeof(double))) fail("the accessors come to far more than the file's size: refused");
+    if (count > budget_ / (components * sizeof(double)))
+      fail("the accessors come to far more than the file's size: refused");
     budget_ -= count * components * sizeof(double);
     if (!a.contains("bufferView")) return std::vector<double>(count * components, 0.0);
     const Json& view = item("bufferViews", needed(a, "bufferView"));
@@ -302,10 +327,12 @@ class GltfReader {
   }
 
   NumberType component_type(std::size_t code) const {
-    constexpr std::array<NumberType, 7> kTypes{NumberType::Int8,  NumberType::UInt8,  NumberType::Int16,  NumberType::UInt16,
-                                               NumberType::Int32, NumberType::UInt32, NumberType::Float32};
+    constexpr std::array<NumberType, 7> kTypes{NumberType::Int8,   NumberType::UInt8, NumberType::Int16,
+                                               NumberType::UInt16, NumberType::Int32, NumberType::UInt32,
+                                               NumberType::Float32};
     constexpr std::size_t kFirst = 5120;
-    if (code < kFirst || code >= kFirst + kTypes.size()) fail("componentType " + std::to_string(code) + " does not exist");
+    if (code < kFirst || code >= kFirst + kTypes.size())
+      fail("componentType " + std::to_string(code) + " does not exist");
     return kTypes[code - kFirst];
   }
 
@@ -328,7 +355,8 @@ class GltfReader {
     const std::string_view buffer = buffer_bytes(needed(view, "buffer"));
     const std::size_t offset = number(view, "byteOffset").value_or(0), size = needed(view, "byteLength");
     if (offset > buffer.size() || size > buffer.size() - offset) {
-      fail("a buffer view of " + std::to_string(size) + " bytes at " + std::to_string(offset) + " reaches beyond its buffer of " + std::to_string(buffer.size()));
+      fail("a buffer view of " + std::to_string(size) + " bytes at " + std::to_string(offset) +
+           " reaches beyond its buffer of " + std::to_string(buffer.size()));
     }
     return buffer.substr(offset, size);
   }
@@ -361,7 +389,12 @@ class GltfReader {
 
   static std::string decode_percent(const std::string& uri) {
     std::string out;
-    const auto digit = [](char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; };
+    const auto digit = [](char c) {
+      return c >= '0' && c <= '9'   ? c - '0'
+             : c >= 'a' && c <= 'f' ? c - 'a' + 10
+             : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                    : -1;
+    };
     for (std::size_t k = 0; k < uri.size(); ++k) {
       if (uri[k] == '%' && k + 2 < uri.size() && digit(uri[k + 1]) >= 0 && digit(uri[k + 2]) >= 0) {
         out += static_cast<char>(16 * digit(uri[k + 1]) + digit(uri[k + 2]));

@@ -13,7 +13,8 @@ namespace brushfire::detail {
 namespace {
 
 // Nodes of each element type, from 1: lines, triangles, quadrangles, solids, and their curved relatives.
-constexpr int kNodes[]{0, 2, 3, 4, 4, 8, 6, 5, 3, 6, 9, 10, 27, 18, 14, 1, 8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5, 6, 20, 35, 56};
+constexpr int kNodes[]{0, 2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10, 27, 18, 14, 1,
+                       8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
 
 // How many corners a surface element has; 0 for everything else. The corners stand before the nodes along edges.
 std::size_t corners_of(std::int64_t type) {
@@ -48,8 +49,11 @@ class GmshReader {
       }
     }
     if (!has_nodes) fail("the file has no $Nodes");
-    if (left_out_ != 0) parts_.remarks.push_back(counted(left_out_, "element that is no face", "elements that are no faces") + " left out");
-    if (curved_ != 0) parts_.remarks.push_back(counted(curved_, "curved face", "curved faces") + " read as flat, by the corners");
+    if (left_out_ != 0)
+      parts_.remarks.push_back(counted(left_out_, "element that is no face", "elements that are no faces") +
+                               " left out");
+    if (curved_ != 0)
+      parts_.remarks.push_back(counted(curved_, "curved face", "curved faces") + " read as flat, by the corners");
     return std::move(parts_);
   }
 
@@ -60,7 +64,8 @@ class GmshReader {
     binary_ = text_.integer("0 or 1") == 1;
     const std::int64_t size = text_.integer("the size of numbers");
     version4_ = version == 4.1;
-    if (!version4_ && !(version >= 2 && version < 3)) text_.fail("version " + std::to_string(version).substr(0, 4) + " is not read, only 2 and 4.1");
+    if (!version4_ && !(version >= 2 && version < 3))
+      text_.fail("version " + std::to_string(version).substr(0, 4) + " is not read, only 2 and 4.1");
     if (size != 8) text_.fail("numbers of " + std::to_string(size) + " bytes are not read, only 8");
     parts_.places_are_lines = !binary_;
     if (binary_) {
@@ -159,13 +164,16 @@ class GmshReader {
       const auto ahead = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(tags_[0].tag);
       if (ahead < tags_.size() && tags_[ahead].tag == tag) return tags_[ahead].index;
     }
-    const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag, [](const Tag& a, std::int64_t t) { return a.tag < t; });
-    if (found == tags_.end() || found->tag != tag) fail("an element names node " + std::to_string(tag) + ", which does not exist");
+    const auto found =
+        std::lower_bound(tags_.begin(), tags_.end(), tag, [](const Tag& a, std::int64_t t) { return a.tag < t; });
+    if (found == tags_.end() || found->tag != tag)
+      fail("an element names node " + std::to_string(tag) + ", which does not exist");
     return found->index;
   }
 
   std::size_t nodes_of(std::int64_t type) const {
-    if (type < 1 || type >= static_cast<std::int64_t>(std::size(kNodes))) fail("an element of type " + std::to_string(type) + " is not known");
+    if (type < 1 || type >= static_cast<std::int64_t>(std::size(kNodes)))
+      fail("an element of type " + std::to_string(type) + " is not known");
     return static_cast<std::size_t>(kNodes[type]);
   }
 
@@ -197,7 +205,9 @@ class GmshReader {
     for (std::size_t done = 0; done < n;) {
       const std::int64_t type = whole(4, "an element's type");
       const std::size_t follow = count(4, 4, "the number of elements"), tags = count(4, 4, "the number of tags");
-      if (follow == 0 || follow > n - done) fail("a block of " + std::to_string(follow) + " elements does not fit the " + std::to_string(n - done) + " that are left");
+      if (follow == 0 || follow > n - done)
+        fail("a block of " + std::to_string(follow) + " elements does not fit the " + std::to_string(n - done) +
+             " that are left");
       for (std::size_t e = 0; e < follow; ++e) {
         raw(1 + tags, 4, "the elements");
         read_element(type, 4);

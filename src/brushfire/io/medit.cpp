@@ -23,7 +23,8 @@ class MeditReader {
       if (keyword == "End") break;
       if (keyword == "Dimension") {
         dimension_ = text_.integer("2 or 3");
-        if (dimension_ != 2 && dimension_ != 3) text_.fail("dimension " + std::to_string(dimension_) + " is not read, only 2 and 3");
+        if (dimension_ != 2 && dimension_ != 3)
+          text_.fail("dimension " + std::to_string(dimension_) + " is not read, only 2 and 3");
       } else if (keyword == "Vertices") {
         read_vertices();
       } else if (keyword == "Triangles" || keyword == "Quadrilaterals") {

@@ -102,7 +102,8 @@ MeshParts read_obj(const Input& input) {
 // Colours behind the coordinates, as MeshLab, Blender and others read them.
 void write_obj(Output& out, const Mesh& mesh, const FieldView& field) {
   const ColourScale scale(field.values);
-  out.write("# " + counted(mesh.vertex_count(), "vertex", "vertices") + ", " + counted(mesh.face_count(), "face", "faces") + "\n");
+  out.write("# " + counted(mesh.vertex_count(), "vertex", "vertices") + ", " +
+            counted(mesh.face_count(), "face", "faces") + "\n");
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3& p = mesh.positions()[v];
     out.write('v');

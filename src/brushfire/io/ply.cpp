@@ -240,7 +240,8 @@ class PlyReader {
     const Property* p = e.find(name.empty() ? "quality" : name);
     if (p != nullptr) return p->is_list ? nullptr : p;
     if (!name.empty()) return nullptr;
-    static constexpr std::string_view kOthers[]{"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha", "s", "t", "u", "v"};
+    static constexpr std::string_view kOthers[]{"x",     "y",    "z",     "nx", "ny", "nz", "red",
+                                                "green", "blue", "alpha", "s",  "t",  "u",  "v"};
     for (const Property& q : e.properties) {
       if (!q.is_list && std::find(std::begin(kOthers), std::end(kOthers), q.name) == std::end(kOthers)) return &q;
     }
@@ -504,7 +505,8 @@ void write_ply(Output& out, const Mesh& mesh, const FieldView& field) {
     out.write("property double quality\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n");
   }
   if (has_labels) out.write("property int " + field.label_name + "\n");
-  out.write("element face " + std::to_string(mesh.face_count()) + "\nproperty list uchar int vertex_indices\nend_header\n");
+  out.write("element face " + std::to_string(mesh.face_count()) +
+            "\nproperty list uchar int vertex_indices\nend_header\n");
   const ColourScale scale(field.values);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3& p = mesh.positions()[v];

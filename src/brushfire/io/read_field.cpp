@@ -111,7 +111,8 @@ CsvColumns columns_of(const CsvRows& rows, const std::vector<std::string_view>& 
       columns.value = k;
     }
   }
-  if (columns.value == kNoColumn) rows.fail(name.empty() ? "the header names no column of values" : "there is no column " + quote(name));
+  if (columns.value == kNoColumn)
+    rows.fail(name.empty() ? "the header names no column of values" : "there is no column " + quote(name));
   return columns;
 }
 
@@ -124,7 +125,8 @@ LoadedField read_csv_field(const Input& input, const std::string& name) {
   if (!rows.next(cells)) return field;
   CsvColumns columns;
   double value = 0;
-  const bool has_header = std::none_of(cells.begin(), cells.end(), [&](std::string_view c) { return rows.is_number(c, value); });
+  const bool has_header =
+      std::none_of(cells.begin(), cells.end(), [&](std::string_view c) { return rows.is_number(c, value); });
   if (has_header) {
     columns = columns_of(rows, cells, name);
     field.name = cells[columns.value];
@@ -136,11 +138,13 @@ LoadedField read_csv_field(const Input& input, const std::string& name) {
   }
   const std::size_t width = cells.size();
   for (bool more = !has_header || rows.next(cells); more; more = rows.next(cells)) {
-    if (cells.size() != width) rows.fail(counted(cells.size(), "cell", "cells") + ", but the first line has " + std::to_string(width));
+    if (cells.size() != width)
+      rows.fail(counted(cells.size(), "cell", "cells") + ", but the first line has " + std::to_string(width));
     field.values.push_back(rows.number(cells[columns.value]));
     if (columns.vertex == kNoColumn) continue;
     const double v = rows.number(cells[columns.vertex]);
-    if (!(v >= 0) || v >= static_cast<double>(kNoIndex) || v != std::floor(v)) rows.fail(quote(cells[columns.vertex]) + " is no vertex number");
+    if (!(v >= 0) || v >= static_cast<double>(kNoIndex) || v != std::floor(v))
+      rows.fail(quote(cells[columns.vertex]) + " is no vertex number");
     field.vertices.push_back(static_cast<Index>(v));
   }
   return field;
@@ -267,7 +271,9 @@ LoadedField read(const Input& input, const std::string& name) {
     if (format == nullptr && is_named) format = &f;
   }
   if (format == nullptr) {
-    throw Error(ErrorCode::UnknownFormat, printable(input.name()) + ": neither name nor content tell the format of the values (known: " + known + ")");
+    throw Error(
+        ErrorCode::UnknownFormat,
+        printable(input.name()) + ": neither name nor content tell the format of the values (known: " + known + ")");
   }
   LoadedField field = format->read(input, name);
   field.format = format->name;
@@ -283,20 +289,24 @@ LoadedField read_field(const std::string& path, const std::string& name) {
 }
 
 LoadedField read_field(std::span<const std::byte> content, const std::string& file_name, const std::string& name) {
-  return detail::read(detail::Input::from_memory({reinterpret_cast<const char*>(content.data()), content.size()}, file_name), name);
+  return detail::read(
+      detail::Input::from_memory({reinterpret_cast<const char*>(content.data()), content.size()}, file_name), name);
 }
 
 std::vector<double> values_on_vertices(const LoadedField& field, Index vertex_count, double otherwise) {
   if (field.vertices.empty()) {
     if (field.values.size() != vertex_count) {
-      throw Error(ErrorCode::InvalidArgument, std::to_string(field.values.size()) + " values for " + std::to_string(vertex_count) + " vertices");
+      throw Error(ErrorCode::InvalidArgument,
+                  std::to_string(field.values.size()) + " values for " + std::to_string(vertex_count) + " vertices");
     }
     return field.values;
   }
   std::vector<double> values(vertex_count, otherwise);
   for (std::size_t k = 0; k < field.vertices.size(); ++k) {
     if (field.vertices[k] >= vertex_count) {
-      throw Error(ErrorCode::IndexOutOfRange, "entry " + std::to_string(k) + " names vertex " + std::to_string(field.vertices[k]) + ", but there are " + std::to_string(vertex_count));
+      throw Error(ErrorCode::IndexOutOfRange, "entry " + std::to_string(k) + " names vertex " +
+                                                  std::to_string(field.vertices[k]) + ", but there are " +
+                                                  std::to_string(vertex_count));
     }
     values[field.vertices[k]] = field.values[k];
   }

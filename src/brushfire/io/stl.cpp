@@ -95,7 +95,8 @@ MeshParts read_binary(const Input& input) {
   if (bytes.size() < kHeader) input.fail_byte(bytes.size(), "the file ends within the 84 bytes of a binary STL header");
   const std::size_t triangles = triangles_of_binary(bytes), there = (bytes.size() - kHeader) / kRow;
   if (triangles > there) {
-    input.fail_byte(80, "the header promises " + std::to_string(triangles) + " triangles, but only " + std::to_string(there) + " follow");
+    input.fail_byte(80, "the header promises " + std::to_string(triangles) + " triangles, but only " +
+                            std::to_string(there) + " follow");
   }
   MeshParts parts;
   parts.places_are_lines = false;
@@ -126,7 +127,8 @@ MeshParts read_binary(const Input& input) {
     }
     for (std::size_t k = 0; k < 3 * n; ++k) parts.vertex_map[3 * first + k] = welder.number(points[k], hashes[k]);
     for (std::size_t f = first; f < first + n; ++f) {
-      parts.faces.add_triangle(parts.vertex_map[3 * f], parts.vertex_map[3 * f + 1], parts.vertex_map[3 * f + 2], kHeader + f * kRow);
+      parts.faces.add_triangle(parts.vertex_map[3 * f], parts.vertex_map[3 * f + 1], parts.vertex_map[3 * f + 2],
+                               kHeader + f * kRow);
     }
   }
   return parts;

@@ -94,7 +94,8 @@ class VtkReader {
     if (keyword_ == "POINTS") {
       read_points();
     } else if (keyword_ == "POLYGONS") {
-      read_cells([this](std::span<const double> v, std::size_t place) { cells_.add_polygon(*input_, v, place, parts_); });
+      read_cells(
+          [this](std::span<const double> v, std::size_t place) { cells_.add_polygon(*input_, v, place, parts_); });
     } else if (keyword_ == "TRIANGLE_STRIPS") {
       read_cells([this](std::span<const double> v, std::size_t place) { cells_.add_strip(*input_, v, place, parts_); });
     } else if (keyword_ == "VERTICES" || keyword_ == "LINES") {
@@ -162,8 +163,10 @@ class VtkReader {
     offset.push_back(0);
     std::size_t at = 0;
     for (std::size_t c = 0; c < n; ++c) {
-      if (at >= raw.size() || !(raw[at] >= 0) || raw[at] != std::floor(raw[at]) || raw[at] > static_cast<double>(raw.size() - at - 1)) {
-        fail("cell " + std::to_string(c) + " of " + keyword_ + " reaches beyond the " + std::to_string(size) + " entries");
+      if (at >= raw.size() || !(raw[at] >= 0) || raw[at] != std::floor(raw[at]) ||
+          raw[at] > static_cast<double>(raw.size() - at - 1)) {
+        fail("cell " + std::to_string(c) + " of " + keyword_ + " reaches beyond the " + std::to_string(size) +
+             " entries");
       }
       const auto corners = static_cast<std::size_t>(raw[at++]);
       connectivity.insert(connectivity.end(), raw.begin() + static_cast<std::ptrdiff_t>(at),
@@ -176,8 +179,10 @@ class VtkReader {
   void check_offsets(const std::vector<double>& offset, std::size_t size) {
     double last = 0;
     for (std::size_t c = 0; c < offset.size(); ++c) {
-      if (!(offset[c] >= last) || offset[c] != std::floor(offset[c]) || offset[c] > static_cast<double>(size) || (c == 0 && offset[c] != 0)) {
-        fail("offset " + std::to_string(c) + " of " + keyword_ + " does not fit the " + std::to_string(size) + " entries");
+      if (!(offset[c] >= last) || offset[c] != std::floor(offset[c]) || offset[c] > static_cast<double>(size) ||
+          (c == 0 && offset[c] != 0)) {
+        fail("offset " + std::to_string(c) + " of " + keyword_ + " does not fit the " + std::to_string(size) +
+             " entries");
       }
       last = offset[c];
     }
@@ -265,7 +270,8 @@ class VtkReader {
 
   std::size_t checked_product(std::size_t a, std::size_t b) const {
     if (b != 0 && a > text_.left() / b + 1) {
-      fail(std::to_string(a) + " times " + std::to_string(b) + " numbers are promised, but only " + std::to_string(text_.left()) + " bytes follow");
+      fail(std::to_string(a) + " times " + std::to_string(b) + " numbers are promised, but only " +
+           std::to_string(text_.left()) + " bytes follow");
     }
     return a * b;
   }
@@ -318,7 +324,8 @@ LoadedField read_vtk_field(const Input& input, const std::string& name) {
   VtkReader reader(input, &name);
   reader.read();
   std::optional<LoadedField> field = reader.field();
-  if (!field) input.fail(name.empty() ? "has no scalars on its points" : "has no scalars " + quote(name) + " on its points");
+  if (!field)
+    input.fail(name.empty() ? "has no scalars on its points" : "has no scalars " + quote(name) + " on its points");
   return std::move(*field);
 }
 
@@ -329,7 +336,8 @@ void write_vtk(Output& out, const Mesh& mesh, const FieldView& field) {
   for (const Vec3& p : mesh.positions()) {
     for (const double x : {p.x, p.y, p.z}) out.value(x, kOrder);
   }
-  out.write("\nPOLYGONS " + std::to_string(mesh.face_count()) + " " + std::to_string(std::uint64_t{4} * mesh.face_count()) + "\n");
+  out.write("\nPOLYGONS " + std::to_string(mesh.face_count()) + " " +
+            std::to_string(std::uint64_t{4} * mesh.face_count()) + "\n");
   for (const Face& f : mesh.faces()) {
     out.value(std::int32_t{3}, kOrder);
     for (const Index v : f) out.value(v, kOrder);

@@ -71,7 +71,8 @@ class VtpReader {
     bool found = false;
     for (const Piece& piece : pieces_) {
       for (const ArrayPlace& array : piece.point_data) {
-        if (array.components != 1 || (wanted.empty() ? found && array.name != field.name : array.name != wanted)) continue;
+        if (array.components != 1 || (wanted.empty() ? found && array.name != field.name : array.name != wanted))
+          continue;
         const std::vector<double> values = numbers(array, piece.points);
         field.values.insert(field.values.end(), values.begin(), values.end());
         field.name = array.name;
@@ -79,7 +80,8 @@ class VtpReader {
         break;
       }
     }
-    if (!found) input_->fail("has no scalars" + (wanted.empty() ? std::string() : " " + quote(wanted)) + " on its points");
+    if (!found)
+      input_->fail("has no scalars" + (wanted.empty() ? std::string() : " " + quote(wanted)) + " on its points");
     return field;
   }
 
@@ -154,7 +156,8 @@ class VtpReader {
 
   void read_piece(const Piece& piece, VtkCells& cells, MeshParts& parts) {
     if (piece.points > input_->inflate_budget()) {
-      input_->fail_line(piece.line, "NumberOfPoints is " + std::to_string(piece.points) + ", beyond what the file can hold");
+      input_->fail_line(piece.line,
+                        "NumberOfPoints is " + std::to_string(piece.points) + ", beyond what the file can hold");
     }
     const std::size_t first = parts.positions.size();
     if (piece.positions) {
@@ -163,7 +166,8 @@ class VtpReader {
       for (std::size_t v = 0; v < piece.points; ++v) {
         const Vec3 p{xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-          input_->fail_line(piece.positions->line, "point " + std::to_string(v) + " has a coordinate that is not finite");
+          input_->fail_line(piece.positions->line,
+                            "point " + std::to_string(v) + " has a coordinate that is not finite");
         }
         parts.positions.push_back(p);
       }
@@ -171,12 +175,12 @@ class VtpReader {
       input_->fail_line(piece.line, "the piece has no <Points>");
     }
     const auto first_point = static_cast<double>(first);
-    read_cells(piece.poly_connectivity, piece.poly_offsets, piece, first_point, [&](std::span<const double> corners, std::size_t line) {
-      cells.add_polygon(*input_, corners, line, parts);
-    });
-    read_cells(piece.strip_connectivity, piece.strip_offsets, piece, first_point, [&](std::span<const double> corners, std::size_t line) {
-      cells.add_strip(*input_, corners, line, parts);
-    });
+    read_cells(
+        piece.poly_connectivity, piece.poly_offsets, piece, first_point,
+        [&](std::span<const double> corners, std::size_t line) { cells.add_polygon(*input_, corners, line, parts); });
+    read_cells(
+        piece.strip_connectivity, piece.strip_offsets, piece, first_point,
+        [&](std::span<const double> corners, std::size_t line) { cells.add_strip(*input_, corners, line, parts); });
     cells.leave_out(piece.left_out);
   }
 
@@ -189,7 +193,8 @@ class VtpReader {
     const std::vector<double> ends = numbers(*offsets);
     for (double& v : corners) {
       if (!(v >= 0) || v >= static_cast<double>(piece.points)) {
-        input_->fail_line(connectivity->line, "a cell names point " + printable(std::to_string(v)) + ", but there are " + std::to_string(piece.points));
+        input_->fail_line(connectivity->line, "a cell names point " + printable(std::to_string(v)) +
+                                                  ", but there are " + std::to_string(piece.points));
       }
       v += first_point;
     }
@@ -217,7 +222,8 @@ class VtpReader {
       load_numbers(a.type, raw.data(), order_, values.size(), values.data());
     }
     if (expected && values.size() != *expected) {
-      input_->fail_line(a.line, "the array has " + std::to_string(values.size()) + " numbers, but " + std::to_string(*expected) + " are needed");
+      input_->fail_line(a.line, "the array has " + std::to_string(values.size()) + " numbers, but " +
+                                    std::to_string(*expected) + " are needed");
     }
     return values;
   }
@@ -232,7 +238,8 @@ class VtpReader {
     if (a.format == "binary") return decode_base64_block(a, input_->bytes().substr(a.begin, a.end - a.begin));
     if (a.format != "appended") input_->fail_line(a.line, "data of format " + quote(a.format) + " is not read");
     const std::string_view data = input_->bytes().substr(std::min(appended_, input_->size()));
-    if (a.begin >= data.size()) input_->fail_line(a.line, "offset " + std::to_string(a.begin) + " is beyond the appended data");
+    if (a.begin >= data.size())
+      input_->fail_line(a.line, "offset " + std::to_string(a.begin) + " is beyond the appended data");
     if (appended_is_base64_) return decode_base64_block(a, data.substr(a.begin));
     return unpack(a, data.substr(a.begin));
   }
@@ -266,7 +273,8 @@ class VtpReader {
   std::vector<char> inflate_blocks(const ArrayPlace& a, std::string_view header, std::string_view data) {
     const std::uint64_t blocks = header_word(header, 0), size = header_word(header, 1), last = header_word(header, 2);
     const std::uint64_t whole = blocks == 0 ? 0 : last == 0 ? blocks : blocks - 1;
-    const bool too_large = (whole != 0 && size > budget_ / whole) || last > budget_ || (blocks != 0 && whole * size > budget_ - last);
+    const bool too_large =
+        (whole != 0 && size > budget_ / whole) || last > budget_ || (blocks != 0 && whole * size > budget_ - last);
     if (too_large) input_->fail_line(a.line, "the array inflates to far more than the file's size: refused");
     std::vector<char> out;
     for (std::uint64_t b = 0; b < blocks; ++b) {
@@ -319,9 +327,7 @@ class VtpReader {
     return result;
   }
 
-  [[noreturn]] void fail_short(const ArrayPlace& a) const {
-    input_->fail_line(a.line, "the array's data ends early");
-  }
+  [[noreturn]] void fail_short(const ArrayPlace& a) const { input_->fail_line(a.line, "the array's data ends early"); }
 
   const Input* input_;
   std::size_t budget_;
@@ -344,12 +350,16 @@ void write_vtp(Output& out, const Mesh& mesh, const FieldView& field) {
   const std::uint64_t vertices = mesh.vertex_count(), faces = mesh.face_count();
   std::uint64_t offset = 0;
   const auto array = [&](const std::string& type, const std::string& attributes, std::uint64_t size) {
-    out.write("<DataArray type=\"" + type + "\" " + attributes + " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n");
+    out.write("<DataArray type=\"" + type + "\" " + attributes + " format=\"appended\" offset=\"" +
+              std::to_string(offset) + "\"/>\n");
     offset += sizeof(std::uint64_t) + size;
   };
-  out.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n");
-  out.write("<PolyData>\n<Piece NumberOfPoints=\"" + std::to_string(vertices) + "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-            std::to_string(faces) + "\">\n<Points>\n");
+  out.write(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n");
+  out.write("<PolyData>\n<Piece NumberOfPoints=\"" + std::to_string(vertices) +
+            "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(faces) +
+            "\">\n<Points>\n");
   array("Float64", "NumberOfComponents=\"3\"", 24 * vertices);
   out.write("</Points>\n<Polys>\n");
   array("Int32", "Name=\"connectivity\"", 12 * faces);

@@ -68,9 +68,9 @@ struct Writer {
 
 // A new writer is one line here.
 constexpr Writer kWriters[]{
-    {"ply", true, write_ply},    {"vtk", true, write_vtk},   {"vtp", true, write_vtp},
-    {"obj", true, write_obj},    {"gii", false, write_gifti}, {"curv", false, write_freesurfer_curv},
-    {"csv", false, write_csv},   {"json", false, write_json},
+    {"ply", true, write_ply},  {"vtk", true, write_vtk},    {"vtp", true, write_vtp},
+    {"obj", true, write_obj},  {"gii", false, write_gifti}, {"curv", false, write_freesurfer_curv},
+    {"csv", false, write_csv}, {"json", false, write_json},
 };
 
 std::string extension_of(const std::string& path) {
@@ -90,7 +90,8 @@ void check_size(std::size_t size, const Mesh& mesh, const char* what) {
 // Names go into headers of many grammars: letters, digits and a few marks are at home in all of them.
 void check_name(const std::string& name) {
   const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
   };
   if (!name.empty() && std::all_of(name.begin(), name.end(), is_plain)) return;
   throw Error(ErrorCode::InvalidArgument, quote(name) + " is no name for an array: letters, digits, _ - . only");

@@ -10,8 +10,8 @@ namespace brushfire::detail {
 
 struct Base64Result {
   std::vector<char> bytes;
-  std::size_t consumed = 0;         // characters of the text, up to and including padding
-  bool ok = true;                   // false: a foreign character at `consumed`
+  std::size_t consumed = 0;  // characters of the text, up to and including padding
+  bool ok = true;            // false: a foreign character at `consumed`
 };
 
 // Decodes up to padding or the end; white space is skipped. At most `limit` bytes, a multiple of three, come out.

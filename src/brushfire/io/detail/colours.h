@@ -26,7 +26,8 @@ inline Colour viridis(double t) {
   const std::size_t k = std::min(static_cast<std::size_t>(x), kSteps.size() - 2);
   Colour c;
   for (std::size_t i = 0; i < 3; ++i) {
-    c[i] = static_cast<std::uint8_t>(std::lround(kSteps[k][i] + (x - static_cast<double>(k)) * (kSteps[k + 1][i] - kSteps[k][i])));
+    c[i] = static_cast<std::uint8_t>(
+        std::lround(kSteps[k][i] + (x - static_cast<double>(k)) * (kSteps[k + 1][i] - kSteps[k][i])));
   }
   return c;
 }

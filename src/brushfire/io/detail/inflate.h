@@ -33,7 +33,9 @@ class Inflater {
 };
 
 // Deflate cannot do better than 1032 to 1: a promise beyond that is refused before memory is taken for it.
-constexpr bool can_inflate_to(std::size_t size, std::string_view compressed) { return size / 1032 <= compressed.size(); }
+constexpr bool can_inflate_to(std::size_t size, std::string_view compressed) {
+  return size / 1032 <= compressed.size();
+}
 
 // Inflates a zlib or gzip stream into exactly `expected` bytes at `target`. Returns an empty string or what is wrong.
 std::string inflate_exactly(std::string_view compressed, char* target, std::size_t expected);

@@ -1,6 +1,7 @@
 // From a reader's polygons to a mesh of triangles.
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/mesh_parts.h>
+#include <brushfire/mesh/polygons.h>
 
 #include <numeric>
 
@@ -43,21 +44,6 @@ void FaceList::leave_fast_path() {
   triangles_ = {};
 }
 
-namespace {
-
-// A fan around the first corner of each polygon.
-void split(std::span<const Index> offset, std::span<const Index> corners, std::vector<Face>& faces,
-           std::vector<Index>& origin) {
-  for (std::size_t p = 0; p + 1 < offset.size(); ++p) {
-    for (Index k = offset[p] + 2; k < offset[p + 1]; ++k) {
-      faces.push_back({corners[offset[p]], corners[k - 1], corners[k]});
-      origin.push_back(static_cast<Index>(p));
-    }
-  }
-}
-
-}  // namespace
-
 void FaceList::finish(const Input& input, bool places_are_lines, std::span<const Vec3> positions,
                       std::vector<Face>& faces, std::vector<Index>& face_origin, std::vector<std::string>& remarks) {
   if (count_ != left_out_ && largest_ >= positions.size()) {
@@ -74,7 +60,9 @@ void FaceList::finish(const Input& input, bool places_are_lines, std::span<const
     throw Error(ErrorCode::TooLarge, printable(input.name()) + ": " + std::to_string(corners_.size()) +
                                          " corners of faces do not fit into 32-bit indices");
   }
-  split(offset_, corners_, faces, face_origin);
+  Triangulation split = triangulate_polygons(positions, offset_, corners_);
+  faces = std::move(split.faces);
+  face_origin = std::move(split.origin);
   for (Index& f : face_origin) f = number_[f];
   if (left_out_ != 0) {
     remarks.push_back(counted(left_out_, "face", "faces") + " of fewer than three corners left out");

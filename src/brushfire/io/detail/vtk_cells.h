@@ -33,7 +33,8 @@ class VtkCells {
   void add_grid(const Input& input, std::span<const double> offset, std::span<const double> connectivity,
                 std::span<const double> types, std::size_t place, MeshParts& parts) {
     if (!offset.empty() && types.size() + 1 != offset.size()) {
-      fail(input, place, parts, std::to_string(offset.size() - 1) + " cells, but " + std::to_string(types.size()) + " types");
+      fail(input, place, parts,
+           std::to_string(offset.size() - 1) + " cells, but " + std::to_string(types.size()) + " types");
     }
     for (std::size_t c = 0; c < types.size() && !offset.empty(); ++c) {
       const auto begin = static_cast<std::size_t>(offset[c]), end = static_cast<std::size_t>(offset[c + 1]);
@@ -42,7 +43,8 @@ class VtkCells {
   }
 
   void remark(MeshParts& parts) const {
-    if (left_out_ != 0) parts.remarks.push_back(counted(left_out_, "cell that is no face", "cells that are no faces") + " left out");
+    if (left_out_ != 0)
+      parts.remarks.push_back(counted(left_out_, "cell that is no face", "cells that are no faces") + " left out");
     if (curved_ != 0) {
       parts.remarks.push_back(counted(curved_, "curved face", "curved faces") + " read as flat, by the corners");
     }
@@ -50,13 +52,15 @@ class VtkCells {
 
  private:
   void add_cell(const Input& input, double type, std::span<const double> corners, std::size_t place, MeshParts& parts) {
-    constexpr int kStrip = 6, kPolygon = 7, kPixel = 8, kTriangle = 5, kQuad = 9, kQuadraticTriangle = 22, kQuadraticQuad = 23;
+    constexpr int kStrip = 6, kPolygon = 7, kPixel = 8, kTriangle = 5, kQuad = 9, kQuadraticTriangle = 22,
+                  kQuadraticQuad = 23;
     const int t = type >= 0 && type < 256 ? static_cast<int>(type) : 0;
-    const std::size_t n = t == kTriangle || t == kQuadraticTriangle                 ? 3
+    const std::size_t n = t == kTriangle || t == kQuadraticTriangle          ? 3
                           : t == kQuad || t == kPixel || t == kQuadraticQuad ? 4
                                                                              : corners.size();
     if (n > corners.size()) {
-      fail(input, place, parts, "a cell of type " + std::to_string(t) + " has " + std::to_string(corners.size()) + " corners");
+      fail(input, place, parts,
+           "a cell of type " + std::to_string(t) + " has " + std::to_string(corners.size()) + " corners");
     }
     if (t == kStrip) {
       add_strip(input, corners, place, parts);
@@ -81,7 +85,8 @@ class VtkCells {
     }
   }
 
-  [[noreturn]] static void fail(const Input& input, std::size_t place, const MeshParts& parts, const std::string& cause) {
+  [[noreturn]] static void fail(const Input& input, std::size_t place, const MeshParts& parts,
+                                const std::string& cause) {
     if (parts.places_are_lines) input.fail_line(place, cause);
     input.fail_byte(place, cause);
   }

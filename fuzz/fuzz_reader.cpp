@@ -1,0 +1,50 @@
+// Feeds arbitrary bytes to one reader: a result or an Error of one line is fine, anything else is a finding.
+//
+// FUZZ_MESH and FUZZ_FIELD name the functions of io/detail/formats.h that this program is for.
+#include <brushfire/core/error.h>
+#include <brushfire/io/detail/formats.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+namespace {
+
+using namespace brushfire;
+
+void check(const Error& e) {
+  const std::string_view what = e.what();
+  if (what.empty() || what.find('\n') != std::string_view::npos) std::abort();
+}
+
+void read_once(const detail::Input& input) {
+#ifdef FUZZ_MESH
+  try {
+    const LoadedMesh loaded = detail::finish(input, detail::FUZZ_MESH(input), "");
+    const Index faces = loaded.mesh.face_count();
+    if (!loaded.face_origin.empty() && loaded.face_origin.size() != faces) std::abort();
+    if (!loaded.vertex_map.empty() && loaded.vertex_map.size() != loaded.mesh.halfedge_count()) std::abort();
+  } catch (const Error& e) {
+    check(e);
+  }
+#endif
+#ifdef FUZZ_FIELD
+  try {
+    const LoadedField field = detail::FUZZ_FIELD(input, "");
+    if (!field.vertices.empty() && field.vertices.size() != field.values.size()) std::abort();
+  } catch (const Error& e) {
+    check(e);
+  }
+#endif
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    read_once(detail::Input::from_memory({reinterpret_cast<const char*>(data), size}, "input"));
+  } catch (const Error& e) {
+    check(e);  // of the decompression
+  }
+  return 0;
+}
