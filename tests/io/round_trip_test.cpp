@@ -62,7 +62,7 @@ std::vector<double> as_values(const std::vector<Index>& labels) {
   return values;
 }
 
-constexpr std::uint64_t kSeeds = 200;
+constexpr std::uint64_t kSeeds = 50;
 
 class MeshRoundTrip : public testing::TestWithParam<const char*> {};
 

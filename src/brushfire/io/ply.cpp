@@ -176,7 +176,10 @@ class AsciiRows {
   AsciiRows(const Input& input, const Header& header)
       : input_(&input), text_(input, input.bytes().substr(header.size), header.lines + 1) {}
 
-  std::size_t place() const { return text_.line(); }
+  std::size_t place() {  // where the next number stands
+    text_.to_word();
+    return text_.line();
+  }
   double number(Type, const Element&, std::uint64_t) { return text_.number("a number"); }
 
   void check_promise(const Element& e, std::size_t shortest_row) const {
