@@ -17,8 +17,8 @@
 namespace brushfire {
 namespace {
 
-constexpr std::array kMethods{Method::Exact, Method::NovotniKlein, Method::NovotniKlein2002, Method::KimmelSethian,
-                              Method::Dijkstra};
+constexpr std::array kMethods{Method::Windows,          Method::Exact,         Method::NovotniKlein,
+                              Method::NovotniKlein2002, Method::KimmelSethian, Method::Dijkstra};
 
 // Methods that share one engine go by the name of the first.
 Method engine_of(Method method) {
@@ -27,6 +27,7 @@ Method engine_of(Method method) {
 
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
   switch (method) {
+    case Method::Windows:
     case Method::Exact:
       return detail::make_windows(mesh);
     case Method::NovotniKlein:
@@ -65,6 +66,10 @@ void check(const DistanceOptions& options) {
     throw Error(ErrorCode::InvalidArgument,
                 "max_distance " + std::to_string(options.max_distance) + " is not a number >= 0");
   }
+  if (options.method == Method::Windows && !(options.tolerance >= 0 && options.tolerance <= kMaxTolerance)) {
+    throw Error(ErrorCode::InvalidArgument, "tolerance " + std::to_string(options.tolerance) + " is not in [0, " +
+                                                std::to_string(kMaxTolerance) + "]");
+  }
 }
 
 // A target at a vertex reads what the field reads there, to the bit.
@@ -97,8 +102,10 @@ void finish(const Mesh& mesh, std::span<const PointLocation> targets, const Dist
     if (d > options.max_distance) {
       d = kInfinity;
       field.source[v] = kNoIndex;
+      if (!field.error_bound.empty()) field.error_bound[v] = kInfinity;
       ++field.beyond_radius;
     } else {
+      if (!field.error_bound.empty()) field.error_bound[v] *= unit;
       ++field.reached;
     }
   }
@@ -138,6 +145,8 @@ SparseField collect(double unit, std::span<const PointLocation> targets, const D
 
 std::string_view name_of(Method method) {
   switch (method) {
+    case Method::Windows:
+      return "windows";
     case Method::Exact:
       return "exact";
     case Method::NovotniKlein:

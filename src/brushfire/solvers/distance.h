@@ -15,6 +15,7 @@
 namespace brushfire {
 
 enum class Method : std::uint8_t {
+  Windows,           // window propagation with merging: relative error <= DistanceOptions::tolerance, proven
   Exact,             // window propagation: the polyhedral distance, to rounding
   NovotniKlein,      // fast marching, circular update with the visibility test: the fastest; measured error stated
   NovotniKlein2002,  // the update literally as printed in the paper, to show what it does
@@ -22,7 +23,7 @@ enum class Method : std::uint8_t {
   Dijkstra,          // edge graph: an upper bound
 };
 
-// "exact", "novotni-klein", "novotni-klein-2002", "kimmel-sethian", "dijkstra": as on the command line.
+// "windows", "exact", "novotni-klein", "novotni-klein-2002", "kimmel-sethian", "dijkstra": as on the command line.
 std::string_view name_of(Method method);
 // Throws Error(InvalidArgument) that lists the names.
 Method method_named(std::string_view name);
@@ -32,13 +33,23 @@ std::span<const Method> all_methods();
 // Arithmetic of the marching itself; lengths and results are double either way.
 enum class Precision : std::uint8_t { Float, Double };
 
+// Which value a method with proven bounds gives out. For Windows, Upper (never shorter than a real path) and Lower
+// (never longer than the distance) keep the same tolerance and cost some more windows.
+enum class Bound : std::uint8_t { Estimate, Upper, Lower };
+
 struct Source {
   SurfacePoint point;
   double offset = 0;  // the value the front starts with; finite, may be negative; in the mesh's units
 };
 
+inline constexpr double kMaxTolerance = 0.1;
+
 struct DistanceOptions {
   Method method = Method::NovotniKlein;
+  // Method::Windows: |value - distance| <= tolerance * distance at every vertex (of the path's length, where sources
+  // have offsets); in [0, kMaxTolerance], 0 is exact.
+  double tolerance = 1e-3;
+  Bound bound = Bound::Estimate;            // Method::Windows only
   Precision precision = Precision::Double;  // methods that have only one ignore it
   double max_distance = kInfinity;          // vertices farther than this read +inf; >= 0, may be +inf
   std::vector<SurfacePoint> targets;        // where there are any, the solver may stop once all of them are final

@@ -7,6 +7,7 @@
 #include <brushfire/solvers/windows/detail/envelope.h>
 #include <brushfire/solvers/windows/detail/fan.h>
 #include <brushfire/solvers/windows/detail/lists.h>
+#include <brushfire/solvers/windows/detail/merge.h>
 #include <brushfire/solvers/windows/detail/propagate.h>
 #include <brushfire/solvers/windows/detail/queue.h>
 #include <brushfire/solvers/windows/detail/record.h>
@@ -28,10 +29,16 @@ constexpr double kSeen = 1e-10;
 // A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
 // directions: limit rays through the corner are known to epsilon / share only.
 constexpr double kNear = 1e-3;
+// The part of a tolerance that is kept back for rounding, so that the promise holds to the letter.
+constexpr double kRounding = 4e-12;
+// The relative error of exact runs, measured to be 1e-13 at most.
+constexpr double kExactBound = 1e-12;
 
 struct VertexState {
-  double lower = kInfinity;    // least value of the windows that see the vertex
+  double lower = kInfinity;    // least value of the windows that see the vertex, after merging
   double emitted = kInfinity;  // the value with which it last sent light on
+  double seen = kInfinity;     // least value of the windows that see the vertex, before merging
+  double estimate = kInfinity;
   Ray ray;
   Index label = kNoIndex;
   bool all_around = false;  // sends light in all directions, whatever its faces are like
@@ -46,6 +53,7 @@ struct TargetInFace {
 struct TargetState {
   double lower = kInfinity;
   double upper = kInfinity;
+  double estimate = kInfinity;
   Ray ray;
 };
 
@@ -67,6 +75,7 @@ class WindowEngine final : public Engine {
                 return a.offset < b.offset;
               })->offset;
     radius_ = problem.max_distance + shift_;
+    budget_ = budget_of(*problem.options);
     queue_.reset(structure_.bucket_width);
     place_targets();
     for (const LocatedSource& s : problem.sources) start(s);
@@ -76,6 +85,13 @@ class WindowEngine final : public Engine {
 
  private:
   // ---- set-up and reset
+
+  static MergeBudget budget_of(const DistanceOptions& options) {
+    if (options.method == Method::Exact) return {};
+    const double promise = options.tolerance - 1.01 * kRounding;
+    return {std::max(0.0, options.bound == Bound::Estimate ? 2 * promise : promise)};
+  }
+  bool merges() const { return budget_.share > 0; }
 
   void clean() {
     for (const Index v : touched_) {
@@ -118,6 +134,7 @@ class WindowEngine final : public Engine {
     const double sigma = s.offset + shift_;
     if (s.at.on == PointLocation::On::Vertex) {
       reach(s.at.vertex, sigma);
+      expect(s.at.vertex, sigma, 0);
       offer(s.at.vertex, sigma, {{}, kNoIndex, root, WindowKind::Circular}, true);
       return;
     }
@@ -142,6 +159,7 @@ class WindowEngine final : public Engine {
       }
       const double value = sigma + distance[k];
       reach(f.vertex[k], value);
+      expect(f.vertex[k], value, 0);
       offer(f.vertex[k], value, ray, ray.halfedge == kNoIndex || distance[k] < kNear * longest);
       if (ray.halfedge == kNoIndex || !(ray.source.y > 0)) continue;
       Window w;
@@ -161,7 +179,7 @@ class WindowEngine final : public Engine {
       for (std::size_t i = 0; i < 3; ++i) step[i] = t.weights[i] - at.weights[i];
       const Vec2 d = in_frame(frame_of(f, k), k, step);
       const Vec2 source = in_frame(frame_of(f, k), k, at.weights);
-      offer_target(t.target, sigma + length_of(d.x, d.y), 0, {source, 3 * at.face + k, root, WindowKind::Circular});
+      offer_target(t.target, sigma + length_of(d.x, d.y), 0, 0, {source, 3 * at.face + k, root, WindowKind::Circular});
     });
   }
 
@@ -216,6 +234,15 @@ class WindowEngine final : public Engine {
     return root >= n ? root - n : state_[root].label;
   }
 
+  // A window that is about to be merged with others sees v: what it expects the distance to be.
+  void expect(Index v, double value, double lift) {
+    VertexState& s = state_[v];
+    if (!(value < s.seen)) return;
+    touch(v);
+    s.seen = value;
+    s.estimate = value + lift;
+  }
+
   // A window or a source sees v. Where paths may bend, light will go on from there.
   void offer(Index v, double value, const Ray& ray, bool all_around) {
     VertexState& s = state_[v];
@@ -229,11 +256,12 @@ class WindowEngine final : public Engine {
     if (lower && (all_around || structure_.bend[v] != Bend::None)) queue_.push_vertex(v, value);
   }
 
-  void offer_target(Index i, double value, double slack, const Ray& ray) {
+  void offer_target(Index i, double value, double slack, double lift, const Ray& ray) {
     TargetState& t = targets_[i];
     t.upper = std::min(t.upper, value + slack);
     if (value > t.lower || (value == t.lower && label_of(ray.root) >= label_of(t.ray.root))) return;
     t.lower = value;
+    t.estimate = value + lift;
     t.ray = ray;
   }
 
@@ -270,7 +298,9 @@ class WindowEngine final : public Engine {
     const Index k = h % 3;
     if (is_sliver(w) || least_value(w) > radius_ || is_dominated(f, k, w)) return;
     const Arrival at_apex = arrival(w, frame_of(f, k).apex);
-    reach(f.vertex[previous3(k)], at_apex.value + w.slack);
+    const Index apex = f.vertex[previous3(k)];
+    reach(apex, at_apex.value + w.slack);
+    if (merges() && at_apex.detour <= kSeen * at_apex.value) expect(apex, at_apex.value, w.lift);
     const double before = lists_.empty(h) ? kInfinity : lists_.key(h);
     // The key is the arrival at the far corner: by then everything that enters over the edge has come.
     if (lists_.push(h, w, at_apex.value) && !(before < kInfinity && queue_.same_bucket(before, at_apex.value))) {
@@ -290,8 +320,34 @@ class WindowEngine final : public Engine {
     if (taken_.empty()) return;
     const Frame frame = frame_of(f, k);
     if (taken_.size() == 1) return pass(h, frame, taken_.front());
-    for (const Window& w : envelope_(taken_)) pass(h, frame, w);
+    std::span<Window> windows = envelope_(taken_);
+    if (merges()) windows = windows.first(merge_neighbours(windows));
+    for (const Window& w : windows) pass(h, frame, w);
   }
+
+  // From left to right, each with the one before it as long as that works. Returns how many are left.
+  std::size_t merge_neighbours(std::span<Window> w) const {
+    std::size_t last = 0;
+    Window merged;
+    for (std::size_t i = 1; i < w.size(); ++i) {
+      w[++last] = w[i];
+      while (last > 0 && w[last].b0 - w[last - 1].b1 <= 2 * kSliver * (w[last].d0 - w[last].sigma) &&
+             merge_pair(w[last - 1], w[last], merged)) {
+        w[--last] = merged;
+      }
+    }
+    return w.empty() ? 0 : last + 1;
+  }
+
+  // Light of different sources stays apart, so that labels do.
+  bool merge_pair(const Window& a, const Window& b, Window& merged) const {
+    if (problem_->sources.size() == 1) return merge(a, b, start_of(0), budget_, merged);
+    const Index label = label_of(a.root);
+    if (label != label_of(b.root)) return false;
+    return merge(a, b, start_of(label), budget_, merged);
+  }
+  // The value with which paths from a source start.
+  double start_of(Index label) const { return problem_->sources[label].offset + shift_; }
 
   void pass(Index h, const Frame& frame, const Window& w) {
     const WindowFace& f = structure_.faces[h / 3];
@@ -305,7 +361,7 @@ class WindowEngine final : public Engine {
     if (f.has_target) {
       for_each_target_in(h / 3, [&](const TargetInFace& t) {
         const Arrival there = arrival(w, in_frame(frame, h % 3, t.weights));
-        offer_target(t.target, there.value, w.slack, ray);
+        offer_target(t.target, there.value, w.slack, w.lift, ray);
       });
     }
     if (problem_->options->keep_windows) kept_.push_back({h, w});
@@ -340,11 +396,13 @@ class WindowEngine final : public Engine {
       if (f.vertex[j] == v) continue;
       const double value = state_[v].lower + f.length[j == next3(i) ? i : j];
       reach(f.vertex[j], value + slack_of(v));
+      expect(f.vertex[j], value, lift_of(v));
       offer(f.vertex[j], value, {{}, kNoIndex, v, WindowKind::Circular}, false);
     }
   }
 
   double slack_of(Index v) const { return std::max(0.0, upper_[v] - state_[v].lower); }
+  double lift_of(Index v) const { return std::clamp(state_[v].estimate - state_[v].lower, 0.0, slack_of(v)); }
 
   // Along the sector's edges to their ends, and through its face.
   void shine_into(Index v, const Sector& sector) {
@@ -355,6 +413,7 @@ class WindowEngine final : public Engine {
     if (!(f.length[near] > 0)) return;
     Window w = window_of(f, sector, state_[v].lower);
     w.slack = slack_of(v);
+    w.lift = static_cast<float>(lift_of(v));
     w.root = v;
     if (w.source.y < 0) cross_edge(3 * sector.face + near, w);
   }
@@ -366,6 +425,7 @@ class WindowEngine final : public Engine {
     const double x = f.vertex[opposite] == v ? 0 : f.length[opposite];
     const double value = state_[v].lower + length;
     reach(f.vertex[j], value + slack_of(v));
+    expect(f.vertex[j], value, lift_of(v));
     const bool framed = f.length[opposite] > 0;
     offer(f.vertex[j], value, {{x, 0}, framed ? 3 * face + opposite : kNoIndex, v, WindowKind::Circular}, false);
   }
@@ -375,27 +435,67 @@ class WindowEngine final : public Engine {
   void finish() {
     finish_targets();
     finish_labels();
+    const bool bounded = !problem_->touched;
+    if (bounded) field_->error_bound.assign(structure_.mesh.vertex_count(), kInfinity);
+    field_->max_error_bound = 0;
+    const bool narrowed = radius_ < problem_->max_distance + shift_;
     for (const Index v : touched_) {
+      if (problem_->touched) problem_->touched->push_back(v);
       const VertexState& s = state_[v];
-      const double value = std::min(s.lower, upper_[v]) - shift_;
-      if (value + shift_ > radius_ && radius_ < problem_->max_distance + shift_) {
+      const Reading r = read(s.lower, upper_[v], s.estimate, s.label);
+      if (narrowed && r.value > radius_) {
         ++field_->beyond_radius;  // stopped before it was final
-        if (problem_->touched) problem_->touched->push_back(v);
         continue;
       }
-      field_->distance[v] = value;
+      field_->distance[v] = r.value - shift_;
       field_->source[v] = s.label;
-      if (problem_->touched) problem_->touched->push_back(v);
+      if (bounded) field_->error_bound[v] = r.bound;
+      if (r.value <= radius_) field_->max_error_bound = std::max(field_->max_error_bound, r.relative);
     }
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       const PointLocation& at = problem_->targets[i];
       const bool vertex = at.on == PointLocation::On::Vertex;
-      const double value = vertex ? std::min(state_[at.vertex].lower, upper_[at.vertex]) : targets_[i].lower;
-      field_->target_distance[i] = value - shift_;
-      const Index root = vertex ? at.vertex : targets_[i].ray.root;
-      field_->target_source[i] = value < kInfinity ? label_of(root) : kNoIndex;
+      const VertexState& s = state_[vertex ? at.vertex : 0];
+      const TargetState& t = targets_[i];
+      const double lower = vertex ? s.lower : t.lower, upper = vertex ? upper_[at.vertex] : t.upper;
+      if (upper == kInfinity) continue;
+      field_->target_source[i] = vertex ? s.label : label_of(t.ray.root);
+      field_->target_distance[i] =
+          read(lower, upper, vertex ? s.estimate : t.estimate, field_->target_source[i]).value - shift_;
     }
     if (problem_->options->keep_paths || problem_->options->keep_windows) keep();
+  }
+
+  // The value that is given out for lower <= distance <= upper, how far it may be off, and that as a share of the
+  // path's length.
+  struct Reading {
+    double value, bound, relative;
+  };
+  Reading read(double lower, double upper, double estimate, Index label) const {
+    if (!merges()) {
+      const double value = std::min(lower, upper);  // they differ by rounding
+      const double length = value - start_of(label);
+      return {value, kExactBound * length, kExactBound};
+    }
+    lower = std::min(lower, upper);
+    const double length = lower - start_of(label), rounding = kRounding * length;
+    double value = lower;
+    switch (problem_->options->bound) {
+      case Bound::Lower:
+        break;
+      case Bound::Upper:
+        value = upper;
+        break;
+      case Bound::Estimate: {
+        // Anywhere within t of both ends: there is such a place because upper - lower <= 2 t length.
+        const double reach = 0.5 * budget_.share * length;
+        const double least = std::min(upper - reach, upper), most = std::max(lower + reach, lower);
+        value = std::clamp(std::clamp(estimate, lower, upper), least, std::max(least, most));
+        break;
+      }
+    }
+    const double bound = std::max(value - lower, upper - value) + rounding;
+    return {value, bound, length > 0 ? bound / length : 0};
   }
 
   // What paths and points inside of faces need later.
@@ -413,6 +513,7 @@ class WindowEngine final : public Engine {
     for (const TargetState& t : targets_) {
       data->target.push_back({t.lower, t.lower < kInfinity ? label_of(t.ray.root) : kNoIndex, t.ray});
     }
+    data->exact = !merges();
     data->all_points = problem_->options->keep_windows;
     if (data->all_points) {
       data->first_kept.assign(mesh.halfedge_count() + std::size_t{1}, 0);
@@ -435,7 +536,8 @@ class WindowEngine final : public Engine {
       for (Index k = 0; k < 3; ++k) {
         const Index v = structure_.faces[t.face].vertex[k];
         if (upper_[v] == kInfinity) continue;
-        offer_target(t.target, state_[v].lower + d[k], slack_of(v), {{}, kNoIndex, v, WindowKind::Circular});
+        offer_target(t.target, state_[v].lower + d[k], slack_of(v), lift_of(v),
+                     {{}, kNoIndex, v, WindowKind::Circular});
       }
     }
   }
@@ -468,6 +570,7 @@ class WindowEngine final : public Engine {
   std::vector<TargetInFace> targets_in_faces_;  // by face
   std::vector<TargetState> targets_;
   std::vector<Index> chain_;
+  MergeBudget budget_;
   const Problem* problem_ = nullptr;
   DistanceField* field_ = nullptr;
   double shift_ = 0;   // added to all values, so that none is negative
