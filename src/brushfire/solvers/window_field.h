@@ -29,7 +29,7 @@ class WindowField {
   struct Leg {
     // From the point that was asked for, backwards, to where the leg starts: both ends, and every edge crossed between
     // them. Consecutive points share a face. A leg that passes through a vertex ends there (the path goes on straight
-    // through it, or bends). Only the point itself where that is a source.
+    // through it, or bends). Only the point itself where the leg has no length: at a source.
     std::vector<SurfacePoint> points;
     double length = 0;        // of the leg; the legs of a path add up to the distance minus the source's offset
     Index vertex = kNoIndex;  // the vertex where the leg starts; kNoIndex: it starts at `source`, or there is no path
@@ -50,6 +50,7 @@ class WindowField {
   Leg last_leg(Index vertex) const;
   Leg last_leg(const SurfacePoint& point) const;
 
+  // The mesh of the run.
   const Mesh& mesh() const noexcept;
 
   explicit WindowField(std::shared_ptr<const detail::WindowFieldData> data);

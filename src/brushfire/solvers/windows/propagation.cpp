@@ -7,6 +7,7 @@
 #include <brushfire/solvers/windows/detail/envelope.h>
 #include <brushfire/solvers/windows/detail/fan.h>
 #include <brushfire/solvers/windows/detail/lists.h>
+#include <brushfire/solvers/windows/detail/memory.h>
 #include <brushfire/solvers/windows/detail/merge.h>
 #include <brushfire/solvers/windows/detail/propagate.h>
 #include <brushfire/solvers/windows/detail/queue.h>
@@ -103,6 +104,7 @@ class WindowEngine final : public Engine {
     for (const TargetInFace& t : targets_in_faces_) structure_.faces[t.face].has_target = false;
     targets_in_faces_.clear();
     kept_.clear();
+    memory_.clear();
   }
 
   void place_targets() {
@@ -161,7 +163,7 @@ class WindowEngine final : public Engine {
       reach(f.vertex[k], value);
       expect(f.vertex[k], value, 0);
       offer(f.vertex[k], value, ray, ray.halfedge == kNoIndex || distance[k] < kNear * longest);
-      if (ray.halfedge == kNoIndex || !(ray.source.y > 0)) continue;
+      if (ray.halfedge == kNoIndex) continue;
       Window w;
       w.b1 = f.length[next3(k)];
       w.source = {w.b1 - ray.source.x, -ray.source.y};
@@ -169,7 +171,8 @@ class WindowEngine final : public Engine {
       w.d0 = sigma + distance[previous3(k)];
       w.d1 = sigma + distance[next3(k)];
       w.root = root;
-      cross_edge(h, w);
+      // A source on the edge of a face with an area lights nothing through that edge: the faces beyond start it, too.
+      if (is_lit(w) && (w.source.y < 0 || f.double_area == 0)) cross_edge(h, w);
     }
     if (!f.has_target) return;
     for_each_target_in(at.face, [&](const TargetInFace& t) {
@@ -297,6 +300,7 @@ class WindowEngine final : public Engine {
     const WindowFace& f = structure_.faces[h / 3];
     const Index k = h % 3;
     if (is_sliver(w) || least_value(w) > radius_ || is_dominated(f, k, w)) return;
+    if (f.thin && !memory_.learn(h, w)) return;
     const Arrival at_apex = arrival(w, frame_of(f, k).apex);
     const Index apex = f.vertex[previous3(k)];
     reach(apex, at_apex.value + w.slack);
@@ -365,9 +369,27 @@ class WindowEngine final : public Engine {
       });
     }
     if (problem_->options->keep_windows) kept_.push_back({h, w});
+    if (frame.apex.y == 0 && w.source.y == 0) return pass_along(h, frame, w);
     const Children children = propagate(w, frame, straight_value(w, frame.apex));
     if (children.has_left) cross_edge(3 * (h / 3) + previous3(h % 3), children.left);
     if (children.has_right) cross_edge(3 * (h / 3) + next3(h % 3), children.right);
+  }
+
+  // Light from a point on the edge of a face without area: the point lies on another edge as well.
+  void pass_along(Index h, const Frame& frame, const Window& w) {
+    const Index face = 3 * (h / 3), k = h % 3;
+    const double apex = frame.apex.x, x = w.source.x;
+    Window out = w;
+    out.b0 = 0;
+    const auto send = [&](Index edge, double length, double from_start) {
+      out.source = {from_start, 0};
+      out.b1 = length;
+      out.d0 = value_at(out, 0);
+      out.d1 = value_at(out, length);
+      if (is_lit(out)) cross_edge(face + edge, out);
+    };
+    send(previous3(k), frame.left, apex > 0 ? x : -x);
+    send(next3(k), frame.right, apex < frame.length ? x - apex : apex - x);
   }
 
   // ---- vertices as sources
@@ -415,7 +437,7 @@ class WindowEngine final : public Engine {
     w.slack = slack_of(v);
     w.lift = static_cast<float>(lift_of(v));
     w.root = v;
-    if (w.source.y < 0) cross_edge(3 * sector.face + near, w);
+    if (is_lit(w)) cross_edge(3 * sector.face + near, w);
   }
 
   // Along the edge from v to corner j of a face that contains both.
@@ -442,11 +464,12 @@ class WindowEngine final : public Engine {
     for (const Index v : touched_) {
       if (problem_->touched) problem_->touched->push_back(v);
       const VertexState& s = state_[v];
-      const Reading r = read(s.lower, upper_[v], s.estimate, s.label);
-      if (narrowed && r.value > radius_) {
-        ++field_->beyond_radius;  // stopped before it was final
+      // Seen by no window yet, or not final when the run stopped.
+      if (s.lower == kInfinity || (narrowed && s.lower > radius_)) {
+        ++field_->beyond_radius;
         continue;
       }
+      const Reading r = read(s.lower, upper_[v], s.estimate, s.label);
       field_->distance[v] = r.value - shift_;
       field_->source[v] = s.label;
       if (bounded) field_->error_bound[v] = r.bound;
@@ -505,9 +528,11 @@ class WindowEngine final : public Engine {
     data->mesh = mesh;
     data->sources.assign(problem_->sources.begin(), problem_->sources.end());
     data->shift = shift_;
-    data->vertices.resize(mesh.vertex_count());
+    PointRecord unknown;
+    if (radius_ < kInfinity) unknown.value = std::numeric_limits<double>::quiet_NaN();
+    data->vertices.assign(mesh.vertex_count(), unknown);
     for (const Index v : touched_) {
-      if (field_->distance[v] < kInfinity) data->vertices[v] = {state_[v].lower, state_[v].label, state_[v].ray};
+      if (state_[v].lower <= radius_) data->vertices[v] = {state_[v].lower, state_[v].label, state_[v].ray};
     }
     data->targets.assign(problem_->targets.begin(), problem_->targets.end());
     for (const TargetState& t : targets_) {
@@ -562,6 +587,7 @@ class WindowEngine final : public Engine {
   WindowLists lists_;
   EventQueue queue_;
   Envelope envelope_;
+  WindowMemory memory_;
   std::vector<double> upper_;       // [vertex_count] length of the shortest real path known
   std::vector<VertexState> state_;  // [vertex_count]
   std::vector<Index> touched_;      // vertices whose entries have changed

@@ -49,6 +49,8 @@ WindowStructure::WindowStructure(const Mesh& m) : mesh(m) {
     WindowFace& face = faces[f];
     face.double_area = mesh.double_areas()[f];
     const bool usable = mesh.is_face_usable(f);
+    const double base = std::max({lengths[3 * f], lengths[3 * f + 1], lengths[3 * f + 2]});
+    face.thin = face.double_area <= kThin * base * base;
     for (Index k = 0; k < 3; ++k) {
       const Index h = 3 * f + k;
       face.length[k] = lengths[h];

@@ -16,6 +16,9 @@ constexpr double kAgreement = 1e-9;
 // less than what tells apart the sheets over a non-manifold edge.
 constexpr double kAtRoot = 1e-7;
 
+// Two points of a leg are one where no more than this share of the value lies between them.
+constexpr double kSamePlace = 1e-12;
+
 struct Position {
   Index halfedge;  // the next edge to cross, from inside of its face
   Vec2 source;     // the ray's root, in the halfedge's frame: below
@@ -54,8 +57,8 @@ class Tracer {
 
   double value_of(Index v) const { return data_.vertices[v].value; }
 
-  // A run that stopped early does not know the values of all vertices along a path: those exclude nothing.
-  bool is_above(Index v, double bound) const { return value_of(v) != kInfinity && value_of(v) > bound; }
+  // A run that stopped early does not know the values of all vertices along a path: those are NaN and exclude nothing.
+  bool is_above(Index v, double bound) const { return value_of(v) > bound; }
 
   // Over position.halfedge into every other face there; true where the leg's start was found.
   bool step(const Position& at, WindowField::Leg& leg) {
@@ -65,8 +68,9 @@ class Tracer {
     if (!(along > 0) || !(length > 0)) return false;
     const double x = std::clamp(across / along, 0.0, length);
     const double so_far = at.length + length_of(at.point.x - x, at.point.y);
-    if (x <= kThroughVertex * length && ends_at_vertex(mesh_.from(h), h % 3, h, so_far, leg)) return true;
-    if (x >= (1 - kThroughVertex) * length && ends_at_vertex(mesh_.to(h), next3(h % 3), h, so_far, leg)) return true;
+    if (x <= kThroughVertex * length && ends_at_vertex(mesh_.from(h), h % 3, h, at.length, so_far, leg)) return true;
+    if (x >= (1 - kThroughVertex) * length && ends_at_vertex(mesh_.to(h), next3(h % 3), h, at.length, so_far, leg))
+      return true;
     // On a shortest path the value here is what is left of it, which bounds the values at the edge's ends: this tells
     // the right sheet over a non-manifold edge from the others within a few faces.
     const double left = value_ - so_far + kAgreement * value_;
@@ -74,7 +78,10 @@ class Tracer {
     SurfacePoint crossing{Mesh::face_of(h), {0, 0, 0}};
     crossing.weights[next3(h % 3)] = x / length;
     crossing.weights[h % 3] = 1 - x / length;
-    leg.points.push_back(crossing);
+    // Where the ray leaves a face at the corner where it came in, one point is enough.
+    const bool progress = so_far - at.length > kSamePlace * value_;
+    if (!progress && leg.points.size() > 1) leg.points.pop_back();
+    if (progress || leg.points.size() > 1) leg.points.push_back(crossing);
     const auto opposite = mesh_.opposite();
     for (Index g = opposite[h]; g != h; g = opposite[g]) {
       const bool turned = mesh_.from(g) == mesh_.to(h);
@@ -100,11 +107,12 @@ class Tracer {
     return {h, turn(at.source), turn(at.point), at.length};
   }
 
-  bool ends_at_vertex(Index v, Index corner, Index h, double length, WindowField::Leg& leg) const {
+  bool ends_at_vertex(Index v, Index corner, Index h, double so_far, double length, WindowField::Leg& leg) const {
     const bool consistent = std::abs(value_of(v) + length - value_) <= kAgreement * value_ && value_of(v) < value_;
     if (v != ray_.root && !consistent) return false;
     SurfacePoint p{Mesh::face_of(h), {0, 0, 0}};
     p.weights[corner] = 1;
+    if (length - so_far <= kSamePlace * value_ && leg.points.size() > 1) leg.points.pop_back();
     leg.points.push_back(p);
     leg.length = length;
     leg.vertex = v;
@@ -121,7 +129,11 @@ class Tracer {
       return length_of(p.x - at.source.x, p.y - at.source.y) <= within;
     };
     const auto finish = [&](const std::array<double, 3>& weights) {
-      leg.points.push_back({face, weights});
+      if (rest <= kSamePlace * value_ || rest == 0) {
+        if (leg.points.size() > 1) leg.points.back() = {face, weights};
+      } else {
+        leg.points.push_back({face, weights});
+      }
       leg.length = at.length + rest;
       return true;
     };

@@ -151,7 +151,7 @@ WindowField::Leg last_leg_of(const detail::WindowFieldData& data, const Found& f
   if (!data.exact) {
     throw Error(ErrorCode::InvalidArgument, "windows were merged: paths need the method exact");
   }
-  if (found.record.value == kInfinity) return {};
+  if (!(found.record.value < kInfinity)) return {};
   if (found.record.ray.halfedge == kNoIndex) return leg_without_ray(data, found, vertex);
   WindowField::Leg leg = detail::trace_leg(data, found.at, found.record.ray, found.record.value);
   leg.length *= data.mesh.unit();
@@ -166,7 +166,8 @@ const Mesh& WindowField::mesh() const noexcept { return data_->mesh; }
 
 WindowField::Value WindowField::value(const SurfacePoint& point) const {
   const PointRecord record = Look(*data_).point(point).record;
-  return {record.value == kInfinity ? kInfinity : data_->mesh.unit() * (record.value - data_->shift), record.label};
+  if (!(record.value < kInfinity)) return {};
+  return {data_->mesh.unit() * (record.value - data_->shift), record.label};
 }
 
 WindowField::Leg WindowField::last_leg(Index vertex) const {

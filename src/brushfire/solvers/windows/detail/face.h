@@ -8,6 +8,9 @@
 
 namespace brushfire::detail {
 
+// A face is thin whose lowest altitude is less than this share of its longest edge.
+inline constexpr double kThin = 1e-3;
+
 // What lies beyond an edge.
 enum class Beyond : std::uint8_t {
   Nothing,  // boundary
@@ -23,6 +26,7 @@ struct alignas(64) WindowFace {
   Beyond beyond[3];        // of halfedge k
   std::uint8_t bends = 0;  // bit k: paths may bend at vertex[k]
   bool has_target = false;
+  bool thin = false;  // so low that light may go round through its neighbours for next to nothing: see WindowMemory
 };
 static_assert(sizeof(WindowFace) == 64);
 

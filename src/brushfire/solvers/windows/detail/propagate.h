@@ -22,7 +22,8 @@ inline double share_on_left(const Window& w, Vec2 apex, double b) {
 
 // Propagation: the children's pre-images tile the lit interval; slack, lift and root are inherited (the slack stays
 // valid because the value grows along a ray as fast as the path does). `apex_value`: straight_value at the apex.
-// Needs source.y < 0. What rounding decides about a ray through the apex is worth nothing: both children meet there.
+// Needs is_lit(w) and, where the source lies on the edge, an apex off it. What rounding decides about a ray through the
+// apex is worth nothing: both children meet there.
 inline Children propagate(const Window& w, const Frame& frame, double apex_value) {
   Children children;
   const Vec2 c = frame.apex;
@@ -50,7 +51,7 @@ inline Children propagate(const Window& w, const Frame& frame, double apex_value
       l.b1 = std::min(frame.left, frame.left * share_on_left(w, c, w.b1));
       l.d1 = value_at(l, l.b1);
     }
-    children.has_left = l.source.y < 0 && !is_sliver(l);
+    children.has_left = is_lit(l) && !is_sliver(l);
   }
   if (lit_right && frame.right > 0) {
     Window& r = children.right;
@@ -78,7 +79,7 @@ inline Children propagate(const Window& w, const Frame& frame, double apex_value
       r.b1 = std::max(0.0, frame.right * (1 - share_on_left(m, turned, frame.length - w.b1)));
       r.d1 = value_at(r, r.b1);
     }
-    children.has_right = r.source.y < 0 && !is_sliver(r);
+    children.has_right = is_lit(r) && !is_sliver(r);
   }
   return children;
 }

@@ -23,7 +23,7 @@ enum class WindowKind : std::uint8_t { Circular, Linear };
 // a proven upper bound (0 in exact runs).
 struct Window {
   double b0 = 0, b1 = 0;  // the lit interval, 0 <= b0 < b1 <= length
-  Vec2 source;            // circular: the virtual source; linear: the unit vector towards it. y < 0
+  Vec2 source;            // circular: the virtual source; linear: the unit vector towards it. y < 0, or see is_lit()
   double sigma = 0;       // circular: value at the virtual source; linear: value at the frame's origin
   double d0 = 0, d1 = 0;  // values at b0 and b1
   double slack = 0;       // a real path of length <= value + slack leads to every point of the interval
@@ -97,6 +97,13 @@ inline Window mirrored(const Window& w, double length) {
   m.source.x = origin_weight(w.kind) * length - w.source.x;
   if (w.kind == WindowKind::Linear) m.sigma = w.sigma - length * w.source.x;
   return m;
+}
+
+// Whether light comes through the interval at all: from a source below the edge, or from one on it, within the interval
+// (that is how the middle vertex of a face without area, or a source in one, shines).
+inline bool is_lit(const Window& w) {
+  return w.source.y < 0 ||
+         (w.source.y == 0 && w.kind == WindowKind::Circular && w.source.x > w.b0 && w.source.x < w.b1);
 }
 
 // A window narrower than this share of its distance from the virtual source is dropped: what it alone lights is
