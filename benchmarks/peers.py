@@ -2,7 +2,7 @@
 
     python peers.py MESH --json results.json [--refine ROUNDS] [--source V] [--rounds N] [--core C]
                          [--methods A,B] [--peers A,B] [--other NAME=COMMAND ...] [--truth FILE.npy | NAME]
-                         [--patience SECONDS]
+                         [--patience SECONDS] [--once A,B]
 
 Every program sits in a process of its own, all on one core, and gets one round after the other in turn, so that
 whatever disturbs the machine disturbs all of them; the median of the rounds counts. Times are processor time. Errors
@@ -104,6 +104,7 @@ def parse(arguments=None):
     parser.add_argument("--refine", type=int, default=0, help="rounds of curved one-to-four subdivision")
     parser.add_argument("--source", type=int, default=0, help="vertex")
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--once", default="", help="programs that get one round only: the slow ones")
     parser.add_argument("--patience", type=float, default=60, help="seconds to wait for one round")
     parser.add_argument("--core", type=int, help="pin everything to this processor")
     parser.add_argument("--methods", default="novotni-klein,kimmel-sethian")
@@ -131,9 +132,10 @@ def measure(options, folder):
             shlex.split(others[name].format(**files)) if name in others else command_of(name, options.build, files)
         )
         contestants.append(Contestant(name.removeprefix("peer:"), command, files["d"]))
-    for _ in range(options.rounds):
+    for round_number in range(options.rounds):
         for contestant in contestants:
-            contestant.round(options.patience)
+            if round_number == 0 or contestant.name not in options.once.split(","):
+                contestant.round(options.patience)
     for contestant in contestants:
         contestant.close()
 

@@ -17,21 +17,23 @@ SHARED = Path(__file__).resolve().parents[2] / "shared"
 DEMO = Path("/usr/share/doc/libcgal-demo/data.tar.gz")
 
 MARCHING = "novotni-klein,novotni-klein:float,kimmel-sethian,novotni-klein-2002,dijkstra"
-WINDOWS = "windows:1e-2,windows:1e-3,windows:1e-4,windows:1e-5,exact"
+WINDOWS = "exact"
 FAST = "meshlib,pymeshlab,gc-fmm"
-SCAN = {"methods": f"{MARCHING},{WINDOWS}", "peers": f"{FAST},gc-heat,pygeodesic,gdist", "rounds": 5}
-LARGE = {"methods": f"{MARCHING},{WINDOWS}", "peers": FAST, "rounds": 3, "patience": 300}
-STRETCHED = {"methods": f"{MARCHING},{WINDOWS}", "peers": f"{FAST},pygeodesic", "rounds": 3, "patience": 10}
+ALL = {"methods": f"{MARCHING},{WINDOWS}"}
+SMALL = ALL | {"peers": f"{FAST},gc-heat,pygeodesic,gdist,igl-exact", "rounds": 5}
+SCAN = ALL | {"peers": f"{FAST},gc-heat,pygeodesic", "rounds": 5}
+STRETCHED = ALL | {"peers": f"{FAST},pygeodesic", "rounds": 3, "patience": 10}
+LARGE = ALL | {"peers": FAST, "rounds": 3, "patience": 300, "once": "exact,vtp,novotni-klein-2002"}
 
 SUITE = {
-    "fandisk": SCAN,
-    "rocker-arm": SCAN,
+    "fandisk": SMALL,
+    "rocker-arm": SMALL,
     "man": SCAN,
     "stanford-bunny": SCAN,
     "armadillo": SCAN,
     "refined_elephant": SCAN,
     "horse": SCAN,
-    "grid100": SCAN,
+    "grid100": SMALL,
     "fertility-x10": STRETCHED,
     "rocker-arm-x10": STRETCHED,
     "grid100-shear": STRETCHED,

@@ -1,0 +1,189 @@
+"""Turns the results of suite.py into docs/benchmarks.md and docs/pareto.svg.
+
+    python report.py results.json
+"""
+
+import importlib.metadata
+import json
+import math
+import platform
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+DOCS = HERE.parent / "docs"
+
+# How the peers are called in the tables, and which of our methods stand beside them. Programs that are not on PyPI are
+# measured where they are at hand; the name says so.
+NAMES = {
+    "meshlib": "MeshLib",
+    "pymeshlab": "PyMeshLab (VCG)",
+    "gc-fmm": "geometry-central FMM, potpourri3d",
+    "gc-heat": "geometry-central heat, potpourri3d",
+    "pygeodesic": "pygeodesic (MMP)",
+    "gdist": "tvb-gdist (MMP)",
+    "igl-exact": "igl.exact_geodesic",
+    "gc-fmm-cpp": "geometry-central FMM, C++ †",
+    "vcg": "VCG, C++ †",
+    "vtp": "VTP research code †",
+    "gc-exact": "geometry-central exact, C++ †",
+    "cgal": "CGAL exact, C++ †",
+}
+MARCHING_PEERS = ["meshlib", "gc-fmm", "gc-fmm-cpp", "pymeshlab", "vcg"]
+EXACT_PEERS = ["vtp", "gc-exact", "pygeodesic", "cgal"]
+EXACT = 1e-9  # what is drawn and counted as exact
+
+
+def is_ours(name):
+    return name not in NAMES
+
+
+def label(name):
+    return f"**`{name}`**" if is_ours(name) else NAMES[name]
+
+
+def first(result):
+    return result.get("first_s", result["set_up_s"] + result["solve_s"])
+
+
+def number(value):
+    return "" if value is None else "< 1e-12" if value < 1e-12 else f"{value:.2g}"
+
+
+def mesh_table(row):
+    """All programs on one mesh."""
+    n = row["vertices"]
+    lines = [
+        "| | set-up ns/v | solve ns/v | arrays to field ns/v | mean error | 99 % below | largest | MiB |",
+        "|---|--:|--:|--:|--:|--:|--:|--:|",
+    ]
+    for name, r in row["results"].items():
+        if "failure" in r:
+            lines.append(f"| {label(name)} | {r['failure'].replace('|', ' ')} |||||||")
+            continue
+        times = [f"{1e9 * t / n:.0f}" for t in (r["set_up_s"], r["solve_s"], first(r))]
+        errors = [number(r.get(key)) for key in ("mean_error", "p99_error", "max_error")]
+        lines.append(f"| {label(name)} | " + " | ".join([*times, *errors, f"{r['memory_mib']:.0f}"]) + " |")
+    heading = f"### {row['mesh']}: {n} vertices\n\nSource: vertex {row['source']}. Truth: {row['truth'] or 'none'}.\n"
+    return heading + "\n" + "\n".join(lines) + "\n"
+
+
+def ran(row, names):
+    return {name: row["results"][name] for name in names if "failure" not in row["results"].get(name, {"failure": ""})}
+
+
+def ratio(value, digits=1):
+    return f"{value:.{digits}f}x"
+
+
+def marching_summary(rows):
+    """novotni-klein against the fastest fast marching peer of each mesh, and against MeshLib end to end."""
+    lines = [
+        "| mesh | vertices | solve ns/v | fastest peer | its ns/v | ratio | mean error / its | mean error / VCG's |"
+        " arrays to field, ratio to MeshLib |",
+        "|---|--:|--:|---|--:|--:|--:|--:|--:|",
+    ]
+    for row in rows:
+        peers, ours = ran(row, MARCHING_PEERS), ran(row, ["novotni-klein"]).get("novotni-klein")
+        if not ours or not peers:
+            continue
+        name, fastest = min(peers.items(), key=lambda item: item[1]["solve_s"])
+        vcg = peers.get("vcg") or peers.get("pymeshlab")
+        error = ours.get("mean_error")
+        share = ratio(error / fastest["mean_error"], 2) if error is not None and fastest.get("mean_error") else ""
+        share_vcg = ratio(error / vcg["mean_error"], 2) if vcg and error and vcg.get("mean_error", 0) > 1e-9 else ""
+        total = ratio(first(peers["meshlib"]) / first(ours)) if "meshlib" in peers else ""
+        lines.append(
+            f"| {row['mesh']} | {row['vertices']} | {1e9 * ours['solve_s'] / row['vertices']:.0f} | {NAMES[name]} |"
+            f" {1e9 * fastest['solve_s'] / row['vertices']:.0f} | {ratio(fastest['solve_s'] / ours['solve_s'])} |"
+            f" {share} | {share_vcg} | {total} |"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def exact_summary(rows):
+    """exact against every exact peer: ratio of the solves."""
+    lines = [
+        "| mesh | vertices | exact ns/v | " + " | ".join(NAMES[p] for p in EXACT_PEERS) + " | B/vertex, VTP's |",
+        "|---|--:|--:|" + "--:|" * (len(EXACT_PEERS) + 1),
+    ]
+    for row in rows:
+        ours, peers = ran(row, ["exact"]).get("exact"), ran(row, EXACT_PEERS)
+        if not ours or not peers:
+            continue
+        cells = [ratio(peers[p]["solve_s"] / ours["solve_s"]) if p in peers else "" for p in EXACT_PEERS]
+        memory = [f"{r['memory_mib'] * 2**20 / row['vertices']:.0f}" for r in (ours, peers.get("vtp")) if r]
+        lines.append(
+            f"| {row['mesh']} | {row['vertices']} | {1e9 * ours['solve_s'] / row['vertices']:.0f} | "
+            + " | ".join(cells)
+            + f" | {', '.join(memory)} |"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def pareto(rows, file):
+    """Error against time, one point a program: geometric means over the meshes that all of them solved."""
+    import matplotlib
+
+    matplotlib.use("svg")
+    import matplotlib.pyplot as plt
+
+    matplotlib.rcParams["svg.hashsalt"] = "brushfire"
+    matplotlib.rcParams["svg.fonttype"] = "none"
+    rows = [row for row in rows if row["truth"] and len(ran(row, MARCHING_PEERS)) >= 3]
+    if not rows:
+        return []
+    names = [n for n in rows[0]["results"] if all(n in ran(row, [n]) for row in rows)]
+    mean = lambda values: math.exp(sum(map(math.log, values)) / len(values))  # noqa: E731
+    figure, axes = plt.subplots(figsize=(8, 5.5))
+    for name in names:
+        results = [row["results"][name] for row in rows]
+        x = mean([1e9 * first(r) / row["vertices"] for r, row in zip(results, rows)])
+        y = mean([max(r.get("mean_error", 1), EXACT) for r in results])
+        colour = "#c0392b" if is_ours(name) else "#34495e"
+        axes.plot(x, y, "o" if is_ours(name) else "s", color=colour)
+        axes.annotate(NAMES.get(name, name), (x, y), textcoords="offset points", xytext=(6, 4), fontsize=8, color=colour)
+    axes.set(xscale="log", yscale="log", xlabel="arrays to field: ns per vertex, one thread")
+    axes.set(ylabel=f"mean relative error ({EXACT:g}: exact)", title="Error against time; lower left is better")
+    axes.grid(True, which="major", alpha=0.3)
+    figure.savefig(file, metadata={"Date": None}, bbox_inches="tight")
+    return [row["mesh"] for row in rows]
+
+
+def processor():
+    match = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
+    megahertz = re.search(r"cpu MHz\s*: ([0-9.]+)", Path("/proc/cpuinfo").read_text())
+    speed = f" at {float(megahertz[1]) / 1000:.1f} GHz" if megahertz else ""
+    return (match[1] if match else platform.processor()) + speed
+
+
+def versions():
+    pins = (HERE / "requirements.txt").read_text().splitlines()
+    names = [line.split("==")[0] for line in pins if line and not line.startswith("#")]
+    compiler = subprocess.run(["c++", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
+    return compiler + "; " + ", ".join(f"{n} {importlib.metadata.version(n)}" for n in names)
+
+
+def main():
+    rows = sorted(json.loads(Path(sys.argv[1]).read_text()), key=lambda row: row["vertices"])
+    scans = [r for r in rows if not r["mesh"].endswith(("-x10", "-shear")) and not r["mesh"].startswith("grid")]
+    stretched = [r for r in rows if r not in scans]
+    drawn = pareto([r for r in scans if "-s" not in r["mesh"]], DOCS / "pareto.svg")
+    places = {
+        "processor": processor(),
+        "versions": versions(),
+        "marching": marching_summary(scans),
+        "exact": exact_summary(rows),
+        "pareto meshes": ", ".join(drawn),
+        "scans": "\n".join(mesh_table(r) for r in scans),
+        "stretched": "\n".join(mesh_table(r) for r in stretched),
+    }
+    page = (HERE / "benchmarks.md.in").read_text()
+    page = re.sub(r"\{\{(.*?)\}\}", lambda place: places[place[1]], page)
+    (DOCS / "benchmarks.md").write_text(page)
+
+
+if __name__ == "__main__":
+    main()
