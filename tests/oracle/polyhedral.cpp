@@ -207,9 +207,9 @@ class Solver {
   // From the frame of a corner to that of the next corner of the same face.
   Point next_frame(const Corner& c, Point q) const {
     const Corner& n = complex_.corner[c_next(c)];
-    if (n.length == 0) return {0, 0};
-    const Point ahead = (1 / n.length) * Point{-c.apex_to_end, c.apex.y};
     const Point d{q.x - c.length, q.y};
+    if (n.length == 0) return {0, norm(d)};
+    const Point ahead = (1 / n.length) * Point{-c.apex_to_end, c.apex.y};
     return {dot(ahead, d), std::max(Real{0}, cross(ahead, d))};
   }
   Index c_next(const Corner& c) const { return Mesh::next(static_cast<Index>(&c - complex_.corner.data())); }
