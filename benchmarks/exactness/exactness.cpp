@@ -96,7 +96,7 @@ double radius_of(const Mesh& mesh, const Source& source, Index count) {
   if (mesh.vertex_count() <= count) return kInfinity;
   std::vector<double> d = distance(mesh, std::span(&source, 1), exact_options()).distance;
   std::nth_element(d.begin(), d.begin() + count, d.end());
-  return d[count];
+  return d[count] * (1 + 1e-9);  // not at a vertex: rounding would decide on which side that one is
 }
 
 std::string opinion_on(const Mesh& mesh, const Source& source, const std::vector<Real>& truth) {
