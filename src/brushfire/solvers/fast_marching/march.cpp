@@ -31,96 +31,163 @@ namespace {
 template <class T>
 inline constexpr T kNews = 1 - 4 * std::numeric_limits<T>::epsilon();
 
+// The state byte of a vertex: whether its value has news for its neighbours, and how often it came up so far. On curved
+// surfaces values can chase each other in circles for hundreds of rounds, ever lower; the limit ends that.
 constexpr std::uint8_t kOpen = 128;
 constexpr std::uint8_t kMaxPops = 3;
 
+// One number for each of the two others of each triangle of a block.
 template <class T>
-struct alignas(64) Offers {
-  T to_a[kLanes], to_b[kLanes];
+struct alignas(64) Pairs {
+  T a[kLanes], b[kLanes];
 };
 
-// What a vertex of value `t` offers to the two others of each triangle of the block, from `support` values at the other
-// one. Bit k of the result: lane k improves a; bit kLanes + k: b.
+// What a vertex offers to the two others of each triangle of a block, and the roots that go with the offers.
+template <class T>
+struct Offers {
+  Pairs<T> value, root;
+};
+
+// The vertex whose turn it is.
+template <class T>
+struct Turn {
+  T value, root;
+  T start;  // of its label
+  Index label;
+};
+
+// The front over an edge is a circle around one point, whose value is the mean of the ends' roots; less where the
+// circles around the ends would not meet (near the start, where the root is the start's own value).
+template <class T>
+BRUSHFIRE_INLINE T common_root(const Turn<T>& turn, T other_value, T other_root, T length) {
+  const T mean = T(0.5) * (turn.root + other_root);
+  const T highest = T(0.5) * (turn.value + other_value) - T(0.75) * length;
+  const T cap = highest > turn.start ? highest : turn.start;
+  return mean < cap ? mean : cap;
+}
+
+// Offers from `support` values at the other vertex. Bit k of the result: lane k improves a; bit kLanes + k: b.
 template <class Front, bool kLabelled, class T>
-BRUSHFIRE_INLINE std::uint32_t offers_of(const RingBlock<T>& block, const T* support, const T* value,
-                                         const Index* label, T t, T start, Index own_label, Offers<T>& offers) {
+BRUSHFIRE_INLINE std::uint32_t offers_of(const RingBlock<T>& block, const T* support, const MarchState<T>& s,
+                                         const Turn<T>& turn, Offers<T>& offers) {
+  // Gathered first: only the loop without indices vectorises everywhere.
+  Pairs<T> supports, values, roots;
+  for (Index k = 0; k < kLanes; ++k) {
+    supports.a[k] = support[block.a[k]];
+    supports.b[k] = support[block.b[k]];
+    values.a[k] = s.value[block.a[k]];
+    values.b[k] = s.value[block.b[k]];
+    if constexpr (Front::kBends) {
+      roots.a[k] = s.root[block.a[k]];
+      roots.b[k] = s.root[block.b[k]];
+    }
+    if constexpr (kLabelled) {  // fronts of other labels support nothing
+      if (s.label[block.a[k]] != turn.label) supports.a[k] = MarchState<T>::kUnreached;
+      if (s.label[block.b[k]] != turn.label) supports.b[k] = MarchState<T>::kUnreached;
+    }
+  }
   std::uint32_t improves = 0;
   for (Index k = 0; k < kLanes; ++k) {
-    const Index a = block.a[k], b = block.b[k];
-    T at_a = support[a], at_b = support[b];
-    if constexpr (kLabelled) {
-      at_a = label[a] == own_label ? at_a - start : MarchState<T>::kUnreached;
-      at_b = label[b] == own_label ? at_b - start : MarchState<T>::kUnreached;
-    }
-    const T la = std::abs(block.length_a[k]), lb = std::abs(block.length_b[k]), dot = block.dot[k],
-            cross = block.cross[k];
+    const T la = std::abs(block.length_a[k]), lb = std::abs(block.length_b[k]);
+    const T dot = block.dot[k], cross = block.cross[k];
     const T ia = 1 / la, ib = 1 / lb;
-    T to_a = Front::update(UpdateTriangle<T>{lb, ib, dot * ib, cross * ib, la, block.length_a[k] < 0}, t, at_b);
-    T to_b = Front::update(UpdateTriangle<T>{la, ia, dot * ia, cross * ia, lb, block.length_b[k] < 0}, t, at_a);
-    if constexpr (kLabelled) {
-      to_a += start;
-      to_b += start;
+    const bool any_order_a = block.length_a[k] < 0, any_order_b = block.length_b[k] < 0;
+    const T root_a = Front::kBends ? common_root(turn, supports.b[k], roots.b[k], lb) : turn.start;
+    const T root_b = Front::kBends ? common_root(turn, supports.a[k], roots.a[k], la) : turn.start;
+    const T to_a = root_a + Front::update(UpdateTriangle<T>{lb, ib, dot * ib, cross * ib, la, any_order_a},
+                                          turn.value - root_a, supports.b[k] - root_a);
+    const T to_b = root_b + Front::update(UpdateTriangle<T>{la, ia, dot * ia, cross * ia, lb, any_order_b},
+                                          turn.value - root_b, supports.a[k] - root_b);
+    offers.value.a[k] = to_a;
+    offers.value.b[k] = to_b;
+    if constexpr (Front::kBends) {  // along the edge the vertex passes on its own root
+      offers.root.a[k] = to_a < turn.value + la ? root_a : turn.root;
+      offers.root.b[k] = to_b < turn.value + lb ? root_b : turn.root;
     }
-    offers.to_a[k] = to_a;
-    offers.to_b[k] = to_b;
-    const T keep = kLabelled ? T(1) : kNews<T>;
-    improves |= (to_a <= value[a] * keep ? 1u << k : 0u) | (to_b <= value[b] * keep ? 1u << (kLanes + k) : 0u);
+    bool lowers_a = to_a < values.a[k] * kNews<T>, lowers_b = to_b < values.b[k] * kNews<T>;
+    if constexpr (kLabelled) {  // equal values may go to another label
+      lowers_a = (to_a <= values.a[k]) & (to_a < MarchState<T>::kUnreached);
+      lowers_b = (to_b <= values.b[k]) & (to_b < MarchState<T>::kUnreached);
+    }
+    improves |= (lowers_a ? 1u << k : 0u) | (lowers_b ? 1u << (kLanes + k) : 0u);
   }
   return improves;
 }
 
 // Equal values go to the lower label.
-template <bool kLabelled, class T>
-BRUSHFIRE_INLINE void accept(MarchState<T>& s, Index w, T offer, Index label) {
+template <class Front, bool kLabelled, class T>
+BRUSHFIRE_INLINE void accept(MarchState<T>& s, Index w, T offer, T root, Index label) {
   const T old = s.value[w];
-  const bool lower = offer < old * kNews<T>;
+  if ((s.open[w] & ~kOpen) >= kMaxPops) return;
   if constexpr (kLabelled) {
-    if (!lower && !(offer <= old && label < s.label[w])) return;
+    if (!(offer < old * kNews<T>) && !(offer <= old && label < s.label[w])) return;
     s.label[w] = label;
   } else {
-    if (!lower) return;
+    if (!(offer < old * kNews<T>)) return;
   }
-  if ((s.open[w] & ~kOpen) >= kMaxPops) return;
   if (old == MarchState<T>::kUnreached) s.touched.push_back(w);
   s.value[w] = offer;
+  if constexpr (Front::kBends) s.root[w] = root;
   s.open[w] |= kOpen;
   s.queue.push(w, s.bucket_of(offer));
 }
 
+// Gaussian curvature bends the front that passes over it: its curvature 1/r falls by the curvature on the way (the
+// Riccati equation of geodesic circles). Bounded so that no vertex turns it over, and it stays a circle.
+template <class T>
+BRUSHFIRE_INLINE void bend_front(const Rings<T>& rings, MarchState<T>& s, Index v) {
+  const T bend = rings.bend[v];
+  const T radius = s.value[v] - s.root[v];
+  if (bend == 0 || !(radius > 0)) return;
+  constexpr T kMostPerVertex = 2, kFlattest = 8;
+  const T before = 1 / radius;
+  const T least = std::max(before / kMostPerVertex, 1 / (kFlattest * s.value[v]));
+  const T after = std::clamp(before - bend, std::min(least, before), kMostPerVertex * before);
+  s.root[v] = s.value[v] - 1 / after;
+}
+
 template <class Front, bool kLabelled, class T>
 BRUSHFIRE_INLINE void relax(const Rings<T>& rings, MarchState<T>& s, Index v) {
-  const Index label = kLabelled ? s.label[v] : 0;
-  const T start = kLabelled ? s.start[label] : T(0);
-  const T t = s.value[v] - start;
+  if constexpr (Front::kBends) bend_front(rings, s, v);
+  Turn<T> turn{s.value[v], 0, 0, 0};
+  if constexpr (kLabelled) {
+    turn.label = s.label[v];
+    turn.start = s.start[turn.label];
+  }
+  turn.root = Front::kBends ? s.root[v] : turn.start;
   Offers<T> offers;
   const Index end = rings.layout.block_offset[v + 1];
   for (Index i = rings.layout.block_offset[v]; i < end; ++i) {
     const RingBlock<T>& block = rings.blocks[i];
-    std::uint32_t improves =
-        offers_of<Front, kLabelled>(block, s.value.data(), s.value.data(), s.label.data(), t, start, label, offers);
+    std::uint32_t improves = offers_of<Front, kLabelled>(block, s.value.data(), s, turn, offers);
     while (improves != 0) {
-      const Index lane = static_cast<Index>(std::countr_zero(improves));
+      const Index lane = static_cast<Index>(std::countr_zero(improves)), k = lane % kLanes;
       improves &= improves - 1;
       if (lane < kLanes) {
-        if (block.a[lane] + 1 < s.value.size()) accept<kLabelled>(s, block.a[lane], offers.to_a[lane], label);
-      } else if (block.b[lane - kLanes] + 1 < s.value.size()) {
-        accept<kLabelled>(s, block.b[lane - kLanes], offers.to_b[lane - kLanes], label);
+        accept<Front, kLabelled>(s, block.a[k], offers.value.a[k], offers.root.a[k], turn.label);
+      } else {
+        accept<Front, kLabelled>(s, block.b[k], offers.value.b[k], offers.root.b[k], turn.label);
       }
     }
   }
 }
 
+// What the vertices that come up next will need: first where their blocks are, then the blocks.
 template <class T>
 BRUSHFIRE_INLINE void prefetch(const Rings<T>& rings, const MarchState<T>& s, const std::vector<Index>& bucket,
                                std::size_t i) {
 #if defined(__GNUC__)
-  if (i + 6 < bucket.size()) {
-    __builtin_prefetch(&rings.layout.block_offset[bucket[i + 6]]);
-    __builtin_prefetch(&s.value[bucket[i + 6]]);
+  constexpr std::size_t kOffsetsAhead = 12, kBlocksAhead = 5, kCacheLine = 64;
+  if (i + kOffsetsAhead < bucket.size()) {
+    const Index v = bucket[i + kOffsetsAhead];
+    __builtin_prefetch(&rings.layout.block_offset[v]);
+    __builtin_prefetch(&s.value[v]);
   }
-  if (i + 2 < bucket.size()) {
-    const char* block = reinterpret_cast<const char*>(&rings.blocks[rings.layout.block_offset[bucket[i + 2]]]);
-    for (std::size_t line = 0; line < sizeof(RingBlock<T>); line += 64) __builtin_prefetch(block + line);
+  if (i + kBlocksAhead < bucket.size()) {
+    const Index v = bucket[i + kBlocksAhead];
+    const char* block = reinterpret_cast<const char*>(rings.blocks.data() + rings.layout.block_offset[v]);
+    const char* end = reinterpret_cast<const char*>(rings.blocks.data() + rings.layout.block_offset[v + 1]);
+    for (; block < end; block += kCacheLine) __builtin_prefetch(block);
   }
 #else
   (void)rings, (void)s, (void)bucket, (void)i;
@@ -167,6 +234,7 @@ template <class T>
 void MarchState<T>::resize(Index vertex_count) {
   value.assign(static_cast<std::size_t>(vertex_count) + 1, kUnreached);
   open.assign(value.size(), 0);
+  root.assign(value.size(), 0);
   touched.clear();
   label.clear();
   fixed_value.clear();
@@ -197,6 +265,7 @@ void MarchState<T>::offer(Index place, T v, Index source) {
   if (labelled ? std::pair(v, source) < std::pair(value[place], label[place]) : v < value[place]) {
     if (value[place] == kUnreached) touched.push_back(place);
     value[place] = v;
+    root[place] = labelled ? start[source] : T(0);
     if (labelled) label[place] = source;
     open[place] = kOpen;
     queue.push(place, bucket_of(v));
@@ -226,16 +295,16 @@ void march_label_setting(const Rings<T>& rings, MarchState<T>& s, T limit) {
     s.fixed_value[v] = t;
     ++s.pops;
     const Index label = s.label[v];
-    const T start = s.start[label];
+    const Turn<T> turn{t, s.start[label], s.start[label], label};
     const Index end = rings.layout.block_offset[v + 1];
     for (Index i = rings.layout.block_offset[v]; i < end; ++i) {
       const RingBlock<T>& block = rings.blocks[i];
-      const std::uint32_t improves = offers_of<LiteralCircularFront, true>(
-          block, s.fixed_value.data(), s.value.data(), s.label.data(), t - start, start, label, offers);
+      const std::uint32_t improves =
+          offers_of<LiteralCircularFront, true>(block, s.fixed_value.data(), s, turn, offers);
       for (Index lane = 0; lane < 2 * kLanes; ++lane) {
         const Index w = lane < kLanes ? block.a[lane] : block.b[lane - kLanes];
-        const T offer = lane < kLanes ? offers.to_a[lane] : offers.to_b[lane - kLanes];
-        if ((improves >> lane & 1u) == 0 || w + 1 == s.value.size()) continue;
+        const T offer = lane < kLanes ? offers.value.a[lane] : offers.value.b[lane - kLanes];
+        if ((improves >> lane & 1u) == 0) continue;
         if (s.fixed_value[w] != MarchState<T>::kUnreached || !(offer < s.value[w])) continue;
         if (s.value[w] == MarchState<T>::kUnreached) s.touched.push_back(w);
         s.value[w] = offer;

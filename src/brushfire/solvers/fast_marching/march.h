@@ -21,10 +21,11 @@ struct MarchState {
 
   std::vector<T> value;            // [vertex_count + 1], >= 0; +inf: not reached yet
   std::vector<std::uint8_t> open;  // [vertex_count + 1] the value has not been offered to the neighbours yet
-  std::vector<Index> label;        // [vertex_count + 1] where labelled
-  std::vector<T> start;            // [labels] the value that each label's front started with
-  std::vector<Index> touched;      // places with a value
-  std::vector<T> fixed_value;      // [vertex_count + 1], label-setting only: the value once it is fixed
+  std::vector<T> root;         // [vertex_count + 1] value minus radius of the front that brought it (circular fronts)
+  std::vector<Index> label;    // [vertex_count + 1] where labelled
+  std::vector<T> start;        // [labels] the value that each label's front started with
+  std::vector<Index> touched;  // places with a value
+  std::vector<T> fixed_value;  // [vertex_count + 1], label-setting only: the value once it is fixed
   BucketQueue queue;
   T buckets_per_unit = 1;
   T front = 0;            // the lower end of the current bucket: what is below is final

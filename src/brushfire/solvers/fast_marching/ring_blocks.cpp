@@ -1,11 +1,12 @@
 // Builds the blocks: counts lanes, fills real triangles, then unfolded ones.
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
 
+#include <brushfire/mesh/locality_order.h>
+#include <brushfire/solvers/fast_marching/bend.h>
 #include <brushfire/solvers/fast_marching/unfold.h>
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace brushfire::detail {
 namespace {
@@ -25,6 +26,9 @@ class RingBuilder {
     }
     lay_out();
     for (Index i = 0; i < mesh_.vertex_count(); ++i) fill_vertex(i);
+    const std::vector<double> bend = front_bend(mesh_);
+    rings_.bend.resize(bend.size());
+    for (Index v = 0; v < bend.size(); ++v) rings_.bend[place(v)] = static_cast<T>(bend[v]);
     for (const Index h : unsplit_) mark_unsplit(h);
     for (const UnfoldedTriangle& t : unfolded_) add_unfolded(t);
     return std::move(rings_);
@@ -33,9 +37,9 @@ class RingBuilder {
  private:
   void order_vertices() {
     RingLayout& layout = rings_.layout;
-    layout.vertex.resize(mesh_.vertex_count());
-    std::iota(layout.vertex.begin(), layout.vertex.end(), Index{0});
-    layout.place = layout.vertex;
+    LocalityOrder order = locality_order(mesh_);
+    layout.vertex = std::move(order.vertices);
+    layout.place = std::move(order.vertex_rank);
     double sum = 0;
     for (const double l : mesh_.lengths()) sum += l;
     if (sum > 0) layout.mean_edge = sum / static_cast<double>(mesh_.halfedge_count());

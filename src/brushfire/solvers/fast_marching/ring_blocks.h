@@ -33,6 +33,7 @@ template <class T>
 struct Rings {
   RingLayout layout;
   std::vector<RingBlock<T>> blocks;
+  std::vector<T> bend;  // [vertex_count] by place: by how much the curvature of a front falls that passes the vertex
 };
 
 // O(vertices + faces), and what the unfolding of obtuse corners takes.

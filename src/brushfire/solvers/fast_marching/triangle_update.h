@@ -26,6 +26,7 @@ struct UpdateTriangle {
 // point, where the straight line to it passes through the edge (ALGORITHMS: visibility test; without it the value is
 // shorter than any path and every such error spreads).
 struct CircularFront {
+  static constexpr bool kBends = true;  // the circle's radius is carried along (see march.cpp)
   template <class T>
   static T update(const UpdateTriangle<T>& at, T t1, T t2) {
     // t1 + t2 - length says how far the starting point is from the edge. Where that difference is but rounding, the
@@ -53,6 +54,7 @@ struct CircularFront {
 // The same, literally as printed: the farther of the two circle intersections, accepted always; where there is none,
 // or only one value is known, the way along the edge.
 struct LiteralCircularFront {
+  static constexpr bool kBends = false;
   template <class T>
   static T update(const UpdateTriangle<T>& at, T t1, T t2) {
     const T l2 = at.length * at.length;
@@ -70,6 +72,7 @@ struct LiteralCircularFront {
 // A straight front: of slope (t2 - t1)/length along the edge and slope 1 in all, where the ray that arrives at the
 // target came through the edge (the upwind condition).
 struct PlanarFront {
+  static constexpr bool kBends = false;
   template <class T>
   static T update(const UpdateTriangle<T>& at, T t1, T t2) {
     const T slope_x = (t2 - t1) * at.inverse;
