@@ -41,7 +41,7 @@ class Marcher {
     start(problem);
     if (front_model(problem.options->method) == FrontModel::LiteralCircular) {
       check_cancel(problem);
-      march_label_setting(rings_, state_, static_cast<T>(last_front(problem) - base_));
+      march_label_setting<T>(rings_, state_, [&] { check_cancel(problem); });
     } else {
       march(problem);
     }

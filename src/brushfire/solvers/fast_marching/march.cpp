@@ -280,7 +280,7 @@ MarchSlice<T> march_slice(FrontModel model, bool labelled) {
 }
 
 template <class T>
-void march_label_setting(const Rings<T>& rings, MarchState<T>& s, T limit) {
+void march_label_setting(const Rings<T>& rings, MarchState<T>& s, const std::function<void()>& poll) {
   using Entry = std::pair<T, Index>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (const Index v : s.touched) queue.emplace(s.value[v], v);
@@ -289,11 +289,10 @@ void march_label_setting(const Rings<T>& rings, MarchState<T>& s, T limit) {
   while (!queue.empty()) {
     const auto [t, v] = queue.top();
     queue.pop();
-    if (t > limit) break;
     if (s.open[v] == 0) continue;
     s.open[v] = 0;
     s.fixed_value[v] = t;
-    ++s.pops;
+    if (++s.pops % kSlice == 0) poll();
     const Index label = s.label[v];
     const Turn<T> turn{t, s.start[label], s.start[label], label};
     const Index end = rings.layout.block_offset[v + 1];
@@ -320,7 +319,7 @@ template struct MarchState<float>;
 template struct MarchState<double>;
 template MarchSlice<float> march_slice<float>(FrontModel, bool);
 template MarchSlice<double> march_slice<double>(FrontModel, bool);
-template void march_label_setting<float>(const Rings<float>&, MarchState<float>&, float);
-template void march_label_setting<double>(const Rings<double>&, MarchState<double>&, double);
+template void march_label_setting<float>(const Rings<float>&, MarchState<float>&, const std::function<void()>&);
+template void march_label_setting<double>(const Rings<double>&, MarchState<double>&, const std::function<void()>&);
 
 }  // namespace brushfire::detail

@@ -6,6 +6,7 @@
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -49,8 +50,9 @@ using MarchSlice = std::size_t (*)(const Rings<T>&, MarchState<T>&, std::size_t 
 template <class T>
 MarchSlice<T> march_slice(FrontModel model, bool labelled);
 
-// Label-setting in strict order, as the paper of 2002 has it, up to `limit`.
+// Label-setting in strict order, as the paper of 2002 has it, to the end: its values need not grow along the way, so
+// there is no radius to stop at. Calls `poll` every kSlice vertices.
 template <class T>
-void march_label_setting(const Rings<T>& rings, MarchState<T>& state, T limit);
+void march_label_setting(const Rings<T>& rings, MarchState<T>& state, const std::function<void()>& poll);
 
 }  // namespace brushfire::detail
