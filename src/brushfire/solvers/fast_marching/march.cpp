@@ -139,11 +139,12 @@ BRUSHFIRE_INLINE void bend_front(const Rings<T>& rings, MarchState<T>& s, Index 
   const T bend = rings.bend[v];
   const T radius = s.value[v] - s.root[v];
   if (bend == 0 || !(radius > 0)) return;
+  // 1/after = 1/(1/radius - bend); the bounds are those of the radius.
   constexpr T kMostPerVertex = 2, kFlattest = 8;
-  const T before = 1 / radius;
-  const T least = std::max(before / kMostPerVertex, 1 / (kFlattest * s.value[v]));
-  const T after = std::clamp(before - bend, std::min(least, before), kMostPerVertex * before);
-  s.root[v] = s.value[v] - 1 / after;
+  const T shrinking = 1 - bend * radius;
+  const T largest = std::max(radius, std::min(kMostPerVertex * radius, kFlattest * s.value[v]));
+  const T after = shrinking > 1 / kFlattest ? radius / shrinking : largest;
+  s.root[v] = s.value[v] - std::clamp(after, radius / kMostPerVertex, largest);
 }
 
 template <class Front, bool kLabelled, class T>
@@ -182,6 +183,9 @@ BRUSHFIRE_INLINE void prefetch(const Rings<T>& rings, const MarchState<T>& s, co
     const Index v = bucket[i + kOffsetsAhead];
     __builtin_prefetch(&rings.layout.block_offset[v]);
     __builtin_prefetch(&s.value[v]);
+    __builtin_prefetch(&s.root[v]);
+    __builtin_prefetch(&rings.bend[v]);
+    __builtin_prefetch(&s.open[v]);
   }
   if (i + kBlocksAhead < bucket.size()) {
     const Index v = bucket[i + kBlocksAhead];
