@@ -63,7 +63,8 @@ BRUSHFIRE_INLINE T common_root(const Turn<T>& turn, T other_value, T other_root,
   const T mean = T(0.5) * (turn.root + other_root);
   const T highest = T(0.5) * (turn.value + other_value) - T(0.75) * length;
   const T cap = highest > turn.start ? highest : turn.start;
-  return mean < cap ? mean : cap;
+  const T common = mean < cap ? mean : cap;
+  return other_value < MarchState<T>::kUnreached ? common : turn.root;  // a vertex not reached has no root
 }
 
 // Offers from `support` values at the other vertex. Bit k of the result: lane k improves a; bit kLanes + k: b.
