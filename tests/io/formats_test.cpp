@@ -305,6 +305,7 @@ TEST(Gltf, WhatCouldHurtIsRefused) {
   EXPECT_EQ(mesh_error(std::string(100000, '['), "a.gltf"),
             "file_malformed: a.gltf: byte 0: JSON is nested more than 64 deep");
   EXPECT_EQ(mesh_error("{\"a\":}", "a.gltf"), "file_malformed: a.gltf: byte 5: not JSON");
+  EXPECT_EQ(mesh_error("[1e999]", "a.gltf"), "file_malformed: a.gltf: byte 0: JSON with a number that no double holds");
   EXPECT_EQ(mesh_error("[]", "a.gltf"), "file_malformed: a.gltf: not as glTF says: no object at the top");
   const TemporaryDirectory dir;
   for (const char* outside : {"../a.bin", "/etc/passwd", "%2e%2e/a.bin"}) {

@@ -68,19 +68,17 @@ Chunks split_glb(const Input& input) {
 
 Json parse_json(const Input& input, const Chunks& chunks) {
   constexpr int kDeepest = 64;
-  bool too_deep = false;
   const auto callback = [&](int depth, Json::parse_event_t, Json&) {
     // Thrown through the parser, which holds nothing that would leak.
-    if (depth > kDeepest) {
-      too_deep = true;
-      input.fail_byte(chunks.json_begin, "JSON is nested more than 64 deep");
-    }
+    if (depth > kDeepest) input.fail_byte(chunks.json_begin, "JSON is nested more than 64 deep");
     return true;
   };
   try {
     return Json::parse(chunks.json.begin(), chunks.json.end(), callback);
   } catch (const Json::parse_error& e) {
     input.fail_byte(chunks.json_begin + (e.byte > 0 ? e.byte - 1 : 0), "not JSON");
+  } catch (const Json::exception&) {
+    input.fail_byte(chunks.json_begin, "JSON with a number that no double holds");
   }
 }
 
@@ -308,7 +306,7 @@ class GltfReader {
     budget_ -= count * components * sizeof(double);
     if (!a.contains("bufferView")) return std::vector<double>(count * components, 0.0);
     const Json& view = item("bufferViews", needed(a, "bufferView"));
-    const std::string_view bytes = view_bytes(view).substr(0);
+    const std::string_view bytes = view_bytes(view);
     const std::size_t element = components * size_of(type), stride = number(view, "byteStride").value_or(element);
     const std::size_t offset = number(a, "byteOffset").value_or(0);
     const bool fits = offset <= bytes.size() &&
