@@ -66,6 +66,10 @@ void Verb::argument(const char* name, std::string& value, const char* help) {
   parser_.app->add_option(name, value, help)->required()->type_name("");
 }
 
+void Verb::required_option(const char* names, std::string& value, const char* placeholder, const char* help) {
+  parser_.app->add_option(names, value, help)->required()->type_name(placeholder);
+}
+
 void Verb::option(const char* names, std::string& value, const char* placeholder, const char* help) {
   parser_.app->add_option(names, value, help)->type_name(placeholder);
 }

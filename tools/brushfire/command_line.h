@@ -39,6 +39,7 @@ class Verb {
   // A required argument without a dash.
   void argument(const char* name, std::string& value, const char* help);
   // `names`: "-o,--output". `placeholder` is what the help shows for the value.
+  void required_option(const char* names, std::string& value, const char* placeholder, const char* help);
   void option(const char* names, std::string& value, const char* placeholder, const char* help);
   void option(const char* names, std::optional<double>& value, const char* placeholder, const char* help);
   // May be given several times.
@@ -94,6 +95,7 @@ void add_info(CommandLine& command_line);
 void add_distance(CommandLine& command_line);
 void add_matrix(CommandLine& command_line);
 void add_compare(CommandLine& command_line);
+void add_shape(CommandLine& command_line);
 void add_completion(CommandLine& command_line);
 
 }  // namespace brushfire::tool

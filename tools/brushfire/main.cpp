@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
   add_distance(command_line);
   add_matrix(command_line);
   add_compare(command_line);
+  add_shape(command_line);
   add_completion(command_line);
   return command_line.run(argc, argv);
 }
