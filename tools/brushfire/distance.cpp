@@ -176,8 +176,13 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   options.progress = talk.progress("distance");
   for (const Where& w : run.target_places) options.targets.push_back(resolve(w, run.mesh, snap));
 
+  const Stopwatch setting_up;
+  DistanceSolver solver(run.mesh);
+  solver.set_up(options);
+  run.set_up_s = setting_up.seconds();
+
   const Stopwatch solving;
-  run.field = distance(run.mesh, run.sources, options);
+  run.field = solver.distance(run.sources, options);
   run.solve_s = solving.seconds();
   talk.end_progress();
 

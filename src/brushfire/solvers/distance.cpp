@@ -208,6 +208,8 @@ DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
 DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
 const Mesh& DistanceSolver::mesh() const noexcept { return workspace_->mesh; }
 
+void DistanceSolver::set_up(const DistanceOptions& options) { workspace_->engine(options.method).set_up(options); }
+
 DistanceField DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options) {
   const Mesh& mesh = workspace_->mesh;
   check(options);

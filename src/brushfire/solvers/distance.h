@@ -100,6 +100,9 @@ class DistanceSolver {
   DistanceSolver& operator=(DistanceSolver&&) noexcept;
 
   const Mesh& mesh() const noexcept;
+  // Builds what the first call with this method and precision would build otherwise: tells set-up from solving.
+  // O(faces).
+  void set_up(const DistanceOptions& options = {});
   DistanceField distance(std::span<const Source> sources, const DistanceOptions& options = {});
 
   // The same numbers, of the reached vertices only: costs what it reaches, whatever the size of the mesh (after the

@@ -36,6 +36,8 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine() = default;
+  // Builds what solve() with these options would build when first called. Most engines do that in their constructor.
+  virtual void set_up(const DistanceOptions& options) { static_cast<void>(options); }
   virtual void solve(const Problem& problem, DistanceField& field) = 0;
   // True where solve() honours Problem::touched; otherwise distance_sparse() looks at all vertices.
   virtual bool lists_touched() const { return false; }

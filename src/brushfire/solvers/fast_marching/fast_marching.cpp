@@ -224,19 +224,26 @@ class FastMarching final : public Engine {
 
   bool lists_touched() const override { return true; }
 
-  void solve(const Problem& problem, DistanceField& field) override {
-    if (problem.options->precision == Precision::Float && is_float_enough()) {
-      run(in_float_, problem, field);
+  void set_up(const DistanceOptions& options) override {
+    if (marches_in_float(options)) {
+      if (!in_float_) in_float_.emplace(mesh_);
     } else {
-      run(in_double_, problem, field);
+      if (!in_double_) in_double_.emplace(mesh_);
+    }
+  }
+
+  void solve(const Problem& problem, DistanceField& field) override {
+    set_up(*problem.options);
+    if (marches_in_float(*problem.options)) {
+      in_float_->solve(problem, field);
+    } else {
+      in_double_->solve(problem, field);
     }
   }
 
  private:
-  template <class T>
-  void run(std::optional<Marcher<T>>& marcher, const Problem& problem, DistanceField& field) {
-    if (!marcher) marcher.emplace(mesh_);
-    marcher->solve(problem, field);
+  bool marches_in_float(const DistanceOptions& options) const {
+    return options.precision == Precision::Float && is_float_enough();
   }
 
   // Float lanes hold fourth powers of lengths in units of the mean edge.
