@@ -5,6 +5,8 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_mesh.h>
+#include <brushfire/io/write_field.h>
+#include <brushfire/mesh/nearest_point.h>
 #include <brushfire/solvers/distance.h>
 
 #include <chrono>
@@ -26,9 +28,13 @@ Examples:
   brushfire distance bunny.ply --sources landmarks.txt --radius 0.1 -o coloured.ply
   brushfire distance bunny.ply --source 0 --target 5000 --target f:120:.2,.3,.5
   brushfire distance bunny.ply --source 0 --method dijkstra --json
+  brushfire distance bunny.ply --source 0 -o - | sort -t, -gk2 | tail -1
 
+The extension of -o decides: .ply (MeshLab; colours, and the distance as vertex quality), .vtk .vtp (ParaView), .obj
+(colours only), .npy (float64), .csv, .json, .gii, .curv.
 Without -o and --target the result is told in words. Targets print one distance per line, inf and exit code 4
-where no source reaches. Vertices that cannot be reached, or lie beyond the radius, read inf in files.)";
+where no source reaches; the run ends once their distances are final, so that a file written beside them may hold less
+than all. Vertices that cannot be reached, or lie beyond the radius, read inf in files.)";
 
 struct Arguments {
   std::string file, sources_file, output;
@@ -91,9 +97,12 @@ std::vector<Where> parse_targets(const Arguments& arguments) {
   return places;
 }
 
-void check(const Arguments& arguments) {
+void check(const Arguments& arguments, const Talk& talk) {
   if (arguments.radius && !(*arguments.radius >= 0)) {
     throw Error(ErrorCode::InvalidArgument, "--radius " + exact(*arguments.radius) + " is not a number >= 0");
+  }
+  if (arguments.output == "-" && (talk.json || !arguments.targets.empty())) {
+    throw Error(ErrorCode::InvalidArgument, "only one of -o -, --json and --target can have the standard output");
   }
 }
 
@@ -153,7 +162,7 @@ std::string in_words(const Arguments& arguments, const Run& run) {
 
 int distance_verb(const Arguments& arguments, const Talk& talk) {
   // What can be wrong without the mesh is said before a large file is read.
-  check(arguments);
+  check(arguments, talk);
   Run run;
   const std::vector<Where> source_places = parse_sources(arguments);
   run.target_places = parse_targets(arguments);
@@ -163,8 +172,10 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   run.read_s = reading.seconds();
   stop_if_interrupted();
 
-  const auto snap = [](Vec3) -> SurfacePoint {
-    throw Error(ErrorCode::InvalidArgument, "positions are not supported yet: give a vertex or a face and weights");
+  std::optional<NearestPointFinder> nearest;  // built for the first position that has to be snapped
+  const auto snap = [&](Vec3 position) {
+    if (!nearest) nearest.emplace(run.mesh);
+    return (*nearest)(position).point;
   };
   for (const Where& w : source_places) run.sources.push_back({resolve(w, run.mesh, snap), w.offset});
 
@@ -186,6 +197,10 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   run.solve_s = solving.seconds();
   talk.end_progress();
 
+  if (!arguments.output.empty()) {
+    write_field(arguments.output, run.mesh, {.values = run.field.distance, .labels = run.field.source},
+                arguments.output == "-" ? "csv" : "");
+  }
   if (talk.json) {
     write_stdout(json(arguments, run));
   } else if (!run.target_places.empty()) {
@@ -194,6 +209,8 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
     write_stdout(lines);
   } else if (arguments.output.empty()) {
     write_stdout(in_words(arguments, run));
+  } else {
+    talk.say(in_words(arguments, run));
   }
   for (std::size_t i = 0; i < run.target_places.size(); ++i) {
     if (run.field.target_distance[i] == kInfinity) throw Unreachable(run.target_places[i].text);
@@ -215,7 +232,7 @@ void add_distance(CommandLine& command_line) {
     verb.choice("-m,--method", arguments->method, methods, "How to compute");
     verb.choice("--precision", arguments->precision, {"double", "float"}, "Arithmetic of the marching methods");
     verb.option("-r,--radius", arguments->radius, "R", "Stop at this distance; what is farther reads inf");
-    verb.option("-o,--output", arguments->output, "FILE", "Write the field: .ply .vtk .npy .csv .json");
+    verb.option("-o,--output", arguments->output, "FILE", "Write the field: .ply .vtk .npy .csv ...; - prints CSV");
     verb.talks();
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return distance_verb(*arguments, talk); });

@@ -220,7 +220,7 @@ class Marcher {
 
 class FastMarching final : public Engine {
  public:
-  explicit FastMarching(Mesh mesh) : mesh_(std::move(mesh)) {}
+  explicit FastMarching(Mesh mesh) : mesh_(std::move(mesh)), float_is_enough_(is_float_enough(mesh_)) {}
 
   bool lists_touched() const override { return true; }
 
@@ -243,17 +243,18 @@ class FastMarching final : public Engine {
 
  private:
   bool marches_in_float(const DistanceOptions& options) const {
-    return options.precision == Precision::Float && is_float_enough();
+    return options.precision == Precision::Float && float_is_enough_;
   }
 
   // Float lanes hold fourth powers of lengths in units of the mean edge.
-  bool is_float_enough() const {
+  static bool is_float_enough(const Mesh& mesh) {
     constexpr double kLongest = 0x1p24;
-    const auto lengths = mesh_.lengths();
+    const auto lengths = mesh.lengths();
     return lengths.empty() || *std::max_element(lengths.begin(), lengths.end()) < kLongest;
   }
 
   Mesh mesh_;
+  bool float_is_enough_;
   std::optional<Marcher<float>> in_float_;
   std::optional<Marcher<double>> in_double_;
 };
