@@ -87,7 +87,7 @@ TEST_F(Program, VersionIsOneLine) {
 }
 
 TEST_F(Program, HelpOfEveryVerbHasExamplesAndFitsTheTerminal) {
-  for (const char* verb : {"info", "distance", "completion"}) {
+  for (const char* verb : {"info", "distance", "compare", "shape", "completion"}) {
     const Ended ended = run_program({verb, "--help"});
     EXPECT_EQ(ended.code, 0);
     EXPECT_NE(ended.out.find("Examples:\n"), std::string::npos) << verb;
@@ -199,6 +199,114 @@ TEST_F(Program, ReadsStandardInput) {
                                   {.input = "OFF\n3 1 0\n0 0 0\n2 0 0\n0 1 0\n3 0 1 2\n"});
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(ended.out, "2\n");
+}
+
+TEST_F(Program, PositionsAreSnappedToTheSurface) {
+  const Ended ended = run_program({"distance", path("square.off"), "-s", "-1,-1,5", "-t", "3,0,0", "-m", "dijkstra"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.out, "1\n");
+}
+
+TEST_F(Program, TheExtensionDecidesWhatIsWrittenAndTheTalkGoesToStderr) {
+  for (const char* extension : {"ply", "vtk", "vtp", "obj", "npy", "csv", "json"}) {
+    const std::string file = path(std::string("field.") + extension);
+    const Ended ended = run_program({"distance", path("square.off"), "-s", "0", "-o", file});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(ended.out, "");
+    EXPECT_EQ(lines_of(ended.err).size(), 4u) << ended.err;
+    EXPECT_GT(fs::file_size(file), 0u);
+    EXPECT_EQ(run_program({"distance", path("square.off"), "-s", "0", "-o", file, "--quiet"}).err, "");
+  }
+  const Ended csv = run_program({"distance", path("square.off"), "-s", "0", "-o", "-", "-q", "-m", "dijkstra"});
+  EXPECT_EQ(csv.out, "vertex,distance,source\n0,0,0\n1,1,0\n2,1.4142135623730951,0\n3,1,0\n");
+}
+
+TEST_F(Program, UnreachableVerticesReadInfInFiles) {
+  const Ended ended = run_program({"distance", path("islands.off"), "-s", "0", "-o", "-", "-q"});
+  EXPECT_NE(ended.out.find("\n4,inf,-1\n"), std::string::npos) << ended.out;
+}
+
+TEST_F(Program, OutputThatCannotBeWrittenEndsWithOne) {
+  expect_error({"distance", path("square.off"), "-s", "0", "-q", "-o", path("no/such/folder/field.npy")}, 1,
+               "brushfire: no/such/folder/field.npy: cannot be created: No such file or directory");
+  expect_error({"shape", "cube", "-o", "/dev/full.ply/x.ply"}, 1,
+               "brushfire: /dev/full.ply/x.ply: cannot be created: No such file or directory");
+}
+
+TEST_F(Program, OutputOfUnknownKindIsAUsageErrorBeforeAnythingIsRead) {
+  expect_error({"distance", path("missing.off"), "-s", "0", "-o", path("field.foo")}, 2,
+               "brushfire: field.foo: nothing is written as 'foo' (known: npy, ply, vtk, vtp, obj, gii, curv, csv, "
+               "json)");
+  expect_error({"distance", path("square.off"), "-s", "0", "-o", "-", "--json"}, 2,
+               "brushfire: only one of -o -, --json and --target can have the standard output");
+}
+
+TEST_F(Program, CompareTellsTheErrorsAgainstTheReference) {
+  write("a.txt", "0 1.5 3 inf\n");
+  write("b.txt", "0 1 4 inf\n");
+  const Ended ended = run_program({"compare", path("a.txt"), path("b.txt")});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(said(ended.out),
+            "a.txt against b.txt: 2 vertices compared\n"
+            "                                     mean          rms          max\n"
+            "  relative error                    0.375     0.395285          0.5 at vertex 1\n"
+            "  absolute error                     0.75     0.790569            1 at vertex 2\n"
+            "  mean signed relative error 0.125\n"
+            "  1 vertex left out: the reference is 0 there\n"
+            "  1 vertex reached by neither\n");
+  const Ended json = run_program({"compare", path("a.txt"), path("b.txt"), "--mesh", path("square.off"), "--json"});
+  EXPECT_EQ(json.code, 0) << json.err;
+  EXPECT_EQ(keys_of(json.out), (std::vector<std::string>{"schema",
+                                                         "brushfire",
+                                                         "field",
+                                                         "reference",
+                                                         "mesh",
+                                                         "compared",
+                                                         "zero_reference",
+                                                         "missing",
+                                                         "surplus",
+                                                         "unreached_in_both",
+                                                         "mean_relative",
+                                                         "rms_relative",
+                                                         "max_relative",
+                                                         "max_relative_vertex",
+                                                         "mean_signed_relative",
+                                                         "mean_absolute",
+                                                         "rms_absolute",
+                                                         "max_absolute",
+                                                         "max_absolute_vertex",
+                                                         "max_at_zero_reference",
+                                                         "area_weighted_mean_relative",
+                                                         "area_weighted_rms_relative",
+                                                         "area_weighted_mean_absolute",
+                                                         "area_weighted_rms_absolute"}));
+  write("short.txt", "0 1 2\n");
+  expect_error({"compare", path("short.txt"), path("b.txt")}, 2, "brushfire: short.txt: 3 values, but b.txt has 4");
+}
+
+TEST_F(Program, ComparedMethodsAgreeOnAConvexPlane) {
+  run_program({"shape", "paper-square", "-o", path("plane.ply")});
+  run_program({"distance", path("plane.ply"), "-s", "0", "-m", "exact", "-o", path("exact.npy")});
+  run_program({"distance", path("plane.ply"), "-s", "0", "-m", "novotni-klein", "-o", path("fast.ply")});
+  const Ended ended = run_program({"compare", path("fast.ply"), path("exact.npy"), "--json"});
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(ended.out, match, std::regex("\"max_relative\": ([0-9.e-]+)"))) << ended.err;
+  EXPECT_LE(std::stod(match[1]), 1e-12);
+}
+
+TEST_F(Program, ShapesOfEveryKindAndSizeAreMeshes) {
+  for (const char* shape : {"plane", "delaunay-square", "paper-square", "saddle", "terrain", "cube", "sphere",
+                            "folded-sphere", "cone", "cylinder", "torus"}) {
+    for (const char* vertices : {"1", "100", "5000"}) {
+      const Ended ended = run_program({"shape", shape, "-n", vertices, "-o", path("shape.ply")});
+      EXPECT_EQ(ended.code, 0) << shape << " " << vertices << ": " << ended.err;
+      const Ended distance = run_program({"distance", path("shape.ply"), "-s", "0", "--json"});
+      EXPECT_EQ(distance.code, 0) << shape << " " << vertices << ": " << distance.err;
+      EXPECT_NE(distance.out.find("\"unreachable\": 0,"), std::string::npos) << shape << " " << vertices;
+    }
+  }
+  expect_error({"shape", "plane", "-n", "0", "-o", path("x.ply")}, 2, "brushfire: --vertices 0 is not a number >= 1");
+  expect_error({"shape", "plane"}, 2, "brushfire: --output is required (see brushfire shape --help)");
 }
 
 TEST_F(Program, UsageErrorsEndWithTwoAndOneLine) {

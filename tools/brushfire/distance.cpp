@@ -156,7 +156,7 @@ std::string in_words(const Arguments& arguments, const Run& run) {
     text += "farthest: vertex " + std::to_string(v) + " at " + readable(field.distance[v]) + "\n";
   }
   text += "read in " + duration(run.read_s) + ", set up in " + duration(run.set_up_s) + ", solved in " +
-          duration(run.solve_s) + "\n";
+          duration(run.solve_s);
   return text;
 }
 
@@ -208,7 +208,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
     for (const double d : run.field.target_distance) lines += exact(d) + "\n";
     write_stdout(lines);
   } else if (arguments.output.empty()) {
-    write_stdout(in_words(arguments, run));
+    write_stdout(in_words(arguments, run) + "\n");
   } else {
     talk.say(in_words(arguments, run));
   }

@@ -6,6 +6,7 @@
 #include <brushfire/mesh/delaunay.h>
 #include <brushfire/mesh/shapes.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -26,8 +27,9 @@ struct NamedShape {
   std::function<Shape(double vertices)> make;
 };
 
-Index rounded(double value, Index least = 1) {
-  return std::max(least, static_cast<Index>(std::min(std::round(value), 4e9)));
+Index rounded(double value, double least = 1) {
+  constexpr double kMost = 4e9;  // fits; whether the shape does is for the generator to say
+  return static_cast<Index>(std::clamp(std::round(value), least, kMost));
 }
 
 // Of an icosahedron split so often: 10 * 4^levels + 2 vertices.
