@@ -83,9 +83,15 @@ void Verb::option(const char* names, std::vector<std::string>& values, const cha
 }
 
 void Verb::choice(const char* names, std::string& value, const std::vector<std::string>& choices, const char* help) {
-  std::string listed;
-  for (const std::string& c : choices) listed += (listed.empty() ? "" : ", ") + c;
-  CLI::Option* option = parser_.app->add_option(names, value, help + (": " + listed));
+  constexpr std::size_t kLine = 88;
+  std::string listed, help_text = help + std::string(": ");
+  for (const std::string& c : choices) {
+    listed += (listed.empty() ? "" : ", ") + c;
+    const std::size_t line = help_text.size() - (help_text.rfind('\n') + 1);  // npos + 1 is 0
+    if (c != choices.front()) help_text += line + c.size() < kLine ? ", " : ",\n";
+    help_text += c;
+  }
+  CLI::Option* option = parser_.app->add_option(names, value, help_text);
   const auto one_of = [choices, listed](const std::string& text) {
     return std::find(choices.begin(), choices.end(), text) != choices.end() ? std::string()
                                                                             : "'" + text + "' is none of " + listed;
@@ -183,6 +189,7 @@ std::vector<VerbNames> CommandLine::names() const {
         for (const std::string& l : option->get_lnames()) names.names.push_back("--" + l);
         names.takes_value = option->get_items_expected_max() > 0;
         names.help = option->get_description();
+        std::replace(names.help.begin(), names.help.end(), '\n', ' ');
         if (const auto found = parser->choices.find(option); found != parser->choices.end()) {
           names.choices = found->second;
         }

@@ -63,7 +63,7 @@ struct OptionNames {
   std::vector<std::string> names;    // "-o", "--output"
   std::vector<std::string> choices;  // where the value is one of a few words
   bool takes_value = false;
-  std::string help;  // first sentence
+  std::string help;
 };
 
 struct VerbNames {

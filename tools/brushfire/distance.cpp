@@ -1,6 +1,7 @@
 // brushfire distance: the distance of every vertex from the nearest source.
 #include "command_line.h"
 #include "interrupt.h"
+#include "output.h"
 #include "where.h"
 
 #include <brushfire/core/error.h>
@@ -101,6 +102,7 @@ void check(const Arguments& arguments, const Talk& talk) {
   if (arguments.radius && !(*arguments.radius >= 0)) {
     throw Error(ErrorCode::InvalidArgument, "--radius " + exact(*arguments.radius) + " is not a number >= 0");
   }
+  check_output(arguments.output);
   if (arguments.output == "-" && (talk.json || !arguments.targets.empty())) {
     throw Error(ErrorCode::InvalidArgument, "only one of -o -, --json and --target can have the standard output");
   }

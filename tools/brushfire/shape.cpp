@@ -1,5 +1,6 @@
 // brushfire shape: meshes of well-known surfaces, to try things on.
 #include "command_line.h"
+#include "output.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/write_field.h>
@@ -69,11 +70,12 @@ int shape(const Arguments& arguments, const Talk& talk) {
   if (!(vertices >= 1)) {
     throw Error(ErrorCode::InvalidArgument, "--vertices " + exact(vertices) + " is not a number >= 1");
   }
+  check_output(arguments.output);
   Mesh mesh;
   for (const NamedShape& s : named_shapes()) {
     if (s.name == arguments.name) mesh = s.make(vertices).mesh();
   }
-  write_field(arguments.output, mesh, {});
+  write_field(arguments.output, mesh, {}, arguments.output == "-" ? "ply" : "");
   talk.say(arguments.output + ": " + counted(mesh.vertex_count(), "vertex", "vertices") + ", " +
            counted(mesh.face_count(), "face", "faces"));
   return kOk;
@@ -88,7 +90,7 @@ void add_shape(CommandLine& command_line) {
   command_line.add("shape", "Make a mesh of a well-known surface", [&](Verb& verb) {
     verb.choice("shape", arguments->name, names, "Which one");
     verb.option("-n,--vertices", arguments->vertices, "N", "About how many vertices (10000)");
-    verb.required_option("-o,--output", arguments->output, "FILE", "Where to: .ply .vtk .obj");
+    verb.required_option("-o,--output", arguments->output, "FILE", "Where to: .ply .vtk .obj ...; - prints PLY");
     verb.talks();
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return shape(*arguments, talk); });

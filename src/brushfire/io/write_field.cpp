@@ -81,6 +81,19 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+// The extension that decides; throws where nothing is written as that.
+std::string known_extension(const std::string& path, const std::string& format) {
+  const std::string extension = format.empty() && path != "-" ? extension_of(path) : format;
+  std::string known = "npy";
+  if (extension == known) return extension;
+  for (const Writer& w : kWriters) {
+    if (w.extension == extension) return extension;
+    known += ", " + std::string(w.extension);
+  }
+  throw Error(ErrorCode::UnknownFormat,
+              printable(path) + ": nothing is written as " + quote(extension) + " (known: " + known + ")");
+}
+
 void check_size(std::size_t size, const Mesh& mesh, const char* what) {
   if (size == 0 || size == mesh.vertex_count()) return;
   throw Error(ErrorCode::InvalidArgument, std::to_string(size) + " " + what + " for a mesh of " +
@@ -109,17 +122,17 @@ void write_npy_field(const std::string& path, const FieldView& field) {
 
 }  // namespace detail
 
+void check_field_format(const std::string& path, const std::string& format) { detail::known_extension(path, format); }
+
 void write_field(const std::string& path, const Mesh& mesh, const FieldView& field, const std::string& format) {
   using namespace detail;
   check_size(field.values.size(), mesh, "values");
   check_size(field.labels.size(), mesh, "labels");
   check_name(field.name);
   check_name(field.label_name);
-  const std::string extension = format.empty() && path != "-" ? extension_of(path) : format;
+  const std::string extension = known_extension(path, format);
   if (extension == "npy") return write_npy_field(path, field);
-  std::string known = "npy";
   for (const Writer& w : kWriters) {
-    known += ", " + std::string(w.extension);
     if (w.extension != extension) continue;
     if (w.needs_positions && !mesh.has_positions()) {
       throw Error(ErrorCode::InvalidArgument, "a mesh from lengths has no positions to write as " + extension);
@@ -128,8 +141,6 @@ void write_field(const std::string& path, const Mesh& mesh, const FieldView& fie
     w.write(out, mesh, field);
     return out.commit();
   }
-  throw Error(ErrorCode::UnknownFormat,
-              printable(path) + ": nothing is written as " + quote(extension) + " (known: " + known + ")");
 }
 
 }  // namespace brushfire

@@ -16,6 +16,10 @@ struct FieldView {
   std::string label_name = "source";
 };
 
+// Whether write_field() knows this format, for those who want to say so before they compute what is to be written.
+// Throws Error(UnknownFormat) where it does not. Arguments as there.
+void check_field_format(const std::string& path, const std::string& format = "");
+
 // Writes mesh and field; the extension decides (or `format`, an extension without dot, for names that have none):
 //   ply   binary little-endian: double coordinates, the values as double property `quality` (which MeshLab reads),
 //         labels as int property, faces, vertex colours (viridis over the finite values, grey where there is none)
