@@ -1,0 +1,76 @@
+// Method::Exact on faces without area: they are the limits of thin ones, and conduct from edge to edge at no cost.
+#include "oracle/deviation.h"
+#include "oracle/zoo.h"
+
+#include <brushfire/mesh/report.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+namespace brushfire::oracle {
+namespace {
+
+constexpr double kPromise = 1e-12;
+
+Deviation bounded_comparison(const Mesh& mesh, const SurfacePoint& from, std::span<const SurfacePoint> targets = {}) {
+  const Source source{from, 0};
+  return exact_against_oracle(mesh, std::span(&source, 1), kInfinity, targets);
+}
+
+void expect_exact_from_everywhere(const Mesh& mesh, std::uint32_t seed, const std::string& name) {
+  std::mt19937 random(seed);
+  const std::vector<SurfacePoint> targets{random_vertex(mesh, random), random_edge_point(mesh, random),
+                                          random_face_point(mesh, random)};
+  for (const SurfacePoint& from :
+       {random_vertex(mesh, random), random_edge_point(mesh, random), random_face_point(mesh, random)}) {
+    const Deviation d = bounded_comparison(mesh, from, targets);
+    EXPECT_TRUE(d.within(kPromise)) << name << ", seed " << seed << ": " << d.text();
+  }
+}
+
+TEST(FlatFaces, VertexInTheMiddleOfAnEdgeLightsTheFaceBeyond) {
+  const Mesh mesh(std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {2, 3, 0}},
+                  std::vector<Face>{{0, 1, 2}, {0, 2, 3}});
+  EXPECT_TRUE(bounded_comparison(mesh, vertex_point(mesh, 1)).within(kPromise));
+}
+
+TEST(FlatFaces, SourceInsideLightsTheFaceBeyondItsEdges) {
+  const Mesh mesh(std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, 0}},
+                  std::vector<Face>{{0, 1, 2}, {1, 0, 3}});
+  EXPECT_TRUE(bounded_comparison(mesh, {0, {0.25, 0.5, 0.25}}).within(kPromise));
+  EXPECT_TRUE(bounded_comparison(mesh, {0, {0, 0.5, 0.5}}).within(kPromise));
+}
+
+TEST(FlatFaces, SourceInAFaceWithACollapsedEdgeLightsBothNeighbours) {
+  const Mesh mesh(std::vector<Vec3>{{1, 2, 2}, {1, 2, 2}, {0, 0, 0}, {2, 0, 0}},
+                  std::vector<Face>{{0, 1, 2}, {0, 3, 2}});
+  EXPECT_TRUE(bounded_comparison(mesh, {0, {0.25, 0.125, 0.625}}).within(kPromise));
+}
+
+TEST(FlatFaces, DuplicatesDoNotKeepAFrontGoingRoundForEver) {
+  const Mesh mesh(std::vector<Vec3>{{1, 1, 1}, {0, 2, 2}, {0, 0, 0}, {0, 0, 0}, {1, 0, 1}},
+                  std::vector<Face>{{0, 1, 2}, {3, 4, 0}, {4, 3, 2}, {3, 2, 4}});
+  EXPECT_TRUE(bounded_comparison(mesh, vertex_point(mesh, 1)).within(kPromise));
+  const Mesh pillow(std::vector<Vec3>{{0, 0, 0}, {0, 4, 0}, {1, 1, 0}, {1, 1, 0}, {2, 3, 3}},
+                    std::vector<Face>{{0, 1, 2}, {3, 2, 4}, {0, 2, 4}, {2, 3, 4}});
+  EXPECT_TRUE(bounded_comparison(pillow, {0, {0.25, 0.25, 0.5}}).within(kPromise));
+}
+
+TEST(FlatFaces, AwkwardMeshesEqualTheOracle) {
+  for (const Specimen& s : awkward_meshes()) {
+    if (s.mesh.report().zero_area_faces == 0) continue;
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) expect_exact_from_everywhere(s.mesh, seed, s.name);
+  }
+}
+
+TEST(FlatFaces, SoupsOnALatticeEqualTheOracle) {
+  for (std::uint32_t seed = 1; seed <= 400; ++seed) {
+    const Mesh mesh = random_soup(seed, 5 + seed % 9, 4 + seed % 21, 3 + static_cast<int>(seed % 5));
+    expect_exact_from_everywhere(mesh, seed, "soup");
+  }
+}
+
+}  // namespace
+}  // namespace brushfire::oracle
