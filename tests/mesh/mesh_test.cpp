@@ -2,10 +2,13 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/report.h>
+#include <brushfire/mesh/shapes.h>
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace brushfire {
 namespace {
@@ -165,6 +168,98 @@ TEST(Mesh, ReportSaysSoupWhereTrianglesShareNoVertex) {
   const Mesh soup(positions, faces);
   EXPECT_TRUE(soup.report().looks_like_soup);
   EXPECT_NE(soup.report().remarks().front().find("soup"), std::string::npos);
+}
+
+TEST(Mesh, LengthsAndAreasAreFiniteAndRightAtTheEndsOfTheRangeOfDoubles) {
+  const double largest = std::numeric_limits<double>::max(), tiny = 4e-320;
+  for (const double size : {1e-300, 1e300, largest, tiny}) {
+    SCOPED_TRACE(size);
+    // From -size to size: the differences alone would overflow.
+    const std::vector<Vec3> positions{{-size, -size, 0}, {size, -size, 0}, {size, size, 0}, {-size, size, 0}};
+    const Mesh mesh(positions, kTwoTriangles);
+    const double side = size / mesh.unit() * 2;
+    ASSERT_TRUE(std::isfinite(side));
+    EXPECT_NEAR(mesh.lengths()[0], side, 1e-3 * side);  // 4e-320 has four digits
+    EXPECT_NEAR(mesh.lengths()[2], std::sqrt(2.0) * side, 1e-3 * side);
+    EXPECT_NEAR(mesh.double_areas()[1], side * side, 2e-3 * side * side);
+    EXPECT_NEAR(mesh.corner_angle(0), kPi / 4, 1e-3);
+    EXPECT_EQ(mesh.report().zero_area_faces + mesh.report().zero_length_edges, 0u);
+  }
+}
+
+TEST(Mesh, ShortEdgesBesideLongOnesKeepTheirLength) {
+  const std::vector<Vec3> positions{{0, 0, 0}, {1e-200, 0, 0}, {0, 1e-200, 0}, {1, 1, 1}, {2, 1, 1}, {1, 2, 1}};
+  const std::vector<Face> faces{{0, 1, 2}, {3, 4, 5}};
+  const Mesh mesh(positions, faces);
+  EXPECT_DOUBLE_EQ(mesh.lengths()[0] * mesh.unit(), 1e-200);
+  EXPECT_EQ(mesh.report().zero_length_edges, 0u);
+}
+
+TEST(Mesh, UnitIsOneWhereAllVerticesCoincide) {
+  const std::vector<Vec3> positions(3, Vec3{1e5, 0, 7});
+  const std::vector<Face> faces{{0, 1, 2}};
+  const Mesh mesh(positions, faces);
+  EXPECT_EQ(mesh.unit(), 1);
+  EXPECT_EQ(mesh.lengths()[0], 0);
+  EXPECT_DOUBLE_EQ(mesh.corner_angle(0), kPi / 3);
+}
+
+TEST(Mesh, FacesThatNameAVertexTwiceKeepTheirNumberAndJoinNothing) {
+  const std::vector<Face> faces{{0, 1, 1}, {0, 1, 2}, {2, 2, 2}, {0, 2, 3}, {3, 0, 3}};
+  const Mesh mesh(kSquare, faces);
+  EXPECT_EQ(mesh.face_count(), 5u);
+  for (const Index f : {0u, 2u, 4u}) {
+    EXPECT_FALSE(mesh.is_face_usable(f));
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) EXPECT_EQ(mesh.opposite()[h], h);
+    EXPECT_EQ(mesh.double_areas()[f], 0);
+  }
+  EXPECT_EQ(mesh.opposite()[5], 9u);  // 2->0 of face 1, 0->2 of face 3
+  EXPECT_EQ(mesh.links()[0], Link::Arc);
+  EXPECT_EQ(mesh.corners(3).size(), 3u);
+  EXPECT_EQ(mesh.report().repeated_index_faces, 3u);
+  EXPECT_EQ(mesh.report().euler_characteristic, 1);
+}
+
+TEST(Mesh, FansAndBooksOfManyFacesTakeNoQuadraticTime) {
+  // 200000 faces at one vertex, then at one edge: linear is some milliseconds, quadratic minutes.
+  const auto started = std::chrono::steady_clock::now();
+  const Index n = 200000;
+  const Mesh fan = shapes::cone(1, n).mesh();
+  EXPECT_EQ(fan.links()[0], Link::Circle);
+  EXPECT_EQ(fan.report().boundary_edges, n);
+  std::vector<Vec3> positions{{0, 0, 0}, {0, 0, 1}};
+  std::vector<Face> faces;
+  std::vector<std::array<double, 3>> lengths;
+  for (Index i = 0; i < n; ++i) {
+    positions.push_back({1.0 + i, 0, 0});
+    faces.push_back({0, 1, i + 2});
+    lengths.push_back({1, std::hypot(1.0 + i, 1.0), 1.0 + i});
+  }
+  const Mesh book(positions, faces);
+  EXPECT_EQ(book.report().nonmanifold_edges, 1u);
+  EXPECT_EQ(book.report().edges, 2 * n + 1);
+  EXPECT_EQ(book.links()[0], Link::Other);
+  const Mesh intrinsic = Mesh::from_lengths(n + 2, faces, lengths);
+  EXPECT_EQ(intrinsic.lengths()[3] * intrinsic.unit(), 1);
+  EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(10));
+}
+
+TEST(Mesh, LengthPrecisionBoundsWhatLengthsAloneLose) {
+  // A cap over a unit edge: from its rounded lengths its altitude comes back with the promised precision.
+  for (const double altitude : {1.0, 1e-2, 1e-4, 1e-6}) {
+    SCOPED_TRACE(altitude);
+    const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0.37, altitude, 0}};
+    const std::vector<Face> faces{{0, 1, 2}};
+    const Mesh with(positions, faces);
+    std::array<double, 3> l;
+    for (Index k = 0; k < 3; ++k) l[k] = with.lengths()[k] * with.unit();
+    const Mesh without = Mesh::from_lengths(3, faces, std::vector<std::array<double, 3>>{l});
+    const double promised = without.report().length_precision;
+    EXPECT_EQ(with.report().length_precision, 1e-12);
+    EXPECT_NEAR(promised, 64 * 2.2e-16 / altitude, 0.5 * promised);
+    // What counts for distances is the altitude beside the longest edge.
+    EXPECT_NEAR(without.double_areas()[0] * without.unit() * without.unit(), altitude, promised);
+  }
 }
 
 }  // namespace

@@ -50,52 +50,79 @@ void check_faces(Index vertex_count, std::span<const Face> faces) {
   }
 }
 
-// 2^k with 2^k <= x < 2^(k+1); 1 for 0.
-double power_of_two_below(double x) { return x > 0 ? std::ldexp(1.0, std::ilogb(x)) : 1.0; }
+// So far inside the range of doubles that inverses and squares stay finite.
+constexpr double kSmallestUnit = 0x1p-1000;
+constexpr double kLargestUnit = 0x1p1000;
+
+// 2^k with 2^k <= x < 2^(k+1), within the bounds of units; 1 for 0.
+double power_of_two_below(double x) {
+  return x > 0 ? std::clamp(std::ldexp(1.0, std::ilogb(x)), kSmallestUnit, kLargestUnit) : 1.0;
+}
+
+// The length of a vector whose squares may vanish.
+double length_of(Vec3 e) {
+  const double squared = dot(e, e);
+  if (squared > 0x1p-900) return std::sqrt(squared);
+  constexpr double kUp = 0x1p500;
+  return norm(kUp * e) / kUp;
+}
 
 // Twice the area from the two shorter edges: rounding of a cross product grows with the product of the lengths.
-double double_area_of(const std::array<Vec3, 3>& edge) {
-  const std::array<double, 3> squared{dot(edge[0], edge[0]), dot(edge[1], edge[1]), dot(edge[2], edge[2])};
-  const std::size_t longest =
-      static_cast<std::size_t>(std::max_element(squared.begin(), squared.end()) - squared.begin());
-  return norm(cross(edge[(longest + 1) % 3], edge[(longest + 2) % 3]));
+double double_area_of(const std::array<Vec3, 3>& edge, const double* length) {
+  const std::size_t longest = static_cast<std::size_t>(std::max_element(length, length + 3) - length);
+  return length_of(cross(edge[(longest + 1) % 3], edge[(longest + 2) % 3]));
 }
 
-std::array<Vec3, 3> scaled_edges(std::span<const Vec3> positions, const Face& t, double scale) {
-  std::array<Vec3, 3> edge;
-  for (std::size_t k = 0; k < 3; ++k) {
-    // Rounding of a difference is symmetric, so both sides of an edge get the same length to the bit.
-    edge[k] = scale * (positions[t[(k + 1) % 3]] - positions[t[k]]);
+// scale * (b - a). Rounding of a difference is symmetric, so both sides of an edge get the same length to the bit.
+Vec3 scaled_difference(Vec3 a, Vec3 b, double scale) {
+  const Vec3 e = b - a;
+  if (std::isfinite(e.x) && std::isfinite(e.y) && std::isfinite(e.z)) return scale * e;
+  return (2 * scale) * (0.5 * b - 0.5 * a);  // coordinates near the largest double on both sides of zero
+}
+
+// Lengths and areas in units of `unit`; returns the mean length.
+double measure(std::span<const Vec3> positions, std::span<const Face> faces, Geometry& g) {
+  const double scale = 1 / g.unit;
+  double sum = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Face& t = faces[f];
+    const Vec3 a = positions[t[0]], b = positions[t[1]], c = positions[t[2]];
+    const std::array<Vec3, 3> edge{scaled_difference(a, b, scale), scaled_difference(b, c, scale),
+                                   scaled_difference(c, a, scale)};
+    double* const length = &g.lengths[3 * f];
+    for (std::size_t k = 0; k < 3; ++k) length[k] = length_of(edge[k]);
+    sum += length[0] + length[1] + length[2];
+    g.double_areas[f] = double_area_of(edge, length);
   }
-  return edge;
+  return faces.empty() ? 0 : sum / (3.0 * static_cast<double>(faces.size()));
 }
 
-// Differences of coordinates are scaled before they are squared, so that 1e-200 and 1e200 neither vanish nor overflow.
-double mean_edge_estimate(std::span<const Vec3> positions, std::span<const Face> faces) {
+// First in units of the greatest coordinate, where nothing overflows; then the mean is known, and multiplying by powers
+// of two is exact, unless the mesh is so small beside its distance from the origin that squares may have vanished.
+Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
   double largest = 0;
   for (const Face& t : faces) {
     for (const Index v : t) {
       largest = std::max({largest, std::abs(positions[v].x), std::abs(positions[v].y), std::abs(positions[v].z)});
     }
   }
-  const double scale = 0.25 / power_of_two_below(largest);
-  double sum = 0;
-  for (const Face& t : faces) {
-    for (const Vec3& e : scaled_edges(positions, t, scale)) sum += norm(e);
-  }
-  return faces.empty() ? 0 : sum / (3.0 * static_cast<double>(faces.size())) / scale;
-}
-
-Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
   Geometry g;
-  g.unit = power_of_two_below(mean_edge_estimate(positions, faces));
-  const double scale = 1 / g.unit;
+  g.unit = power_of_two_below(largest);
   g.lengths.resize(3 * faces.size());
   g.double_areas.resize(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const std::array<Vec3, 3> edge = scaled_edges(positions, faces[f], scale);
-    for (std::size_t k = 0; k < 3; ++k) g.lengths[3 * f + k] = norm(edge[k]);
-    g.double_areas[f] = double_area_of(edge);
+  const double mean = measure(positions, faces, g);
+  if (mean == 0) {
+    g.unit = 1;
+    return g;
+  }
+  const double shrink = std::clamp(power_of_two_below(mean), kSmallestUnit / g.unit, kLargestUnit / g.unit);
+  g.unit *= shrink;
+  constexpr double kSquaresKeepTheirDigits = 0x1p-100;
+  if (shrink < kSquaresKeepTheirDigits) {
+    measure(positions, faces, g);
+  } else if (shrink != 1) {
+    for (double& l : g.lengths) l /= shrink;
+    for (double& a : g.double_areas) a /= shrink * shrink;
   }
   return g;
 }
@@ -184,10 +211,14 @@ Geometry Mesh::Data::geometry_from_lengths() const {
   if (!input_lengths.empty()) g.unit = power_of_two_below(sum / static_cast<double>(input_lengths.size()) / scale);
   g.lengths.resize(input_lengths.size());
   const std::vector<Index>& ring = get_opposite();
+  std::vector<bool> done(input_lengths.size(), false);
   for (Index h = 0; h < input_lengths.size(); ++h) {
-    Index lowest = h;  // one length for all faces of an edge: that of the ring's lowest halfedge
-    for (Index g2 = ring[h]; g2 != h; g2 = ring[g2]) lowest = std::min(lowest, g2);
-    g.lengths[h] = input_lengths[lowest] / g.unit;
+    // One length for all faces of an edge: that of the ring's lowest halfedge, which comes first.
+    const double length = input_lengths[h] / g.unit;
+    for (Index i = h; !done[i]; i = ring[i]) {
+      done[i] = true;
+      g.lengths[i] = length;
+    }
   }
   g.double_areas.resize(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {

@@ -82,7 +82,7 @@ class Mesh {
   // What the faces around each vertex form, [vertex_count].
   std::span<const Link> links() const;
 
-  // A power of two within a factor 2 of the mean edge length; 1 where there is no edge or all have length 0.
+  // A power of two within a factor 2 of the mean edge length (in 2^-1000 .. 2^1000); 1 where all edges have length 0.
   double unit() const;
   // Edge length of every halfedge, [halfedge_count], and twice the area of every face, [face_count], in unit() and
   // unit()^2. Both sides of an edge have the same bits.

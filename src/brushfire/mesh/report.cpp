@@ -66,14 +66,14 @@ void count_edges(const Mesh& mesh, MeshReport& r) {
   const auto opposite = mesh.opposite();
   const auto lengths = mesh.lengths();
   double sum = 0;
+  std::vector<bool> met(mesh.halfedge_count(), false);  // in the ring of an edge that is already counted
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (!mesh.is_face_usable(Mesh::face_of(h))) continue;
-    Index faces = 1, lowest = h;
-    for (Index g = opposite[h]; g != h; g = opposite[g]) {
+    if (met[h] || !mesh.is_face_usable(Mesh::face_of(h))) continue;
+    Index faces = 0;
+    for (Index g = h; !met[g]; g = opposite[g]) {
+      met[g] = true;
       ++faces;
-      lowest = std::min(lowest, g);
     }
-    if (lowest != h) continue;
     ++r.edges;
     sum += lengths[h];
     r.zero_length_edges += lengths[h] == 0;
