@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -87,7 +88,7 @@ TEST_F(Program, VersionIsOneLine) {
 }
 
 TEST_F(Program, HelpOfEveryVerbHasExamplesAndFitsTheTerminal) {
-  for (const char* verb : {"info", "distance", "compare", "shape", "completion"}) {
+  for (const char* verb : {"info", "distance", "matrix", "compare", "shape", "completion"}) {
     const Ended ended = run_program({verb, "--help"});
     EXPECT_EQ(ended.code, 0);
     EXPECT_NE(ended.out.find("Examples:\n"), std::string::npos) << verb;
@@ -156,12 +157,62 @@ TEST_F(Program, DistanceJsonHasStableKeys) {
   const Ended ended =
       run_program({"distance", path("square.off"), "--source", "0", "--target", "2", "--json", "-m", "dijkstra"});
   EXPECT_EQ(ended.code, 0);
-  EXPECT_EQ(keys_of(ended.out),
-            (std::vector<std::string>{
-                "schema",        "brushfire",       "file",         "method",          "precision", "tolerance",
-                "vertices",      "faces",           "sources",      "radius",          "reached",   "unreachable",
-                "beyond_radius", "max_error_bound", "max_distance", "farthest_vertex", "updates",   "read_s",
-                "set_up_s",      "solve_s",         "targets",      "output"}));
+  EXPECT_EQ(
+      keys_of(ended.out),
+      (std::vector<std::string>{"schema",       "brushfire",       "file",        "method",        "precision",
+                                "tolerance",    "bound",           "vertices",    "faces",         "sources",
+                                "radius",       "reached",         "unreachable", "beyond_radius", "max_error_bound",
+                                "max_distance", "farthest_vertex", "updates",     "read_s",        "set_up_s",
+                                "solve_s",      "targets",         "output"}));
+}
+
+// The number of a key of the outermost object; NaN where it is none.
+double number_of(const std::string& json, const std::string& key) {
+  std::smatch match;
+  const std::regex pattern("\n  \"" + key + "\": ([-+0-9.e]+)");
+  return std::regex_search(json, match, pattern) ? std::stod(match[1]) : std::nan("");
+}
+
+TEST_F(Program, AToleranceIsKeptAndItsProofIsReported) {
+  run_program({"shape", "folded-sphere", "-n", "2000", "-o", path("mesh.ply"), "-q"});
+  run_program({"distance", path("mesh.ply"), "-s", "0", "-m", "exact", "-o", path("exact.npy"), "-q"});
+  for (const auto& [level, tolerance] : {std::pair{"draft", 1e-2}, {"standard", 1e-3}, {"fine", 1e-5}, {"exact", 0.}}) {
+    const Ended ended =
+        run_program({"distance", path("mesh.ply"), "-s", "0", "--accuracy", level, "-o", path("field.npy"), "--json"});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_NE(ended.out.find("\"method\": \"windows\""), std::string::npos) << ended.out;
+    EXPECT_EQ(number_of(ended.out, "tolerance"), tolerance) << ended.out;
+    EXPECT_LE(number_of(ended.out, "max_error_bound"), tolerance + 1e-11) << level;
+    const Ended compared = run_program({"compare", path("field.npy"), path("exact.npy"), "--json"});
+    EXPECT_LE(number_of(compared.out, "max_relative"), tolerance + 1e-11) << level;
+  }
+}
+
+TEST_F(Program, BoundsAreOnTheirSideOfTheTruth) {
+  run_program({"shape", "folded-sphere", "-n", "2000", "-o", path("mesh.ply"), "-q"});
+  const auto target = [&](const std::vector<std::string>& how) {
+    std::vector<std::string> arguments{"distance", path("mesh.ply"), "-s", "0", "-t", "1234"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    return std::stod(run_program(arguments).out);
+  };
+  const double truth = target({"-m", "exact"}), rounding = 1e-12 * truth;
+  EXPECT_LE(target({"--bound", "lower", "--tolerance", "0.01"}), truth + rounding);
+  EXPECT_GE(target({"--bound", "upper", "--tolerance", "0.01"}), truth - rounding);
+}
+
+TEST_F(Program, AToleranceThatNobodyKeepsIsAUsageError) {
+  const auto expect = [&](std::vector<std::string> options, const std::string& line) {
+    options.insert(options.begin(), {"distance", path("missing.off"), "-s", "0"});
+    expect_error(options, 2, line);
+  };
+  expect({"--tolerance", "1e-3", "-m", "dijkstra"},
+         "brushfire: --tolerance: dijkstra has no tolerance to set; --method windows has");
+  expect({"--bound", "upper", "-m", "exact"},
+         "brushfire: --bound: exact has no tolerance to set; --method windows has");
+  expect({"--tolerance", "0.2"}, "brushfire: --tolerance 0.2 is not in 0 to 0.1");
+  expect({"--tolerance", "nan"}, "brushfire: --tolerance nan is not in 0 to 0.1");
+  expect({"--tolerance", "0.01", "--accuracy", "fine"},
+         "brushfire: --tolerance and --accuracy say the same: give one of them");
 }
 
 TEST_F(Program, TargetsPrintOneDistancePerLine) {

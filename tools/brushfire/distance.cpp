@@ -1,4 +1,5 @@
 // brushfire distance: the distance of every vertex from the nearest source.
+#include "accuracy.h"
 #include "command_line.h"
 #include "interrupt.h"
 #include "output.h"
@@ -29,6 +30,8 @@ Examples:
   brushfire distance bunny.ply --sources landmarks.txt --radius 0.1 -o coloured.ply
   brushfire distance bunny.ply --source 0 --target 5000 --target f:120:.2,.3,.5
   brushfire distance bunny.ply --source 0 --method dijkstra --json
+  brushfire distance bunny.ply --source 0 --tolerance 1e-4 -o within-0.01-percent.npy
+  brushfire distance bunny.ply --source 0 --target 5000 --accuracy fine --bound upper
   brushfire distance bunny.ply --source 0 -o - | sort -t, -gk2 | tail -1
 
 The extension of -o decides: .ply (MeshLab; colours, and the distance as vertex quality), .vtk .vtp (ParaView), .obj
@@ -40,7 +43,7 @@ than all. Vertices that cannot be reached, or lie beyond the radius, read inf in
 struct Arguments {
   std::string file, sources_file, output;
   std::vector<std::string> sources, targets;
-  std::string method{name_of(DistanceOptions{}.method)};
+  Accuracy accuracy;
   std::string precision = "double";
   std::optional<double> radius;
 };
@@ -58,6 +61,7 @@ class Stopwatch {
 struct Run {
   Mesh mesh;
   std::vector<Source> sources;
+  DistanceOptions options;
   std::vector<Where> target_places;
   DistanceField field;
   double read_s = 0, set_up_s = 0, solve_s = 0;
@@ -113,11 +117,13 @@ std::int64_t count(std::uint64_t n) { return static_cast<std::int64_t>(n); }
 std::string json(const Arguments& arguments, const Run& run) {
   const DistanceField& field = run.field;
   const Index farthest = run.farthest();
+  const std::optional<double> tolerance = promised_error(run.options);
   Record record;
   record.add("file", arguments.file)
       .add("method", std::string(name_of(field.method)))
       .add("precision", arguments.precision)
-      .add("tolerance", nullptr)
+      .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
+      .add("bound", field.method == Method::Windows ? Record::Value(name_of(run.options.bound)) : nullptr)
       .add("vertices", count(run.mesh.vertex_count()))
       .add("faces", count(run.mesh.face_count()))
       .add("sources", count(run.sources.size()))
@@ -157,6 +163,10 @@ std::string in_words(const Arguments& arguments, const Run& run) {
   if (const Index v = run.farthest(); v != kNoIndex) {
     text += "farthest: vertex " + std::to_string(v) + " at " + readable(field.distance[v]) + "\n";
   }
+  if (field.method == Method::Windows) {
+    text += "no distance is wrong by more than " + readable(100 * field.max_error_bound) +
+            " % (proven; asked for: " + readable(100 * run.options.tolerance) + " %)\n";
+  }
   text += "read in " + duration(run.read_s) + ", set up in " + duration(run.set_up_s) + ", solved in " +
           duration(run.solve_s);
   return text;
@@ -166,6 +176,8 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   // What can be wrong without the mesh is said before a large file is read.
   check(arguments, talk);
   Run run;
+  DistanceOptions& options = run.options;
+  apply(arguments.accuracy, options);
   const std::vector<Where> source_places = parse_sources(arguments);
   run.target_places = parse_targets(arguments);
 
@@ -181,8 +193,6 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   };
   for (const Where& w : source_places) run.sources.push_back({resolve(w, run.mesh, snap), w.offset});
 
-  DistanceOptions options;
-  options.method = method_named(arguments.method);
   options.precision = arguments.precision == "float" ? Precision::Float : Precision::Double;
   options.max_distance = arguments.radius.value_or(kInfinity);
   options.cancel = &cancel_token();
@@ -224,14 +234,12 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
 
 void add_distance(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
-  std::vector<std::string> methods;
-  for (const Method m : all_methods()) methods.emplace_back(name_of(m));
   command_line.add("distance", "Distance of every vertex from the nearest source", [&](Verb& verb) {
     verb.argument("FILE", arguments->file, "The mesh: PLY, OBJ, OFF; - reads standard input");
     verb.option("-s,--source", arguments->sources, "WHERE", "A source; may be repeated");
     verb.option("--sources", arguments->sources_file, "LIST", "File of sources, one per line, # comments");
     verb.option("-t,--target", arguments->targets, "WHERE", "Print the distance of this point; may be repeated");
-    verb.choice("-m,--method", arguments->method, methods, "How to compute");
+    add_accuracy(verb, arguments->accuracy);
     verb.choice("--precision", arguments->precision, {"double", "float"}, "Arithmetic of the marching methods");
     verb.option("-r,--radius", arguments->radius, "R", "Stop at this distance; what is farther reads inf");
     verb.option("-o,--output", arguments->output, "FILE", "Write the field: .ply .vtk .npy .csv ...; - prints CSV");

@@ -1,4 +1,5 @@
 // brushfire matrix: distances from many places to many places.
+#include "accuracy.h"
 #include "command_line.h"
 #include "interrupt.h"
 #include "where.h"
@@ -33,7 +34,7 @@ Examples:
 struct Arguments {
   std::string file, output;
   std::string rows = "all", columns = "all";
-  std::string method{name_of(DistanceOptions{}.method)};
+  Accuracy accuracy;
   std::string type = "float32";
   std::optional<double> radius, threads;
 };
@@ -116,7 +117,7 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
   check(arguments);
   MatrixOptions options;
   options.threads = threads_of(arguments);
-  options.distance.method = method_named(arguments.method);
+  apply(arguments.accuracy, options.distance);
   options.distance.max_distance = arguments.radius.value_or(kInfinity);
   options.distance.cancel = &cancel_token();
   options.distance.progress = talk.progress("matrix");
@@ -143,10 +144,12 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
   const double solve_s = seconds_since(start);
   talk.end_progress();
 
+  const std::optional<double> tolerance = promised_error(options.distance);
   if (talk.json) {
     write_stdout(Record()
                      .add("file", arguments.file)
-                     .add("method", arguments.method)
+                     .add("method", std::string(name_of(options.distance.method)))
+                     .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
                      .add("vertices", std::int64_t{mesh.vertex_count()})
                      .add("rows", static_cast<std::int64_t>(row_count))
                      .add("columns", static_cast<std::int64_t>(column_count))
@@ -167,15 +170,13 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
 
 void add_matrix(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
-  std::vector<std::string> methods;
-  for (const Method m : all_methods()) methods.emplace_back(name_of(m));
   command_line.add("matrix", "Distances from many places to many places", [&](Verb& verb) {
     verb.argument("FILE", arguments->file, "The mesh; - reads standard input");
     verb.option("--rows", arguments->rows, "PLACES", "all, a list of vertices, or a file with one place per line");
     verb.option("--cols", arguments->columns, "PLACES", "The same for the columns");
     verb.option("-r,--radius", arguments->radius, "R",
                 "Stop at this distance; what is farther reads inf or is left out");
-    verb.choice("-m,--method", arguments->method, methods, "How to compute");
+    add_accuracy(verb, arguments->accuracy);
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
     verb.option("--threads", arguments->threads, "N", "How many threads; one per processor if not given");
     verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy, with --radius also .npz .mtx");
