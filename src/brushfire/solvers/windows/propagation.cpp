@@ -32,6 +32,8 @@ constexpr double kSeen = 1e-10;
 constexpr double kNear = 1e-3;
 // The part of a tolerance that is kept back for rounding, so that the promise holds to the letter.
 constexpr double kRounding = 4e-12;
+// What adding the source's offset rounds away.
+constexpr double kOffsetRounding = 8 * std::numeric_limits<double>::epsilon();
 // The relative error of exact runs, measured to be 1e-13 at most.
 constexpr double kExactBound = 1e-12;
 
@@ -495,10 +497,11 @@ class WindowEngine final : public Engine {
     double value, bound, relative;
   };
   Reading read(double lower, double upper, double estimate, Index label) const {
+    const double of_offset = kOffsetRounding * std::abs(start_of(label));
     if (!merges()) {
       const double value = std::min(lower, upper);  // they differ by rounding
       const double length = value - start_of(label);
-      return {value, kExactBound * length, kExactBound};
+      return {value, kExactBound * length + of_offset, kExactBound};
     }
     lower = std::min(lower, upper);
     const double length = lower - start_of(label), rounding = kRounding * length;
@@ -518,7 +521,7 @@ class WindowEngine final : public Engine {
       }
     }
     const double bound = std::max(value - lower, upper - value) + rounding;
-    return {value, bound, length > 0 ? bound / length : 0};
+    return {value, bound + of_offset, length > 0 ? bound / length : 0};
   }
 
   // What paths and points inside of faces need later.
