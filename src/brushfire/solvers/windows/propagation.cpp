@@ -37,11 +37,16 @@ constexpr double kOffsetRounding = 8 * std::numeric_limits<double>::epsilon();
 // The relative error of exact runs, measured to be 1e-13 at most.
 constexpr double kExactBound = 1e-12;
 
+// What every window that passes a vertex reads.
+struct alignas(32) VertexValues {
+  double upper = kInfinity;     // length of the shortest real path known
+  double lower = kInfinity;     // least value of the windows that see the vertex, after merging
+  double seen = kInfinity;      // the same before merging
+  double estimate = kInfinity;  // what the window that gave `seen` expects the distance to be
+};
+
 struct VertexState {
-  double lower = kInfinity;    // least value of the windows that see the vertex, after merging
   double emitted = kInfinity;  // the value with which it last sent light on
-  double seen = kInfinity;     // least value of the windows that see the vertex, before merging
-  double estimate = kInfinity;
   Ray ray;
   Index label = kNoIndex;
   bool all_around = false;  // sends light in all directions, whatever its faces are like
@@ -64,7 +69,7 @@ class WindowEngine final : public Engine {
  public:
   explicit WindowEngine(const Mesh& mesh) : structure_(mesh), lists_(mesh.halfedge_count()) {
     if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
-    upper_.assign(mesh.vertex_count(), kInfinity);
+    values_.resize(mesh.vertex_count());
     state_.resize(mesh.vertex_count());
   }
 
@@ -98,7 +103,7 @@ class WindowEngine final : public Engine {
 
   void clean() {
     for (const Index v : touched_) {
-      upper_[v] = kInfinity;
+      values_[v] = {};
       state_[v] = {};
     }
     touched_.clear();
@@ -114,8 +119,9 @@ class WindowEngine final : public Engine {
     for (Index i = 0; i < targets_.size(); ++i) {
       if (problem_->targets[i].on == PointLocation::On::Vertex) continue;
       for (const FaceWeights& f : faces_around(structure_.mesh, problem_->targets[i])) {
-        targets_in_faces_.push_back({f.face, i, f.weights});
-        structure_.faces[f.face].has_target = true;
+        const Index face = structure_.inner_face(f.face);
+        targets_in_faces_.push_back({face, i, f.weights});
+        structure_.faces[face].has_target = true;
       }
     }
     std::sort(targets_in_faces_.begin(), targets_in_faces_.end(), [](const TargetInFace& a, const TargetInFace& b) {
@@ -134,30 +140,36 @@ class WindowEngine final : public Engine {
   // ---- sources
 
   void start(const LocatedSource& s) {
-    const Index root = structure_.mesh.vertex_count() + s.label;
+    const Index root = structure_.vertex_count() + s.label;
     const double sigma = s.offset + shift_;
     if (s.at.on == PointLocation::On::Vertex) {
-      reach(s.at.vertex, sigma);
-      expect(s.at.vertex, sigma, 0);
-      offer(s.at.vertex, sigma, {{}, kNoIndex, root, WindowKind::Circular}, true);
+      const Index v = structure_.inner_vertex(s.at.vertex);
+      reach(v, sigma);
+      expect(v, sigma, 0);
+      offer(v, sigma, {{}, kNoIndex, root, WindowKind::Circular}, true);
       return;
     }
-    for (const FaceWeights& f : faces_around(structure_.mesh, s.at)) start_in_face(f, sigma, root);
+    for (const FaceWeights& f : faces_around(structure_.mesh, s.at)) {
+      start_in_face({structure_.inner_face(f.face), f.weights}, sigma, root);
+    }
+  }
+
+  std::array<double, 3> corner_distances_of(const FaceWeights& at) const {
+    PointLocation here;
+    here.face = structure_.outer_face(at.face);
+    here.weights = at.weights;
+    return corner_distances(structure_.mesh, here);
   }
 
   // Straight to the corners, and through the edges that the source does not lie on.
   void start_in_face(const FaceWeights& at, double sigma, Index root) {
     const WindowFace& f = structure_.faces[at.face];
-    PointLocation here;
-    here.face = at.face;
-    here.weights = at.weights;
-    const std::array<double, 3> distance = corner_distances(structure_.mesh, here);
+    const std::array<double, 3> distance = corner_distances_of(at);
     const double longest = std::max({f.length[0], f.length[1], f.length[2]});
-    const bool usable = structure_.mesh.is_face_usable(at.face);
     for (Index k = 0; k < 3; ++k) {
       const Index h = 3 * at.face + next3(k);  // opposite of corner k
       Ray ray{{}, kNoIndex, root, WindowKind::Circular};
-      if (usable && f.length[next3(k)] > 0) {
+      if (f.usable && f.length[next3(k)] > 0) {
         ray.halfedge = h;
         ray.source = in_frame(frame_of(f, next3(k)), next3(k), at.weights);
       }
@@ -197,15 +209,40 @@ class WindowEngine final : public Engine {
       if (++field_->updates % kPoll == 0) {
         if (options.cancel && options.cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
         if (options.progress && field_->updates % (64 * kPoll) == 0) {
-          options.progress(static_cast<double>(touched_.size()) / structure_.mesh.vertex_count());
+          options.progress(static_cast<double>(touched_.size()) / structure_.vertex_count());
         }
       }
       if (field_->updates >= next_target_check_) narrow_radius();
       const EventQueue::Event event = queue_.pop();
+      prefetch_next();
       if (event.is_list) {
         if (!lists_.empty(event.index)) spread(event.index);
-      } else if (state_[event.index].lower < state_[event.index].emitted) {
+      } else if (values_[event.index].lower < state_[event.index].emitted) {
         shine(event.index);
+      }
+    }
+  }
+
+  // What the next lists will read: their faces first, then their windows and the faces beyond, then the vertices there.
+  void prefetch_next() const {
+    const Index third = queue_.peek_list(5), second = queue_.peek_list(2), first = queue_.peek_list(1);
+    if (third != kNoIndex) {
+      prefetch(&structure_.faces[third / 3]);
+      lists_.prefetch_head(third);
+    }
+    if (second != kNoIndex) {
+      const WindowFace& f = structure_.faces[second / 3];
+      lists_.prefetch_list(second);
+      for (const Index k : {next3(second % 3), previous3(second % 3)}) {
+        prefetch(&structure_.faces[f.opposite[k] / 3]);
+        lists_.prefetch_head(f.opposite[k]);
+      }
+    }
+    if (first != kNoIndex) {
+      const WindowFace& f = structure_.faces[first / 3];
+      for (const Index k : {next3(first % 3), previous3(first % 3)}) {
+        const Index g = f.opposite[k];
+        prefetch(&values_[structure_.faces[g / 3].vertex[previous3(g % 3)]]);
       }
     }
   }
@@ -216,7 +253,8 @@ class WindowEngine final : public Engine {
     double farthest = 0;
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       const PointLocation& at = problem_->targets[i];
-      farthest = std::max(farthest, at.on == PointLocation::On::Vertex ? upper_[at.vertex] : targets_[i].upper);
+      const bool vertex = at.on == PointLocation::On::Vertex;
+      farthest = std::max(farthest, vertex ? values_[structure_.inner_vertex(at.vertex)].upper : targets_[i].upper);
     }
     radius_ = std::min(radius_, farthest / kDominated);
   }
@@ -224,24 +262,24 @@ class WindowEngine final : public Engine {
   // ---- values of vertices and targets
 
   void touch(Index v) {
-    if (upper_[v] == kInfinity) touched_.push_back(v);
+    if (values_[v].upper == kInfinity) touched_.push_back(v);
   }
 
   // A real path of this length leads to v.
   void reach(Index v, double length) {
-    if (!(length < upper_[v])) return;
+    if (!(length < values_[v].upper)) return;
     touch(v);
-    upper_[v] = length;
+    values_[v].upper = length;
   }
 
   Index label_of(Index root) const {
-    const Index n = structure_.mesh.vertex_count();
+    const Index n = structure_.vertex_count();
     return root >= n ? root - n : state_[root].label;
   }
 
   // A window that is about to be merged with others sees v: what it expects the distance to be.
   void expect(Index v, double value, double lift) {
-    VertexState& s = state_[v];
+    VertexValues& s = values_[v];
     if (!(value < s.seen)) return;
     touch(v);
     s.seen = value;
@@ -250,11 +288,13 @@ class WindowEngine final : public Engine {
 
   // A window or a source sees v. Where paths may bend, light will go on from there.
   void offer(Index v, double value, const Ray& ray, bool all_around) {
+    double& least = values_[v].lower;
+    if (value > least) return;
     VertexState& s = state_[v];
-    if (value > s.lower || (value == s.lower && label_of(ray.root) >= s.label)) return;
+    const bool lower = value < least;
+    if (!lower && label_of(ray.root) >= s.label) return;
     touch(v);
-    const bool lower = value < s.lower;
-    s.lower = value;
+    least = value;
     s.ray = ray;
     s.label = label_of(ray.root);
     s.all_around = all_around;
@@ -275,8 +315,8 @@ class WindowEngine final : public Engine {
   bool is_dominated(const WindowFace& f, Index k, const Window& w) const {
     // Xin and Wang 2009: a path through either end of the edge is shorter at the far end of the window, hence
     // (the path along the edge grows fastest) everywhere in it.
-    return upper_[f.vertex[k]] + w.b1 < w.d1 * kDominated ||
-           upper_[f.vertex[next3(k)]] + (f.length[k] - w.b0) < w.d0 * kDominated;
+    return values_[f.vertex[k]].upper + w.b1 < w.d1 * kDominated ||
+           values_[f.vertex[next3(k)]].upper + (f.length[k] - w.b0) < w.d0 * kDominated;
   }
 
   // A window leaves a face over its halfedge h; it is described from beyond, from the end of h to its start.
@@ -318,6 +358,11 @@ class WindowEngine final : public Engine {
   void spread(Index h) {
     const WindowFace& f = structure_.faces[h / 3];
     const Index k = h % 3;
+    Window single;
+    if (lists_.take_single(h, single)) {
+      if (!(least_value(single) > radius_) && !is_dominated(f, k, single)) pass(h, frame_of(f, k), single);
+      return;
+    }
     taken_.clear();
     lists_.take(h, taken_);
     taken_.erase(std::remove_if(taken_.begin(), taken_.end(),
@@ -370,7 +415,7 @@ class WindowEngine final : public Engine {
         offer_target(t.target, there.value, w.slack, w.lift, ray);
       });
     }
-    if (problem_->options->keep_windows) kept_.push_back({h, w});
+    if (problem_->options->keep_windows) kept_.push_back({structure_.outer_halfedge(h), w});
     if (frame.apex.y == 0 && w.source.y == 0) return pass_along(h, frame, w);
     const Children children = propagate(w, frame, straight_value(w, frame.apex));
     if (children.has_left) cross_edge(3 * (h / 3) + previous3(h % 3), children.left);
@@ -399,10 +444,12 @@ class WindowEngine final : public Engine {
   // Light goes on from v: into its shadow, or everywhere.
   void shine(Index v) {
     VertexState& s = state_[v];
-    s.emitted = s.lower;
-    if (s.lower > radius_) return;
+    s.emitted = values_[v].lower;
+    if (s.emitted > radius_) return;
     if (s.all_around || structure_.bend[v] == Bend::Full || s.ray.halfedge == kNoIndex) {
-      for (const Index corner : structure_.mesh.corners(v)) shine_through(v, corner);
+      for (const Index corner : structure_.mesh.corners(structure_.outer_vertex(v))) {
+        shine_through(v, structure_.inner_halfedge(corner));
+      }
       return;
     }
     for_each_shadow(structure_, v, s.ray, [&](const Sector& sector) { shine_into(v, sector); });
@@ -411,22 +458,22 @@ class WindowEngine final : public Engine {
   void shine_through(Index v, Index corner) {
     const Index face = corner / 3, i = corner % 3;
     const WindowFace& f = structure_.faces[face];
-    if (structure_.mesh.is_face_usable(face)) {
+    if (f.usable) {
       const double angle = angle_at(f, i);
       shine_into(v, {face, i, 0, angle, angle});
       return;
     }
     for (const Index j : {next3(i), previous3(i)}) {
       if (f.vertex[j] == v) continue;
-      const double value = state_[v].lower + f.length[j == next3(i) ? i : j];
+      const double value = values_[v].lower + f.length[j == next3(i) ? i : j];
       reach(f.vertex[j], value + slack_of(v));
       expect(f.vertex[j], value, lift_of(v));
       offer(f.vertex[j], value, {{}, kNoIndex, v, WindowKind::Circular}, false);
     }
   }
 
-  double slack_of(Index v) const { return std::max(0.0, upper_[v] - state_[v].lower); }
-  double lift_of(Index v) const { return std::clamp(state_[v].estimate - state_[v].lower, 0.0, slack_of(v)); }
+  double slack_of(Index v) const { return std::max(0.0, values_[v].upper - values_[v].lower); }
+  double lift_of(Index v) const { return std::clamp(values_[v].estimate - values_[v].lower, 0.0, slack_of(v)); }
 
   // Along the sector's edges to their ends, and through its face.
   void shine_into(Index v, const Sector& sector) {
@@ -435,7 +482,7 @@ class WindowEngine final : public Engine {
     if (sector.from <= 0) shine_along(v, sector.face, near, f.length[i]);
     if (sector.to >= sector.angle) shine_along(v, sector.face, far, f.length[far]);
     if (!(f.length[near] > 0)) return;
-    Window w = window_of(f, sector, state_[v].lower);
+    Window w = window_of(f, sector, values_[v].lower);
     w.slack = slack_of(v);
     w.lift = static_cast<float>(lift_of(v));
     w.root = v;
@@ -447,7 +494,7 @@ class WindowEngine final : public Engine {
     const WindowFace& f = structure_.faces[face];
     const Index opposite = next3(j);  // the halfedge opposite of corner j; v is one of its ends
     const double x = f.vertex[opposite] == v ? 0 : f.length[opposite];
-    const double value = state_[v].lower + length;
+    const double value = values_[v].lower + length;
     reach(f.vertex[j], value + slack_of(v));
     expect(f.vertex[j], value, lift_of(v));
     const bool framed = f.length[opposite] > 0;
@@ -460,33 +507,32 @@ class WindowEngine final : public Engine {
     finish_targets();
     finish_labels();
     const bool bounded = !problem_->touched;
-    if (bounded) field_->error_bound.assign(structure_.mesh.vertex_count(), kInfinity);
+    if (bounded) field_->error_bound.assign(structure_.vertex_count(), kInfinity);
     field_->max_error_bound = 0;
     const bool narrowed = radius_ < problem_->max_distance + shift_;
     for (const Index v : touched_) {
-      if (problem_->touched) problem_->touched->push_back(v);
-      const VertexState& s = state_[v];
+      const Index outer = structure_.outer_vertex(v);
+      if (problem_->touched) problem_->touched->push_back(outer);
+      const VertexValues& s = values_[v];
+      const Index label = state_[v].label;
       // Seen by no window yet, or not final when the run stopped.
       if (s.lower == kInfinity || (narrowed && s.lower > radius_)) {
         ++field_->beyond_radius;
         continue;
       }
-      const Reading r = read(s.lower, upper_[v], s.estimate, s.label);
-      field_->distance[v] = r.value - shift_;
-      field_->source[v] = s.label;
-      if (bounded) field_->error_bound[v] = r.bound;
+      const Reading r = read(s.lower, s.upper, s.estimate, label);
+      field_->distance[outer] = r.value - shift_;
+      field_->source[outer] = label;
+      if (bounded) field_->error_bound[outer] = r.bound;
       if (r.value <= radius_) field_->max_error_bound = std::max(field_->max_error_bound, r.relative);
     }
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       const PointLocation& at = problem_->targets[i];
-      const bool vertex = at.on == PointLocation::On::Vertex;
-      const VertexState& s = state_[vertex ? at.vertex : 0];
+      if (at.on == PointLocation::On::Vertex) continue;  // read off the field
       const TargetState& t = targets_[i];
-      const double lower = vertex ? s.lower : t.lower, upper = vertex ? upper_[at.vertex] : t.upper;
-      if (upper == kInfinity) continue;
-      field_->target_source[i] = vertex ? s.label : label_of(t.ray.root);
-      field_->target_distance[i] =
-          read(lower, upper, vertex ? s.estimate : t.estimate, field_->target_source[i]).value - shift_;
+      if (t.upper == kInfinity) continue;
+      field_->target_source[i] = label_of(t.ray.root);
+      field_->target_distance[i] = read(t.lower, t.upper, t.estimate, field_->target_source[i]).value - shift_;
     }
     if (problem_->options->keep_paths || problem_->options->keep_windows) keep();
   }
@@ -524,6 +570,14 @@ class WindowEngine final : public Engine {
     return {value, bound + of_offset, length > 0 ? bound / length : 0};
   }
 
+  // With the mesh's own numbers.
+  Index outer_root(Index root) const { return root < structure_.vertex_count() ? structure_.outer_vertex(root) : root; }
+  Ray outer(Ray ray) const {
+    if (ray.halfedge != kNoIndex) ray.halfedge = structure_.outer_halfedge(ray.halfedge);
+    if (ray.root != kNoIndex) ray.root = outer_root(ray.root);
+    return ray;
+  }
+
   // What paths and points inside of faces need later.
   void keep() {
     const Mesh& mesh = structure_.mesh;
@@ -535,11 +589,12 @@ class WindowEngine final : public Engine {
     if (radius_ < kInfinity) unknown.value = std::numeric_limits<double>::quiet_NaN();
     data->vertices.assign(mesh.vertex_count(), unknown);
     for (const Index v : touched_) {
-      if (state_[v].lower <= radius_) data->vertices[v] = {state_[v].lower, state_[v].label, state_[v].ray};
+      if (values_[v].lower > radius_) continue;
+      data->vertices[structure_.outer_vertex(v)] = {values_[v].lower, state_[v].label, outer(state_[v].ray)};
     }
     data->targets.assign(problem_->targets.begin(), problem_->targets.end());
     for (const TargetState& t : targets_) {
-      data->target.push_back({t.lower, t.lower < kInfinity ? label_of(t.ray.root) : kNoIndex, t.ray});
+      data->target.push_back({t.lower, t.lower < kInfinity ? label_of(t.ray.root) : kNoIndex, outer(t.ray)});
     }
     data->exact = !merges();
     data->all_points = problem_->options->keep_windows;
@@ -549,7 +604,11 @@ class WindowEngine final : public Engine {
       for (std::size_t h = 0; h < mesh.halfedge_count(); ++h) data->first_kept[h + 1] += data->first_kept[h];
       std::vector<std::size_t> fill(data->first_kept.begin(), data->first_kept.end() - 1);
       data->kept.resize(kept_.size());
-      for (const KeptWindow& k : kept_) data->kept[fill[k.halfedge]++] = k.window;
+      for (const KeptWindow& k : kept_) {
+        Window& w = data->kept[fill[k.halfedge]++];
+        w = k.window;
+        w.root = outer_root(w.root);
+      }
     }
     field_->windows = std::make_shared<WindowField>(std::move(data));
   }
@@ -557,14 +616,11 @@ class WindowEngine final : public Engine {
   // Around the corners of a target's face.
   void finish_targets() {
     for (const TargetInFace& t : targets_in_faces_) {
-      PointLocation here;
-      here.face = t.face;
-      here.weights = t.weights;
-      const std::array<double, 3> d = corner_distances(structure_.mesh, here);
+      const std::array<double, 3> d = corner_distances_of({t.face, t.weights});
       for (Index k = 0; k < 3; ++k) {
         const Index v = structure_.faces[t.face].vertex[k];
-        if (upper_[v] == kInfinity) continue;
-        offer_target(t.target, state_[v].lower + d[k], slack_of(v), lift_of(v),
+        if (values_[v].upper == kInfinity) continue;
+        offer_target(t.target, values_[v].lower + d[k], slack_of(v), lift_of(v),
                      {{}, kNoIndex, v, WindowKind::Circular});
       }
     }
@@ -573,7 +629,7 @@ class WindowEngine final : public Engine {
   // A vertex belongs to the source to which its chain of roots leads; with ties, roots may have changed hands since.
   void finish_labels() {
     if (problem_->sources.size() == 1) return;
-    const Index n = structure_.mesh.vertex_count();
+    const Index n = structure_.vertex_count();
     for (const Index start : touched_) {
       chain_.clear();
       Index v = start;
@@ -591,9 +647,9 @@ class WindowEngine final : public Engine {
   EventQueue queue_;
   Envelope envelope_;
   WindowMemory memory_;
-  std::vector<double> upper_;       // [vertex_count] length of the shortest real path known
-  std::vector<VertexState> state_;  // [vertex_count]
-  std::vector<Index> touched_;      // vertices whose entries have changed
+  std::vector<VertexValues> values_;  // [vertex_count]
+  std::vector<VertexState> state_;    // [vertex_count]
+  std::vector<Index> touched_;        // vertices whose entries have changed
   std::vector<Window> taken_;
   std::vector<KeptWindow> kept_;
   std::vector<TargetInFace> targets_in_faces_;  // by face

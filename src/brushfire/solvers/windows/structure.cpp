@@ -36,32 +36,35 @@ double angle_at(const WindowFace& f, Index i) {
   return std::atan2(f.double_area, 0.5 * (a * a + (b - c) * (b + c)));
 }
 
-WindowStructure::WindowStructure(const Mesh& m) : mesh(m) {
+WindowStructure::WindowStructure(const Mesh& m) : mesh(m), order(locality_order(m)) {
   const auto lengths = mesh.lengths();
   const auto opposite = mesh.opposite();
   const auto links = mesh.links();
   const Index n = mesh.vertex_count();
+  face_rank.resize(mesh.face_count());
+  for (Index f = 0; f < mesh.face_count(); ++f) face_rank[order.faces[f]] = f;
   faces.resize(mesh.face_count());
   total_angle.assign(n, 0);
   bend.assign(n, Bend::None);
   std::vector<double> shortest(n, kInfinity), longest(n, 0);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    WindowFace& face = faces[f];
+  for (Index inner = 0; inner < mesh.face_count(); ++inner) {
+    const Index f = order.faces[inner];
+    WindowFace& face = faces[inner];
     face.double_area = mesh.double_areas()[f];
-    const bool usable = mesh.is_face_usable(f);
+    face.usable = mesh.is_face_usable(f);
     const double base = std::max({lengths[3 * f], lengths[3 * f + 1], lengths[3 * f + 2]});
     face.thin = face.double_area <= kThin * base * base;
     for (Index k = 0; k < 3; ++k) {
       const Index h = 3 * f + k;
       face.length[k] = lengths[h];
-      face.vertex[k] = mesh.faces()[f][k];
-      face.opposite[k] = opposite[h];
-      face.beyond[k] = usable ? beyond(mesh, h) : Beyond::Nothing;
+      face.vertex[k] = inner_vertex(mesh.faces()[f][k]);
+      face.opposite[k] = inner_halfedge(opposite[h]);
+      face.beyond[k] = face.usable ? beyond(mesh, h) : Beyond::Nothing;
     }
     for (Index k = 0; k < 3; ++k) {
       const Index v = face.vertex[k];
       // No area, no angle: light goes everywhere from there.
-      if (!usable || !(face.double_area > 0)) {
+      if (!face.usable || !(face.double_area > 0)) {
         bend[v] = Bend::Full;
         continue;
       }
@@ -71,10 +74,11 @@ WindowStructure::WindowStructure(const Mesh& m) : mesh(m) {
     }
   }
   for (Index v = 0; v < n; ++v) {
-    if (links[v] == Link::Other || longest[v] > kUnevenEdges * shortest[v]) bend[v] = Bend::Full;
+    const Link link = links[outer_vertex(v)];
+    if (link == Link::Other || longest[v] > kUnevenEdges * shortest[v]) bend[v] = Bend::Full;
     if (bend[v] == Bend::Full) continue;
-    if (links[v] == Link::Circle && total_angle[v] > 2 * kPi + kFlat) bend[v] = Bend::Saddle;
-    if (links[v] == Link::Arc && total_angle[v] > kPi + kFlat) bend[v] = Bend::Boundary;
+    if (link == Link::Circle && total_angle[v] > 2 * kPi + kFlat) bend[v] = Bend::Saddle;
+    if (link == Link::Arc && total_angle[v] > kPi + kFlat) bend[v] = Bend::Boundary;
   }
   for (WindowFace& face : faces) {
     for (Index k = 0; k < 3; ++k) {

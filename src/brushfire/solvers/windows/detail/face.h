@@ -25,6 +25,7 @@ struct alignas(64) WindowFace {
   Index opposite[3];       // of halfedge k
   Beyond beyond[3];        // of halfedge k
   std::uint8_t bends = 0;  // bit k: paths may bend at vertex[k]
+  bool usable = true;      // three distinct vertices
   bool has_target = false;
   bool thin = false;  // so low that light may go round through its neighbours for next to nothing: see WindowMemory
 };

@@ -1,6 +1,7 @@
 // The windows that wait on each halfedge: linked lists in one pool.
 #pragma once
 
+#include <brushfire/solvers/windows/detail/prefetch.h>
 #include <brushfire/solvers/windows/detail/window.h>
 
 #include <vector>
@@ -40,6 +41,26 @@ class WindowLists {
       free_ = slot;
       slot = next;
     }
+  }
+
+  // The only window of h, if there is exactly one: moves it to `out`.
+  bool take_single(Index h, Window& out) {
+    const Index slot = first_[h];
+    if (pool_[slot].next != kNoIndex) return false;
+    first_[h] = kNoIndex;
+    out = pool_[slot];
+    pool_[slot].next = free_;
+    free_ = slot;
+    return true;
+  }
+
+  // Brings into the cache what push() and take() will need.
+  void prefetch_head(Index h) const { prefetch(&first_[h]); }
+  void prefetch_list(Index h) const {
+    if (first_[h] == kNoIndex) return;
+    const char* window = reinterpret_cast<const char*>(&pool_[first_[h]]);
+    prefetch(window);
+    prefetch(window + 64);
   }
 
   // The most windows that ever waited at once.

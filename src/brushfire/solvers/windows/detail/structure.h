@@ -1,6 +1,7 @@
 // What a run needs to know of the mesh: face records, and at which vertices paths may bend.
 #pragma once
 
+#include <brushfire/mesh/locality_order.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/windows/detail/face.h>
 
@@ -14,10 +15,22 @@ namespace brushfire::detail {
 // not known well enough.
 enum class Bend : std::uint8_t { None, Saddle, Boundary, Full };
 
+// Vertices and faces are renumbered so that neighbours are near each other in memory; corners keep their places in
+// their faces. "Inner" numbers are used everywhere in a run, the mesh's own only to and from the caller.
 struct WindowStructure {
   explicit WindowStructure(const Mesh& mesh);
 
-  Mesh mesh;
+  Index vertex_count() const { return static_cast<Index>(bend.size()); }
+  Index inner_vertex(Index v) const { return order.vertex_rank[v]; }
+  Index outer_vertex(Index v) const { return order.vertices[v]; }
+  Index inner_face(Index f) const { return face_rank[f]; }
+  Index outer_face(Index f) const { return order.faces[f]; }
+  Index inner_halfedge(Index h) const { return 3 * face_rank[h / 3] + h % 3; }
+  Index outer_halfedge(Index h) const { return 3 * order.faces[h / 3] + h % 3; }
+
+  Mesh mesh;  // the caller's
+  LocalityOrder order;
+  std::vector<Index> face_rank;     // [face_count] mesh's number to inner
   std::vector<WindowFace> faces;    // [face_count]
   std::vector<Bend> bend;           // [vertex_count]
   std::vector<double> total_angle;  // [vertex_count]
