@@ -1,0 +1,84 @@
+// Shortest paths between random points of meshes, judged by coordinates and against the distance field.
+//
+//   check_paths PAIRS MESH ...     one row per mesh; exit code 1 where a path is judged bad
+#include <brushfire/core/error.h>
+#include <brushfire/io/read_mesh.h>
+#include <brushfire/queries/path.h>
+
+#include "support/path_checker.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+
+namespace {
+
+using namespace brushfire;
+
+double uniform(std::mt19937& random) { return (static_cast<double>(random() % 1000000) + 0.5) / 1000000; }
+
+// A vertex, a point of an edge or a point inside a face.
+SurfacePoint any_point(const Mesh& mesh, std::mt19937& random) {
+  Index f = kNoIndex;
+  do {
+    f = static_cast<Index>(random() % mesh.face_count());
+  } while (!mesh.is_face_usable(f));
+  const double a = uniform(random), b = (1 - a) * uniform(random);
+  switch (random() % 3) {
+    case 0:
+      return {f, {1, 0, 0}};
+    case 1:
+      return {f, {a, 1 - a, 0}};
+    default:
+      return {f, {a, b, 1 - a - b}};
+  }
+}
+
+struct Row {
+  int reached = 0, bad = 0;
+  double off_field = 0, off_reverse = 0;  // largest relative difference
+  std::string first_complaint;
+};
+
+void check_pair(const Mesh& mesh, PathFinder& finder, DistanceSolver& solver, std::mt19937& random, Row& row) {
+  const SurfacePoint from = any_point(mesh, random), to = any_point(mesh, random);
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.targets = {to};
+  const Source source{from};
+  const double d = solver.distance(std::span(&source, 1), options).target_distance[0];
+  const SurfacePath path = finder.between(from, to);
+  std::string complaint = test::judge(mesh, path);
+  if (complaint.empty() && (d == kInfinity) != path.points.empty()) complaint = "reached by one, not by the other";
+  if (!complaint.empty() && row.bad++ == 0) row.first_complaint = complaint;
+  if (d == kInfinity || !(d > 0)) return;
+  ++row.reached;
+  row.off_field = std::max(row.off_field, std::abs(path.length - d) / d);
+  row.off_reverse = std::max(row.off_reverse, std::abs(finder.between(to, from).length - d) / d);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: check_paths PAIRS MESH ...\n");
+    return 2;
+  }
+  const int pairs = std::atoi(argv[1]);
+  int bad = 0;
+  std::printf("%-24s %8s %8s %8s %14s %14s\n", "mesh", "vertices", "reached", "bad", "|path-field|", "|reverse|");
+  for (int i = 2; i < argc; ++i) {
+    const Mesh mesh = read_mesh(argv[i]).mesh;
+    PathFinder finder(mesh);
+    DistanceSolver solver(mesh);
+    std::mt19937 random(1);
+    Row row;
+    for (int k = 0; k < pairs; ++k) check_pair(mesh, finder, solver, random, row);
+    std::printf("%-24s %8u %8d %8d %14.1e %14.1e %s\n", std::filesystem::path(argv[i]).stem().c_str(),
+                mesh.vertex_count(), row.reached, row.bad, row.off_field, row.off_reverse, row.first_complaint.c_str());
+    std::fflush(stdout);
+    bad += row.bad;
+  }
+  return bad == 0 ? 0 : 1;
+}

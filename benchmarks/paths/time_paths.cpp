@@ -1,0 +1,65 @@
+// What paths and isolines cost beside the field: reading a path off it, a near pair without it.
+//
+//   time_paths [LEVEL]     on folded spheres of 10 * 4^LEVEL + 2 vertices (default 8: 655362)
+#include <brushfire/mesh/shapes.h>
+#include <brushfire/queries/path.h>
+
+#include "measure.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+namespace {
+
+using namespace brushfire;
+
+double median(std::vector<double> x) {
+  std::nth_element(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2), x.end());
+  return x[x.size() / 2];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Index level = argc > 1 ? static_cast<Index>(std::atoi(argv[1])) : 8;
+  const Mesh mesh = shapes::folded_sphere(level).mesh();
+  DistanceSolver solver(mesh);
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_paths = true;
+  const Source source{vertex_point(mesh, 0)};
+  solver.distance(std::span(&source, 1), options);  // warm
+  double start = benchmark::cpu_seconds();
+  const DistanceField field = solver.distance(std::span(&source, 1), options);
+  const double field_s = benchmark::cpu_seconds() - start;
+  const double far = *std::max_element(field.distance.begin(), field.distance.end());
+
+  std::vector<double> path_s, points;
+  for (Index v = 1; v < mesh.vertex_count(); v += mesh.vertex_count() / 200) {
+    start = benchmark::cpu_seconds();
+    const SurfacePath path = path_to(*field.windows, vertex_point(mesh, v));
+    path_s.push_back(benchmark::cpu_seconds() - start);
+    points.push_back(static_cast<double>(path.points.size()));
+  }
+  std::printf("%u vertices, exact field %.3f s\n", mesh.vertex_count(), field_s);
+  std::printf("path off the field: median %.3f ms, largest %.3f ms, median %.0f points\n", 1e3 * median(path_s),
+              1e3 * *std::max_element(path_s.begin(), path_s.end()), median(points));
+
+  // Pairs at about a twentieth of the largest distance.
+  PathFinder finder(mesh);
+  finder.between(vertex_point(mesh, 0), vertex_point(mesh, 1));  // warm
+  std::vector<double> pair_s;
+  for (Index v = 1; v < mesh.vertex_count() && pair_s.size() < 50; v += 37) {
+    if (std::abs(field.distance[v] - 0.05 * far) > 0.002 * far) continue;
+    start = benchmark::cpu_seconds();
+    finder.between(vertex_point(mesh, 0), vertex_point(mesh, v));
+    pair_s.push_back(benchmark::cpu_seconds() - start);
+  }
+  if (!pair_s.empty()) {
+    std::printf("pair at 5 %% of the largest distance: median %.3f ms, %.0f times cheaper than the field\n",
+                1e3 * median(pair_s), field_s / median(pair_s));
+  }
+  return 0;
+}

@@ -1,0 +1,284 @@
+// Linear isolines of a finer mesh whose vertices have exact values, then every node moved onto its level.
+#include <brushfire/queries/curved_isolines.h>
+
+#include <brushfire/core/error.h>
+#include <brushfire/mesh/flat_face.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace brushfire {
+namespace {
+
+// Every face that a level may cross, cut into a fan around its middle, with its edges in kSamples parts: an arc that
+// dips through an edge and back is seen if it takes more than a part.
+constexpr Index kSamples = 8;
+
+// The finer mesh. It is only combinatorial: isolines() looks at values and connections, not at where vertices are.
+class FineMesh {
+ public:
+  explicit FineMesh(const WindowField& field) : field_(field), mesh_(field.mesh()) {}
+
+  void add_face(Index f) {
+    std::vector<Index> rim;
+    for (Index k = 0; k < 3; ++k) {
+      for (Index i = 0; i < kSamples; ++i) rim.push_back(on_edge(3 * f + k, i));
+    }
+    const Index middle = add_vertex({f, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      faces_.push_back({rim[i], rim[(i + 1) % rim.size()], middle});
+      parent_.push_back(f);
+    }
+  }
+
+  Mesh mesh() const { return Mesh(std::vector<Vec3>(origin_.size()), faces_); }
+  const std::vector<double>& values() const { return values_; }
+  const SurfacePoint& origin(Index v) const { return origin_[v]; }
+  Index parent(Index fine_face) const { return parent_[fine_face]; }
+  Face face(Index fine_face) const { return faces_[fine_face]; }
+
+ private:
+  Index add_vertex(const SurfacePoint& p) {
+    origin_.push_back(p);
+    values_.push_back(field_.value(p).distance);
+    return static_cast<Index>(origin_.size() - 1);
+  }
+
+  // Sample i along halfedge h: the same vertex from whichever face of the edge it is asked for.
+  Index on_edge(Index h, Index i) {
+    if (i == 0) return once({mesh_.from(h), mesh_.from(h), 0}, {h / 3, corner_weights(h, 0)});
+    const bool upward = mesh_.from(h) < mesh_.to(h);
+    const Index low = std::min(mesh_.from(h), mesh_.to(h)), high = std::max(mesh_.from(h), mesh_.to(h));
+    return once({low, high, upward ? i : kSamples - i}, {h / 3, corner_weights(h, static_cast<double>(i) / kSamples)});
+  }
+
+  static std::array<double, 3> corner_weights(Index h, double t) {
+    std::array<double, 3> w{0, 0, 0};
+    w[h % 3] = 1 - t;
+    w[Mesh::next(h) % 3] = t;
+    return w;
+  }
+
+  Index once(const std::array<Index, 3>& key, const SurfacePoint& p) {
+    const auto [at, is_new] = known_.try_emplace(key, 0);
+    if (is_new) at->second = add_vertex(p);
+    return at->second;
+  }
+
+  const WindowField& field_;
+  const Mesh& mesh_;
+  std::map<std::array<Index, 3>, Index> known_;  // edge (lower, higher vertex) and sample
+  std::vector<SurfacePoint> origin_;
+  std::vector<double> values_;
+  std::vector<Face> faces_;
+  std::vector<Index> parent_;
+};
+
+// A place in one face of the coarse mesh.
+struct Place {
+  Index face = kNoIndex;
+  std::array<double, 3> weights{0, 0, 0};
+};
+
+std::array<double, 3> between(const std::array<double, 3>& a, const std::array<double, 3>& b, double t) {
+  return {(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1], (1 - t) * a[2] + t * b[2]};
+}
+
+class CurveBuilder {
+ public:
+  CurveBuilder(const WindowField& field, const FineMesh& fine, double chord_error)
+      : field_(field), mesh_(field.mesh()), fine_(fine), chord_error_(chord_error) {}
+
+  // The fine mesh's isoline, its nodes on the level and arcs between them.
+  Isoline refined(const Isoline& coarse, const Mesh& fine_mesh) {
+    level_ = coarse.level;
+    std::vector<SurfacePoint> nodes;
+    for (const SurfacePoint& p : coarse.line.points) nodes.push_back(on_level(p));
+    Isoline out = coarse;
+    out.line.points.clear();
+    const std::size_t n = nodes.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      append(out.line.points, nodes[i]);
+      const bool last = i + 1 == n;
+      if (last && !coarse.line.closed) break;
+      const std::size_t j = (i + 1) % n;
+      const Index face = parent_of(fine_mesh, coarse.line.points[i], coarse.line.points[j]);
+      bend(Place{face, weights_of(nodes[i], face)}, Place{face, weights_of(nodes[j], face)}, 0, out.line.points);
+    }
+    if (out.line.closed && out.line.points.size() > 1 && same(out.line.points.front(), out.line.points.back())) {
+      out.line.points.pop_back();
+    }
+    out.line.length = length_of(mesh_, out.line.points, out.line.closed);
+    return out;
+  }
+
+ private:
+  double value(const Place& p) const { return field_.value({p.face, p.weights}).distance; }
+
+  std::array<double, 3> weights_of(const SurfacePoint& p, Index face) const {
+    return *weights_in(mesh_, locate(mesh_, p), face);
+  }
+
+  // Nodes of isolines() lie on edges of the fine mesh: along it, to where the exact value is the level.
+  SurfacePoint on_level(const SurfacePoint& fine_point) const {
+    const Face t = fine_.face(fine_point.face);
+    std::array<Index, 3> end{};
+    std::size_t ends = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (fine_point.weights[k] > 0) end[ends++] = t[k];
+    }
+    if (ends < 2) return fine_.origin(end[0]);
+    const Index face = fine_.parent(fine_point.face);
+    const std::array<double, 3> a = weights_of(fine_.origin(end[0]), face), b = weights_of(fine_.origin(end[1]), face);
+    const double t_level = root([&](double s) { return value({face, between(a, b, s)}) - level_; },
+                                fine_.values()[end[0]] - level_, fine_.values()[end[1]] - level_);
+    return {face, between(a, b, t_level)};
+  }
+
+  // Where f changes sign in [0, 1]: false position that halves a stuck end (Illinois).
+  template <class F>
+  static double root(F&& f, double at_0, double at_1) {
+    double a = 0, b = 1;
+    if (at_0 == 0) return 0;
+    if (at_1 == 0 || (at_0 < 0) == (at_1 < 0)) return 1;
+    constexpr int kSteps = 60;
+    for (int i = 0; i < kSteps && b - a > 1e-15; ++i) {
+      const double c = std::clamp(a + (b - a) * at_0 / (at_0 - at_1), a, b);
+      const double at_c = f(c);
+      if (at_c == 0) return c;
+      if ((at_c < 0) == (at_1 < 0)) {
+        if (c == b) return c;
+        b = c;
+        at_1 = at_c;
+        at_0 *= 0.5;
+      } else {
+        if (c == a) return c;
+        a = c;
+        at_0 = at_c;
+        at_1 *= 0.5;
+      }
+    }
+    return 0.5 * (a + b);
+  }
+
+  Index parent_of(const Mesh& fine_mesh, const SurfacePoint& p, const SurfacePoint& q) const {
+    return fine_.parent(common_face(fine_mesh, locate(fine_mesh, p), locate(fine_mesh, q), p.face));
+  }
+
+  // Nodes between a and b, which lie on the level in one face, until the pieces are near enough to the arc.
+  void bend(const Place& a, const Place& b, int depth, std::vector<SurfacePoint>& points) const {
+    constexpr int kDeepest = 12;
+    const std::array<Vec2, 3> corners = flat_corners(mesh_, a.face);
+    const Vec2 chord = flat_difference(corners, a.weights, b.weights);
+    const double length = norm(chord);
+    if (depth == kDeepest || !(length * mesh_.unit() > chord_error_)) return;
+    Place middle{a.face, between(a.weights, b.weights, 0.5)};
+    const double miss = value(middle) - level_;
+    if (std::abs(miss) <= chord_error_) return;
+    if (!slide_to_level(corners, (1 / length) * Vec2{chord.y, -chord.x}, miss, middle)) return;
+    bend(a, middle, depth + 1, points);
+    append(points, {middle.face, middle.weights});
+    bend(middle, b, depth + 1, points);
+  }
+
+  // Across the chord, to where the value is the level; false where that is outside of the face.
+  bool slide_to_level(const std::array<Vec2, 3>& corners, Vec2 across, double miss, Place& place) const {
+    const std::array<double, 3> start = place.weights;
+    const double area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    if (!(area > 0)) return false;
+    const auto moved = [&](double s) {  // s in mesh.unit()
+      const Vec2 d = s * across;
+      const double w1 = cross(d, corners[2] - corners[0]) / area, w2 = cross(corners[1] - corners[0], d) / area;
+      return Place{place.face, {start[0] - w1 - w2, start[1] + w1, start[2] + w2}};
+    };
+    const auto inside = [](const Place& p) {
+      return std::all_of(p.weights.begin(), p.weights.end(), [](double w) { return w >= 0; });
+    };
+    // The value changes at most by the distance, and along the chord's normal nearly by it: on one of the two sides.
+    for (const double side : {-1.0, 1.0}) {
+      double s0 = 0, f0 = miss, s1 = side * miss / mesh_.unit();
+      for (int i = 0; i < 12; ++i) {
+        const Place p = moved(s1);
+        if (!inside(p)) break;
+        const double f1 = value(p) - level_;
+        if (std::abs(f1) <= 1e-14 * level_) {
+          place = p;
+          return true;
+        }
+        if (f1 == f0 || (i == 0 && std::abs(f1) > std::abs(f0))) break;
+        const double s2 = s1 - f1 * (s1 - s0) / (f1 - f0);
+        s0 = s1;
+        f0 = f1;
+        s1 = s2;
+        if (s1 == s0) {
+          place = p;
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  bool same(const SurfacePoint& p, const SurfacePoint& q) const {
+    const auto w = weights_in(mesh_, locate(mesh_, p), q.face);
+    if (!w) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (std::abs((*w)[k] - q.weights[k]) > kWeightSnap) return false;
+    }
+    return true;
+  }
+
+  void append(std::vector<SurfacePoint>& points, const SurfacePoint& p) const {
+    if (points.empty() || !same(points.back(), p)) points.push_back(p);
+  }
+
+  const WindowField& field_;
+  const Mesh& mesh_;
+  const FineMesh& fine_;
+  double chord_error_;
+  double level_ = 0;
+};
+
+// A level may cross a face if it lies between the corners' values, or beyond them by less than the face is large: the
+// distance changes at most as fast as one walks.
+bool may_cross(const Mesh& mesh, const WindowField& field, Index f, std::span<const double> levels) {
+  if (!mesh.is_face_usable(f)) return false;
+  double low = kInfinity, high = -kInfinity, longest = 0;
+  for (Index k = 0; k < 3; ++k) {
+    SurfacePoint p{f, {0, 0, 0}};
+    p.weights[k] = 1;
+    const double d = field.value(p).distance;
+    low = std::min(low, d);
+    high = std::max(high, d);
+    longest = std::max(longest, mesh.lengths()[3 * f + k] * mesh.unit());
+  }
+  if (high == kInfinity) return false;
+  return std::any_of(levels.begin(), levels.end(),
+                     [&](double level) { return level >= low - longest && level <= high + longest; });
+}
+
+}  // namespace
+
+std::vector<Isoline> curved_isolines(const WindowField& field, std::span<const double> levels, double chord_error) {
+  if (!(chord_error > 0)) {
+    throw Error(ErrorCode::InvalidArgument, "chord error " + std::to_string(chord_error) + " is not > 0");
+  }
+  const Mesh& mesh = field.mesh();
+  FineMesh fine(field);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (may_cross(mesh, field, f, levels)) fine.add_face(f);
+  }
+  const Mesh fine_mesh = fine.mesh();
+  std::vector<Isoline> out;
+  CurveBuilder builder(field, fine, chord_error);
+  for (const Isoline& line : isolines(fine_mesh, fine.values(), levels)) {
+    Isoline curve = builder.refined(line, fine_mesh);
+    if (curve.line.points.size() > 1) out.push_back(std::move(curve));
+  }
+  return out;
+}
+
+}  // namespace brushfire
