@@ -94,6 +94,9 @@ class CommandLine {
 void add_info(CommandLine& command_line);
 void add_distance(CommandLine& command_line);
 void add_matrix(CommandLine& command_line);
+void add_path(CommandLine& command_line);
+void add_isolines(CommandLine& command_line);
+void add_render(CommandLine& command_line);
 void add_compare(CommandLine& command_line);
 void add_shape(CommandLine& command_line);
 void add_completion(CommandLine& command_line);

@@ -8,7 +8,6 @@
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/io/write_field.h>
-#include <brushfire/mesh/nearest_point.h>
 #include <brushfire/solvers/distance.h>
 
 #include <chrono>
@@ -186,11 +185,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   run.read_s = reading.seconds();
   stop_if_interrupted();
 
-  std::optional<NearestPointFinder> nearest;  // built for the first position that has to be snapped
-  const auto snap = [&](Vec3 position) {
-    if (!nearest) nearest.emplace(run.mesh);
-    return (*nearest)(position).point;
-  };
+  const Snap snap = snapper(run.mesh);
   for (const Where& w : source_places) run.sources.push_back({resolve(w, run.mesh, snap), w.offset});
 
   options.precision = arguments.precision == "float" ? Precision::Float : Precision::Double;

@@ -6,8 +6,11 @@ int main(int argc, char** argv) {
   CommandLine command_line;
   add_info(command_line);
   add_distance(command_line);
+  add_path(command_line);
+  add_isolines(command_line);
   add_matrix(command_line);
   add_compare(command_line);
+  add_render(command_line);
   add_shape(command_line);
   add_completion(command_line);
   return command_line.run(argc, argv);

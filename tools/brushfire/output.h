@@ -5,7 +5,9 @@
 
 namespace brushfire::tool {
 
-// Says, before anything is computed, that nothing is written under such a name. Throws Error(InvalidArgument).
+// Say, before anything is computed, that no field (no curves) can be written under such a name. Throw
+// Error(InvalidArgument).
 void check_output(const std::string& path);
+void check_lines_output(const std::string& path);
 
 }  // namespace brushfire::tool

@@ -1,6 +1,8 @@
 // Reading of places.
 #include "where.h"
 
+#include <brushfire/mesh/nearest_point.h>
+
 #include <brushfire/core/error.h>
 
 #include <charconv>
@@ -108,7 +110,15 @@ std::vector<Where> read_where_file(const std::string& path) {
   return places;
 }
 
-SurfacePoint resolve(const Where& where, const Mesh& mesh, const std::function<SurfacePoint(Vec3)>& snap) {
+Snap snapper(const Mesh& mesh) {
+  const auto finder = std::make_shared<std::optional<NearestPointFinder>>();
+  return [mesh, finder](Vec3 position) {
+    if (!*finder) finder->emplace(mesh);
+    return (**finder)(position).point;
+  };
+}
+
+SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
   const auto in_range = [&](std::uint64_t index, Index count, const char* what) {
     if (index < count) return static_cast<Index>(index);
     throw Error(ErrorCode::IndexOutOfRange,

@@ -44,8 +44,14 @@ Where parse_where(std::string_view text);
 // Error(InvalidArgument) with file and line number.
 std::vector<Where> read_where_file(const std::string& path);
 
+// From a position in space to the surface.
+using Snap = std::function<SurfacePoint(Vec3)>;
+
+// The nearest surface point of `mesh`; what finds it is built for the first position that is asked for.
+Snap snapper(const Mesh& mesh);
+
 // Where it is on this mesh. `snap` finds the nearest surface point of a position. Throws Error(IndexOutOfRange) for a
 // vertex or face that the mesh has not, and whatever locate() throws.
-SurfacePoint resolve(const Where& where, const Mesh& mesh, const std::function<SurfacePoint(Vec3)>& snap);
+SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap);
 
 }  // namespace brushfire::tool

@@ -273,20 +273,27 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+const Writer& writer_for(const std::string& path, const std::string& format) {
+  const std::string extension = format.empty() ? extension_of(path) : format;
+  const auto writer = std::find_if(std::begin(kWriters), std::end(kWriters),
+                                   [&](const Writer& w) { return w.extension == extension; });
+  if (writer == std::end(kWriters)) {
+    throw Error(ErrorCode::UnknownFormat, path + ": curves are written as json, obj, ply, vtp, csv or svg, not as '" +
+                                              extension + "'");
+  }
+  return *writer;
+}
+
 }  // namespace
+
+void check_lines_format(const std::string& path, const std::string& format) { writer_for(path, format); }
 
 void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfaceLine> lines,
                  const std::string& value_name, const std::string& format) {
-  const std::string extension = format.empty() ? extension_of(path) : format;
-  const auto writer =
-      std::find_if(std::begin(kWriters), std::end(kWriters), [&](const Writer& w) { return w.extension == extension; });
-  if (writer == std::end(kWriters)) {
-    throw Error(ErrorCode::UnknownFormat,
-                path + ": curves are written as json, obj, ply, vtp, csv or svg, not as '" + extension + "'");
-  }
-  if (writer->needs_positions && !mesh.has_positions()) {
-    throw Error(ErrorCode::InvalidArgument,
-                path + ": a mesh without positions has no place in ." + extension + " files: write json");
+  const Writer& writer = writer_for(path, format);
+  if (writer.needs_positions && !mesh.has_positions()) {
+    throw Error(ErrorCode::InvalidArgument, path + ": a mesh without positions has no place in ." +
+                                                std::string(writer.extension) + " files: write json");
   }
   Drawing drawing{mesh, lines, value_name, {}};
   if (mesh.has_positions()) {
@@ -296,7 +303,7 @@ void write_lines(const std::string& path, const Mesh& mesh, std::span<const Surf
     }
   }
   Output out(path);
-  writer->write(out, drawing);
+  writer.write(out, drawing);
   out.commit();
 }
 

@@ -30,4 +30,7 @@ struct SurfaceLine {
 void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfaceLine> lines,
                  const std::string& value_name, const std::string& format = "");
 
+// Throws the Error(UnknownFormat) that write_lines() would: for finding out before the curves are computed.
+void check_lines_format(const std::string& path, const std::string& format = "");
+
 }  // namespace brushfire

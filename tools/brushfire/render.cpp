@@ -1,0 +1,322 @@
+// brushfire render: pictures of distance fields, isolines and paths.
+#include "command_line.h"
+#include "interrupt.h"
+#include "where.h"
+
+#include <brushfire/core/error.h>
+#include <brushfire/figure/render.h>
+#include <brushfire/io/read_field.h>
+#include <brushfire/io/read_mesh.h>
+#include <brushfire/io/write_bytes.h>
+#include <brushfire/queries/isolines.h>
+#include <brushfire/queries/path.h>
+#include <brushfire/solvers/distance.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace brushfire::tool {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  brushfire render bunny.ply --source 0 -o bunny.png
+  brushfire render bunny.ply --source 0 --isolines 30 --colormap magma --view iso -o bunny.svg
+  brushfire render bunny.ply --source 0 --path 12000 --path 300 --bands --isolines 40 -o paths.png
+  brushfire render bunny.ply --scalar error.npy --range 0,0.01 --unit "relative error" -o error.png
+  brushfire render bunny.ply --source 0 --method kimmel-sethian --method exact -o side-by-side.png
+  brushfire render bunny.ply --source 0 --wave 60 -o brushfire.webp
+  brushfire render bunny.ply --source 0 --isolines 20 --turntable 72 -o turntable.webp
+
+The extension of -o decides: .png, .svg (lines as vectors over the shaded surface), .webp (animations).
+Places (--source, --path) are written as for brushfire distance.)";
+
+struct Arguments {
+  std::string file, scalar_file, labels_file, output, view, size = "1024x768", range, unit, title, colormap = "viridis";
+  std::string up = "y", font;
+  std::vector<std::string> sources, paths, methods, levels;
+  std::optional<double> isolines, azimuth, elevation, zoom, samples, turntable, wave, frame_ms;
+  bool bands = false, labels = false, perspective = false, transparent = false, wireframe = false, no_bar = false;
+};
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::InvalidArgument, what); }
+
+// "1024x768", "0,2.5": two numbers and what stands between them.
+std::pair<double, double> two_numbers(const std::string& text, char between, const char* what) {
+  const std::size_t at = text.find(between, 1);
+  std::pair<double, double> out;
+  const auto parse = [](const std::string& part, double& value) {
+    const char* end = part.data() + part.size();
+    const auto [stop, status] = std::from_chars(part.data(), end, value);
+    return status == std::errc() && stop == end && std::isfinite(value);
+  };
+  if (at == std::string::npos || !parse(text.substr(0, at), out.first) || !parse(text.substr(at + 1), out.second)) {
+    refuse("'" + text + "': " + what);
+  }
+  return out;
+}
+
+int whole(const std::optional<double>& value, int otherwise, int low, int high, const char* name) {
+  if (!value) return otherwise;
+  if (!(*value >= low && *value <= high) || *value != std::floor(*value)) {
+    refuse(std::string(name) + " takes a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  }
+  return static_cast<int>(*value);
+}
+
+RenderOptions options_of(const Arguments& a) {
+  RenderOptions options;
+  const auto [width, height] = two_numbers(a.size, 'x', "a size is written as 1024x768");
+  constexpr double kAnyInt = 1e6;  // render() itself says what it takes
+  if (std::abs(width) > kAnyInt || std::abs(height) > kAnyInt) refuse("'" + a.size + "' is too large a picture");
+  options.width = static_cast<int>(width);
+  options.height = static_cast<int>(height);
+  options.colormap = colormap_named(a.colormap);
+  options.fill = a.bands ? Fill::Bands : Fill::Smooth;
+  options.unit = a.unit;
+  options.colour_bar = !a.no_bar;
+  options.transparent = a.transparent;
+  options.wireframe = a.wireframe;
+  options.font = a.font;
+  options.samples = whole(a.samples, options.samples, 1, 8, "--samples");
+  if (!a.range.empty()) {
+    const auto [low, high] = two_numbers(a.range, ',', "a range is written as 0,2.5");
+    options.low = low;
+    options.high = high;
+  }
+  options.camera.up = a.up == "x" ? Axis::X : a.up == "z" ? Axis::Z : Axis::Y;
+  if (!a.view.empty()) options.camera = named_view(a.view, options.camera);
+  options.camera.azimuth = a.azimuth.value_or(options.camera.azimuth);
+  options.camera.elevation = a.elevation.value_or(options.camera.elevation);
+  options.camera.zoom = a.zoom.value_or(1);
+  options.camera.perspective = a.perspective;
+  return options;
+}
+
+enum class Output { Png, Svg, Webp };
+
+Output output_of(const Arguments& a) {
+  std::string extension = std::filesystem::path(a.output).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
+  const bool animated = a.turntable.has_value() || a.wave.has_value();
+  if (extension == ".webp") {
+    if (!animated) refuse("a .webp needs --turntable or --wave; still pictures are .png or .svg");
+    return Output::Webp;
+  }
+  if (animated) refuse("--turntable and --wave write an animation: name the output .webp");
+  if (extension == ".svg") return Output::Svg;
+  if (extension == ".png") return Output::Png;
+  refuse(a.output.empty() ? "where to? give -o picture.png, .svg or .webp"
+                          : "'" + a.output + "': pictures are written as .png, .svg or .webp");
+}
+
+void check(const Arguments& a) {
+  if (a.sources.empty() && !a.paths.empty()) refuse("--path needs a --source to come from");
+  if (!a.scalar_file.empty() && !a.sources.empty()) refuse("--scalar and --source both say what to show: give one");
+  if (a.labels && a.sources.empty()) refuse("--labels colours by the nearest --source: give some");
+  if (!a.methods.empty() && a.sources.empty()) refuse("--method needs a --source");
+  if (a.wave && a.turntable) refuse("--wave and --turntable are two animations: give one");
+  if (a.wave && a.sources.empty() && a.scalar_file.empty()) refuse("--wave needs a --source or a --scalar");
+}
+
+// Labels from a file: whole numbers, negative ones for none; names where the file has some.
+std::vector<Index> labels_of(const std::string& file, const Mesh& mesh, Panel& panel) {
+  const LoadedField field = read_field(file);
+  std::vector<Index> labels;
+  for (const double x : values_on_vertices(field, mesh.vertex_count(), -1)) {
+    if (x != std::floor(x) || x >= kNoIndex) refuse(file + ": " + exact(x) + " is not a label (a whole number)");
+    labels.push_back(x < 0 ? kNoIndex : static_cast<Index>(x));
+  }
+  constexpr std::int64_t kMostNames = 100000;
+  for (const LoadedField::Label& label : field.label_names) {
+    if (label.key < 0 || label.key >= kMostNames) continue;
+    const auto key = static_cast<std::size_t>(label.key);
+    if (panel.label_names.size() <= key) panel.label_names.resize(key + 1);
+    panel.label_names[key] = label.name;
+  }
+  return labels;
+}
+
+// Distances from the sources by one method, and what is drawn with them.
+Panel solved_panel(const Arguments& a, const Mesh& mesh, const std::string& method, const Snap& snap, const Talk& talk) {
+  Panel panel;
+  panel.mesh = mesh;
+  std::vector<Source> sources;
+  for (const std::string& text : a.sources) {
+    const Where where = parse_where(text);
+    sources.push_back({resolve(where, mesh, snap), where.offset});
+    panel.dots.push_back(position(mesh, sources.back().point));
+  }
+  DistanceOptions options;
+  if (!method.empty()) options.method = method_named(method);
+  options.cancel = &cancel_token();
+  options.progress = talk.progress("distance");
+  const DistanceField field = distance(mesh, sources, options);
+  talk.end_progress();
+  panel.scalar = field.distance;
+  if (a.labels) panel.labels = field.source;
+  if (a.paths.empty()) return panel;
+
+  // Paths are exact whatever the method of the colours: that is what a path is compared with.
+  DistanceOptions exact;
+  exact.method = Method::Exact;
+  exact.keep_paths = true;
+  exact.cancel = &cancel_token();
+  for (const std::string& text : a.paths) exact.targets.push_back(resolve(parse_where(text), mesh, snap));
+  const DistanceField to_targets = distance(mesh, sources, exact);
+  for (std::size_t i = 0; i < a.paths.size(); ++i) {
+    const SurfacePath path = path_to(*to_targets.windows, exact.targets[i]);
+    if (path.points.empty()) throw Unreachable(a.paths[i]);
+    Polyline line;
+    for (const SurfacePoint& p : path.points) line.points.push_back(position(mesh, p));
+    panel.paths.push_back(std::move(line));
+  }
+  return panel;
+}
+
+std::vector<Panel> panels_of(const Arguments& a, const Mesh& mesh, const Snap& snap, const Talk& talk) {
+  std::vector<Panel> panels;
+  if (a.sources.empty()) {
+    Panel& panel = panels.emplace_back();
+    panel.mesh = mesh;
+    if (!a.scalar_file.empty()) panel.scalar = values_on_vertices(read_field(a.scalar_file), mesh.vertex_count(), kInfinity);
+    if (!a.labels_file.empty()) panel.labels = labels_of(a.labels_file, mesh, panel);
+  } else if (a.methods.size() < 2) {
+    panels.push_back(solved_panel(a, mesh, a.methods.empty() ? "" : a.methods.front(), snap, talk));
+  } else {
+    for (const std::string& m : a.methods) {
+      panels.push_back(solved_panel(a, mesh, m, snap, talk));
+      panels.back().title = m;
+    }
+  }
+  if (!a.title.empty()) panels.front().title = a.title;
+  return panels;
+}
+
+double largest(const std::vector<Panel>& panels) {
+  double high = 0;
+  for (const Panel& p : panels) {
+    for (const double x : p.scalar) high = std::isfinite(x) ? std::max(high, x) : high;
+  }
+  return high;
+}
+
+// The same levels in all panels: N of them evenly between the least and the greatest value, ends left out.
+void add_isolines(const Arguments& a, std::vector<Panel>& panels) {
+  constexpr int kDefaultBands = 20;
+  const int count = whole(a.isolines, a.bands ? kDefaultBands : 0, 0, 10000, "--isolines");
+  double low = kInfinity, high = -kInfinity;
+  for (const Panel& p : panels) {
+    for (const double x : p.scalar) {
+      if (!std::isfinite(x)) continue;
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+  }
+  if (!(high > low)) return;
+  for (Panel& p : panels) {
+    for (int i = 1; i <= count; ++i) p.isolines.push_back(low + (high - low) * i / (count + 1));
+  }
+}
+
+std::string svg_of(const std::vector<Panel>& panels, const RenderOptions& options) {
+  std::vector<std::vector<Polyline>> lines(panels.size());
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    if (panels[i].scalar.empty() || options.fill == Fill::Bands) continue;
+    for (const Isoline& line : isolines(panels[i].mesh, panels[i].scalar, panels[i].isolines)) {
+      Polyline& out = lines[i].emplace_back();
+      out.closed = line.closed;
+      for (const SurfacePoint& p : line.points) out.points.push_back(position(panels[i].mesh, p));
+    }
+  }
+  return render_svg(panels, lines, options);
+}
+
+std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> panels, RenderOptions options,
+                                       const Talk& talk) {
+  const bool turning = a.turntable.has_value();
+  const int count = turning ? whole(a.turntable, 0, 2, 720, "--turntable") : whole(a.wave, 0, 2, 2000, "--wave");
+  const double high = largest(panels);
+  const double azimuth = options.camera.azimuth;
+  const Progress progress = talk.progress("frames");
+  std::vector<Image> frames;
+  for (int i = 0; i < count; ++i) {
+    stop_if_interrupted();
+    if (turning) {
+      options.camera.azimuth = azimuth + 360.0 * i / count;
+    } else {
+      for (Panel& p : panels) p.front = high * (i + 1) / count;
+    }
+    frames.push_back(render(panels, options));
+    if (progress) progress((i + 1.0) / count);
+  }
+  talk.end_progress();
+  constexpr int kFrame = 40;
+  return encode_webp(frames, whole(a.frame_ms, kFrame, 10, 10000, "--frame-ms"));
+}
+
+int render_verb(const Arguments& a, const Talk& talk) {
+  check(a);
+  const Output output = output_of(a);
+  const RenderOptions options = options_of(a);
+  const Mesh mesh = read_mesh(a.file).mesh;
+  std::vector<Panel> panels = panels_of(a, mesh, snapper(mesh), talk);
+  add_isolines(a, panels);
+  switch (output) {
+    case Output::Png: write_bytes(a.output, encode_png(render(panels, options))); break;
+    case Output::Svg: write_text(a.output, svg_of(panels, options)); break;
+    case Output::Webp: write_bytes(a.output, animation_of(a, panels, options, talk)); break;
+  }
+  if (talk.json) {
+    Record record;
+    record.add("file", a.file).add("output", a.output).add("panels", static_cast<std::int64_t>(panels.size()));
+    write_stdout(record.json());
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void add_render(CommandLine& command_line) {
+  const auto a = std::make_shared<Arguments>();
+  command_line.add("render", "Picture of a mesh and what was computed on it", [&](Verb& verb) {
+    verb.argument("FILE", a->file, "The mesh; - reads standard input");
+    verb.option("-s,--source", a->sources, "WHERE", "Show the distance from here; may be repeated");
+    verb.option("--scalar", a->scalar_file, "FIELD", "Show these values, one per vertex: .npy .csv .txt .gii ...");
+    verb.option("--label-file", a->labels_file, "FIELD", "Show these labels, one per vertex");
+    verb.flag("--labels", a->labels, "Colour by the nearest source");
+    verb.option("-m,--method", a->methods, "NAME", "How to compute; given several times: panels side by side");
+    verb.option("--isolines", a->isolines, "N", "This many isolines");
+    verb.flag("--bands", a->bands, "Bands of alternating lightness between the isolines");
+    verb.option("--path", a->paths, "WHERE", "Draw the shortest path from the sources to here; may be repeated");
+    verb.option("--view", a->view, "NAME", "front, back, left, right, top, bottom or iso");
+    verb.option("--azimuth", a->azimuth, "DEG", "Degrees around the up axis");
+    verb.option("--elevation", a->elevation, "DEG", "Degrees above the horizon");
+    verb.choice("--up", a->up, {"x", "y", "z"}, "The axis that points up");
+    verb.option("--zoom", a->zoom, "F", "Closer than what fits, by this factor");
+    verb.flag("--perspective", a->perspective, "Perspective instead of orthographic");
+    verb.option("--size", a->size, "WxH", "Of a panel, in pixels");
+    verb.choice("--colormap", a->colormap, {"viridis", "magma", "cividis"}, "Colours");
+    verb.option("--range", a->range, "LO,HI", "Range of the colours");
+    verb.option("--unit", a->unit, "TEXT", "Above the colour bar");
+    verb.option("--title", a->title, "TEXT", "Above the (first) panel");
+    verb.flag("--no-bar", a->no_bar, "No colour bar and no legend");
+    verb.flag("--wireframe", a->wireframe, "Show the edges of the mesh");
+    verb.flag("--transparent", a->transparent, "Transparent background");
+    verb.option("--samples", a->samples, "N", "Samples per pixel and direction, 1 to 8");
+    verb.option("--font", a->font, "TTF", "A TrueType font for the text");
+    verb.option("--turntable", a->turntable, "N", "Animate: once around in N frames");
+    verb.option("--wave", a->wave, "N", "Animate: the fire spreading, in N frames");
+    verb.option("--frame-ms", a->frame_ms, "MS", "How long a frame of an animation is shown");
+    verb.option("-o,--output", a->output, "FILE", "The picture: .png .svg .webp");
+    verb.talks();
+    verb.examples(kExamples);
+    verb.run([a](Talk& talk) { return render_verb(*a, talk); });
+  });
+}
+
+}  // namespace brushfire::tool
