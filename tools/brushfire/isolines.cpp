@@ -42,7 +42,8 @@ void check(const Arguments& a) {
   if (!a.levels.empty() + a.every.has_value() + a.count.has_value() != 1) {
     refuse("which levels? give one of --levels, --every and --count");
   }
-  if (a.curved && (!a.scalar_file.empty() || a.method != "exact")) refuse("--curved needs a --source and --method exact");
+  if (a.curved && (!a.scalar_file.empty() || a.method != "exact"))
+    refuse("--curved needs a --source and --method exact");
   check_lines_output(a.output);
   if (a.output.empty()) refuse("where to? give -o lines.obj, .json, .ply, .vtp, .csv or .svg");
 }

@@ -142,7 +142,8 @@ std::vector<Index> labels_of(const std::string& file, const Mesh& mesh, Panel& p
 }
 
 // Distances from the sources by one method, and what is drawn with them.
-Panel solved_panel(const Arguments& a, const Mesh& mesh, const std::string& method, const Snap& snap, const Talk& talk) {
+Panel solved_panel(const Arguments& a, const Mesh& mesh, const std::string& method, const Snap& snap,
+                   const Talk& talk) {
   Panel panel;
   panel.mesh = mesh;
   std::vector<Source> sources;
@@ -183,7 +184,8 @@ std::vector<Panel> panels_of(const Arguments& a, const Mesh& mesh, const Snap& s
   if (a.sources.empty()) {
     Panel& panel = panels.emplace_back();
     panel.mesh = mesh;
-    if (!a.scalar_file.empty()) panel.scalar = values_on_vertices(read_field(a.scalar_file), mesh.vertex_count(), kInfinity);
+    if (!a.scalar_file.empty())
+      panel.scalar = values_on_vertices(read_field(a.scalar_file), mesh.vertex_count(), kInfinity);
     if (!a.labels_file.empty()) panel.labels = labels_of(a.labels_file, mesh, panel);
   } else if (a.methods.size() < 2) {
     panels.push_back(solved_panel(a, mesh, a.methods.empty() ? "" : a.methods.front(), snap, talk));
@@ -229,8 +231,8 @@ std::string svg_of(const std::vector<Panel>& panels, const RenderOptions& option
     if (panels[i].scalar.empty() || options.fill == Fill::Bands) continue;
     for (const Isoline& line : isolines(panels[i].mesh, panels[i].scalar, panels[i].isolines)) {
       Polyline& out = lines[i].emplace_back();
-      out.closed = line.closed;
-      for (const SurfacePoint& p : line.points) out.points.push_back(position(panels[i].mesh, p));
+      out.closed = line.line.closed;
+      for (const SurfacePoint& p : line.line.points) out.points.push_back(position(panels[i].mesh, p));
     }
   }
   return render_svg(panels, lines, options);
@@ -267,9 +269,15 @@ int render_verb(const Arguments& a, const Talk& talk) {
   std::vector<Panel> panels = panels_of(a, mesh, snapper(mesh), talk);
   add_isolines(a, panels);
   switch (output) {
-    case Output::Png: write_bytes(a.output, encode_png(render(panels, options))); break;
-    case Output::Svg: write_text(a.output, svg_of(panels, options)); break;
-    case Output::Webp: write_bytes(a.output, animation_of(a, panels, options, talk)); break;
+    case Output::Png:
+      write_bytes(a.output, encode_png(render(panels, options)));
+      break;
+    case Output::Svg:
+      write_text(a.output, svg_of(panels, options));
+      break;
+    case Output::Webp:
+      write_bytes(a.output, animation_of(a, panels, options, talk));
+      break;
   }
   if (talk.json) {
     Record record;

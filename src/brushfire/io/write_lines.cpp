@@ -275,11 +275,11 @@ std::string extension_of(const std::string& path) {
 
 const Writer& writer_for(const std::string& path, const std::string& format) {
   const std::string extension = format.empty() ? extension_of(path) : format;
-  const auto writer = std::find_if(std::begin(kWriters), std::end(kWriters),
-                                   [&](const Writer& w) { return w.extension == extension; });
+  const auto writer =
+      std::find_if(std::begin(kWriters), std::end(kWriters), [&](const Writer& w) { return w.extension == extension; });
   if (writer == std::end(kWriters)) {
-    throw Error(ErrorCode::UnknownFormat, path + ": curves are written as json, obj, ply, vtp, csv or svg, not as '" +
-                                              extension + "'");
+    throw Error(ErrorCode::UnknownFormat,
+                path + ": curves are written as json, obj, ply, vtp, csv or svg, not as '" + extension + "'");
   }
   return *writer;
 }

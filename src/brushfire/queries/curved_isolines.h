@@ -10,13 +10,14 @@
 namespace brushfire {
 
 // The curves on which the exact distance equals the levels: arcs of circles around the sources and around the vertices
-// that shortest paths bend at, with corners where two fronts meet. `field`: of a run with DistanceOptions::keep_windows,
-// values in the mesh's units; merged windows (a tolerance) give the curves of the merged field.
+// that shortest paths bend at, with corners where two fronts meet. `field`: of a run with
+// DistanceOptions::keep_windows, values in the mesh's units; merged windows (a tolerance) give the curves of the merged
+// field.
 //
 // Every node lies on its level to rounding. Arcs are followed by straight pieces that stay within `chord_error` (> 0,
 // the mesh's units) of them; where an arc leaves a face over an edge and returns within an eighth of that edge, the
-// piece keeps to the edge instead: at most a 512th of (edge length)^2 / radius beside it. Order, orientation, closedness and ends are
-// those of isolines().
+// piece keeps to the edge instead: at most a 512th of (edge length)^2 / radius beside it. Order, orientation,
+// closedness and ends are those of isolines().
 //
 // Throws as isolines() does, Error(InvalidArgument) for a chord error that is not > 0 and for a field without windows.
 // About 22 evaluations of the field for every face that a level may cross, and 10 for every node.

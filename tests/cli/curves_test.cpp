@@ -1,0 +1,146 @@
+// The verbs path, isolines and render as black boxes.
+#include "program.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace brushfire::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Curves : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / ("brushfire_curves_" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(path("islands.off")) << "OFF\n7 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n"
+                                          "3 0 1 2\n3 0 2 3\n3 4 5 6\n";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string content(const std::string& name) const {
+    std::ifstream in(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  Ended run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin() + 1, path("islands.off"));
+    return run_program(arguments);
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(Curves, PathPrintsItsLength) {
+  const Ended ended = run({"path", "--from", "1", "--to", "3"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_NEAR(std::stod(ended.out), std::sqrt(2.0), 1e-15);
+  EXPECT_EQ(ended.err, "");
+}
+
+TEST_F(Curves, PathBetweenPositionsIsWritten) {
+  const Ended ended = run({"path", "--from", "0.25,0.1,3", "--to", "0.25,0.9,0", "-o", path("p.obj")});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(content("p.obj").find("v 0.25 0.1 0\n"), std::string::npos);
+  EXPECT_NE(content("p.obj").find("\nl 1 2"), std::string::npos);
+}
+
+TEST_F(Curves, PathToAnotherIslandIsUnreachable) {
+  const Ended ended = run({"path", "--from", "0", "--to", "5"});
+  EXPECT_EQ(ended.code, 4);
+  EXPECT_NE(ended.err.find("'5'"), std::string::npos);
+}
+
+TEST_F(Curves, TightenedPathForgetsItsWaypoint) {
+  EXPECT_EQ(run({"path", "--from", "1", "--via", "0", "--to", "3"}).out, "2\n");
+  const Ended tight = run({"path", "--from", "1", "--via", "0", "--to", "3", "--tighten"});
+  EXPECT_NEAR(std::stod(tight.out), std::sqrt(2.0), 1e-15);
+}
+
+TEST_F(Curves, PathAlongEdgesGoesRoundTheSquare) {
+  EXPECT_EQ(run({"path", "--from", "1", "--to", "3", "--method", "dijkstra"}).out, "2\n");
+}
+
+TEST_F(Curves, MethodWithoutPathsIsAUsageError) {
+  const Ended ended = run({"path", "--from", "1", "--to", "3", "--method", "kimmel-sethian"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_NE(ended.err.find("exact, dijkstra"), std::string::npos);
+}
+
+TEST_F(Curves, PathNeedsBothEnds) {
+  EXPECT_EQ(run({"path", "--from", "1"}).code, 2);
+  EXPECT_EQ(run({"path", "--to", "1"}).code, 2);
+  EXPECT_EQ(run({"path", "--from", "1", "--to", "3", "-o", path("p.dxf")}).code, 2);
+  EXPECT_EQ(run({"path", "--from", "1", "--to", "99"}).code, 2);
+}
+
+TEST_F(Curves, IsolinesAreWrittenWithTheirLevels) {
+  const Ended ended = run({"isolines", "--source", "0", "--levels", "0.5,0.25", "-o", path("l.csv")});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  const std::string csv = content("l.csv");
+  EXPECT_NE(csv.find("line,level,point,x,y,z,face,w0,w1,w2\n0,0.25,"), std::string::npos);
+  EXPECT_NE(csv.find("\n1,0.5,"), std::string::npos);
+}
+
+TEST_F(Curves, CurvedIsolinesHaveMoreNodesThanStraightOnes) {
+  EXPECT_EQ(run({"isolines", "--source", "0", "--levels", "0.5", "-o", path("a.csv"), "-q"}).err, "");
+  EXPECT_EQ(run({"isolines", "--source", "0", "--levels", "0.5", "--curved", "1e-5", "-o", path("b.csv")}).code, 0);
+  EXPECT_GT(content("b.csv").size(), 5 * content("a.csv").size());
+}
+
+TEST_F(Curves, IsolinesAskForExactlyOneWayToChooseLevels) {
+  EXPECT_EQ(run({"isolines", "--source", "0", "-o", path("l.obj")}).code, 2);
+  EXPECT_EQ(run({"isolines", "--source", "0", "--count", "3", "--every", "1", "-o", path("l.obj")}).code, 2);
+  EXPECT_EQ(run({"isolines", "--source", "0", "--levels", "1,,2", "-o", path("l.obj")}).code, 2);
+  EXPECT_EQ(run({"isolines", "--source", "0", "--every", "0", "-o", path("l.obj")}).code, 2);
+  EXPECT_EQ(run({"isolines", "--count", "3", "-o", path("l.obj")}).code, 2);
+}
+
+TEST_F(Curves, RenderWritesPngSvgAndAnimation) {
+  const std::vector<std::string> small{"--size", "64x48", "--samples", "1"};
+  const auto with = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), small.begin(), small.end());
+    return run(arguments);
+  };
+  EXPECT_EQ(with({"render", "--source", "0", "--isolines", "5", "--path", "2", "-o", path("p.png")}).code, 0);
+  EXPECT_EQ(content("p.png").substr(1, 3), "PNG");
+  EXPECT_EQ(with({"render", "--source", "0", "--isolines", "5", "-o", path("p.svg")}).code, 0);
+  EXPECT_EQ(content("p.svg").substr(0, 4), "<svg");
+  const Ended wave = with({"render", "--source", "0", "--wave", "3", "-o", path("w.webp")});
+  if (wave.err.find("no WebP") != std::string::npos) GTEST_SKIP() << "built without WebP";
+  EXPECT_EQ(wave.code, 0) << wave.err;
+  EXPECT_EQ(content("w.webp").substr(8, 4), "WEBP");
+}
+
+TEST_F(Curves, RenderRefusesMalformedOptionsBeforeReading) {
+  const std::vector<std::vector<std::string>> bad{{"-o", "p.gif"},
+                                                  {"-o", "p.png", "--size", "100"},
+                                                  {"-o", "p.png", "--size", "0x10"},
+                                                  {"-o", "p.png", "--range", "1"},
+                                                  {"-o", "p.png", "--view", "above"},
+                                                  {"-o", "p.png", "--samples", "2.5"},
+                                                  {"-o", "p.png", "--wave", "10"},
+                                                  {"-o", "p.webp"},
+                                                  {"-o", "p.png", "--path", "3"},
+                                                  {"-o", "p.png", "--scalar", "a.npy", "--source", "0"},
+                                                  {}};
+  for (const std::vector<std::string>& options : bad) {
+    std::vector<std::string> arguments{"render"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.code, 2) << testing::PrintToString(options) << ended.err;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  }
+}
+
+}  // namespace
+}  // namespace brushfire::test
