@@ -2,6 +2,7 @@
 #include "io_support.h"
 
 #include <brushfire/io/npy.h>
+#include <brushfire/io/read_field.h>
 
 #include "support/shared_meshes.h"
 
@@ -77,6 +78,18 @@ TEST(Format, ContentWinsOverNameAndSaysSo) {
   const LoadedMesh loaded = read_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.obj");
   EXPECT_EQ(loaded.format, "OFF");
   EXPECT_EQ(loaded.remarks, (std::vector<std::string>{"the name says OBJ, but the content is OFF"}));
+}
+
+TEST(Format, WithoutATellingNameTheContentIsLookedAt) {
+  EXPECT_EQ(read_text("# made by hand\n\nv 0 0 0\n", "standard input").format, "OBJ");
+  EXPECT_EQ(read_text("mtllib a.mtl\nv 0 0 0\n", "standard input").format, "OBJ");
+  const auto field_format = [](std::string_view text) {
+    return read_field(test::bytes_of(text), "standard input").format;
+  };
+  EXPECT_EQ(field_format("vertex,distance\n0,1\n"), "CSV");
+  EXPECT_EQ(field_format("0.5\n-inf\n"), "text");
+  EXPECT_EQ(field_format("{\"a\": [1]}"), "JSON");
+  EXPECT_EQ(field_format("#!ascii label\n0\n"), "FreeSurfer label");
 }
 
 TEST(Format, NeitherNameNorContentIsAnErrorThatListsWhatIsKnown) {

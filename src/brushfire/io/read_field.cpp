@@ -257,7 +257,23 @@ const FieldFormat* format_by_content(std::string_view bytes) {
   if (starts_with(bytes, "\xff\xff\xff")) return format_named("FreeSurfer curvature");
   if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return format_named("PLY");
   if (starts_with(bytes, "# vtk DataFile")) return format_named("VTK");
+  if (starts_with(bytes, "<")) {
+    const std::string_view head = bytes.substr(0, 1024);
+    if (head.find("<GIFTI") != std::string_view::npos) return format_named("GIFTI");
+    if (head.find("<VTKFile") != std::string_view::npos) return format_named("VTP");
+  }
   return nullptr;
+}
+
+// For files without a telling name, as on standard input.
+const FieldFormat* format_by_look(std::string_view bytes) {
+  const std::string_view line = bytes.substr(0, bytes.find('\n'));
+  if (starts_with(line, "#!ascii label")) return format_named("FreeSurfer label");
+  if (starts_with(line, "{") || starts_with(line, "[")) return format_named("JSON");
+  if (starts_with(line, "vertex") || line.find_first_not_of("0123456789+-.eEinfan,; \t\r") == std::string_view::npos) {
+    return format_named(line.find_first_of(",;") != std::string_view::npos ? "CSV" : "text");
+  }
+  return starts_with(line, "#") ? format_named("text") : nullptr;
 }
 
 LoadedField read(const Input& input, const std::string& name) {
@@ -270,6 +286,7 @@ LoadedField read(const Input& input, const std::string& name) {
     const bool is_named = std::find(f.extensions.begin(), f.extensions.end(), extension) != f.extensions.end();
     if (format == nullptr && is_named) format = &f;
   }
+  if (format == nullptr) format = format_by_look(input.bytes());
   if (format == nullptr) {
     throw Error(
         ErrorCode::UnknownFormat,

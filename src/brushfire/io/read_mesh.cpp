@@ -28,6 +28,17 @@ bool is_freesurfer(std::string_view b) { return starts_with(b, "\xff\xff\xfe") |
 std::string_view xml_head(std::string_view b) { return starts_with(b, "<") ? b.substr(0, 1024) : std::string_view(); }
 bool is_vtp(std::string_view b) { return xml_head(b).find("<VTKFile") != std::string_view::npos; }
 bool is_gifti(std::string_view b) { return xml_head(b).find("<GIFTI") != std::string_view::npos; }
+// OBJ has no mark: a first statement of its own is taken for one where there is no name, as on standard input.
+bool looks_like_obj(std::string_view b) {
+  while (!b.empty() && (b[0] == '#' || b[0] == '\n' || b[0] == '\r')) {
+    b.remove_prefix(b[0] == '#' ? std::min(b.find('\n'), b.size()) : 1);
+  }
+  for (const std::string_view keyword : {"v", "vn", "vt", "o", "g", "s", "mtllib", "usemtl"}) {
+    const bool is_it = starts_with(b, keyword) && b.size() > keyword.size();
+    if (is_it && (b[keyword.size()] == ' ' || b[keyword.size()] == '\t')) return true;
+  }
+  return false;
+}
 bool is_unmarked(std::string_view) { return false; }
 
 struct Format {
@@ -67,6 +78,9 @@ const Format& format_of(const Input& input, std::vector<std::string>& remarks) {
     return *by_content;
   }
   if (by_name != nullptr) return *by_name;
+  if (looks_like_obj(input.bytes())) {
+    return *std::find_if(std::begin(kFormats), std::end(kFormats), [](const Format& f) { return f.read == read_obj; });
+  }
   std::string known;
   for (const Format& f : kFormats) known += std::string(known.empty() ? "" : ", ") + f.name;
   throw Error(ErrorCode::UnknownFormat,
