@@ -17,13 +17,13 @@ SHARED = Path(__file__).resolve().parents[2] / "shared"
 DEMO = Path("/usr/share/doc/libcgal-demo/data.tar.gz")
 
 MARCHING = "novotni-klein,novotni-klein:float,kimmel-sethian,novotni-klein-2002,dijkstra"
-WINDOWS = "exact"
+WINDOWS = "windows:1e-2,windows:1e-3,windows:1e-4,windows:1e-5,exact"
 FAST = "meshlib,pymeshlab,gc-fmm"
 ALL = {"methods": f"{MARCHING},{WINDOWS}"}
 SMALL = ALL | {"peers": f"{FAST},gc-heat,pygeodesic,gdist,igl-exact", "rounds": 5}
 SCAN = ALL | {"peers": f"{FAST},gc-heat,pygeodesic", "rounds": 5}
 STRETCHED = ALL | {"peers": f"{FAST},pygeodesic", "rounds": 3, "patience": 10}
-LARGE = ALL | {"peers": FAST, "rounds": 3, "patience": 300, "once": "exact,vtp,novotni-klein-2002"}
+LARGE = ALL | {"peers": FAST, "rounds": 3, "patience": 300, "once": "windows:1e-5,exact,vtp,novotni-klein-2002"}
 
 SUITE = {
     "fandisk": SMALL,

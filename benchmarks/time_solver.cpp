@@ -26,7 +26,13 @@ DistanceOptions options_named(const std::string& name) {
   DistanceOptions options;
   const std::size_t colon = name.find(':');
   options.method = method_named(name.substr(0, colon));
-  if (colon != std::string::npos && name.substr(colon + 1) == "float") options.precision = Precision::Float;
+  if (colon == std::string::npos) return options;
+  const std::string option = name.substr(colon + 1);
+  if (option == "float") {
+    options.precision = Precision::Float;
+  } else {
+    options.tolerance = std::stod(option);
+  }
   return options;
 }
 
