@@ -146,7 +146,7 @@ def pareto(rows, file):
         axes.plot(x, y, "o" if is_ours(name) else "s", color=colour)
         axes.annotate(NAMES.get(name, name), (x, y), textcoords="offset points", xytext=(6, 4), fontsize=8, color=colour)
     axes.set(xscale="log", yscale="log", xlabel="arrays to field: ns per vertex, one thread")
-    axes.set(ylabel=f"mean relative error ({EXACT:g}: exact)", title="Error against time; lower left is better")
+    axes.set(ylabel=f"mean relative error (at the bottom: exact)", title="Error against time; lower left is better")
     axes.grid(True, which="major", alpha=0.3)
     figure.savefig(file, metadata={"Date": None}, bbox_inches="tight")
     return [row["mesh"] for row in rows]
