@@ -1,6 +1,6 @@
 // The driver: sources, events, windows from edge to edge, light from vertices, and what is read off at the end.
 //
-// Every write to a vertex is the length of a real path (to rounding), and a window or a part of one is dropped only
+// L1 ... L8 are the lemmas of docs/tolerance.md. Every write to a vertex is the length of a real path (to rounding), and a window or a part of one is dropped only
 // where another real path is shown to be shorter; so order does not matter to the result, only to the time.
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/windows/detail/engine.h>
@@ -312,6 +312,7 @@ class WindowEngine final : public Engine {
 
   // ---- windows
 
+  // L7.
   bool is_dominated(const WindowFace& f, Index k, const Window& w) const {
     // Xin and Wang 2009: a path through either end of the edge is shorter at the far end of the window, hence
     // (the path along the edge grows fastest) everywhere in it.
@@ -354,7 +355,7 @@ class WindowEngine final : public Engine {
     }
   }
 
-  // The turn of a list: trimmed, and on to the other two edges.
+  // The turn of a list: trimmed (L5), merged (L2), and on to the other two edges.
   void spread(Index h) {
     const WindowFace& f = structure_.faces[h / 3];
     const Index k = h % 3;
@@ -376,7 +377,7 @@ class WindowEngine final : public Engine {
     for (const Window& w : windows) pass(h, frame, w);
   }
 
-  // From left to right, each with the one before it as long as that works. Returns how many are left.
+  // L2, L8. From left to right, each with the one before it as long as that works. Returns how many are left.
   std::size_t merge_neighbours(std::span<Window> w) const {
     std::size_t last = 0;
     Window merged;
@@ -441,7 +442,7 @@ class WindowEngine final : public Engine {
 
   // ---- vertices as sources
 
-  // Light goes on from v: into its shadow, or everywhere.
+  // L6. Light goes on from v: into its shadow, or everywhere.
   void shine(Index v) {
     VertexState& s = state_[v];
     s.emitted = values_[v].lower;

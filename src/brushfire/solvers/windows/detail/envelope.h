@@ -8,7 +8,7 @@
 
 namespace brushfire::detail {
 
-// The lower envelope of windows on one edge, by merging envelopes of halves: O(n log n) windows, whatever their order
+// L5. The lower envelope of windows on one edge, by merging envelopes of halves: O(n log n) windows, whatever their order
 // and overlap (two windows cross at most twice, so envelopes stay short). Keeps its buffers between calls.
 class Envelope {
  public:

@@ -12,7 +12,7 @@ namespace brushfire::detail {
 // Around a needle, or through two faces without area over the same vertices, light comes back to where it was hardly
 // longer or no longer at all, as often as you like; nothing that compares with vertices would stop it. Over the edges
 // of thin faces, therefore, every window is remembered, and one that is nowhere shorter than an earlier one is dropped:
-// trimming, only that the earlier one may have moved on. (Among windows that tie, the first stays, so it is safe.)
+// trimming (L5), only that the earlier one may have moved on. (Among windows that tie, the first stays, so it is safe.)
 class WindowMemory {
  public:
   // False where an earlier window of h makes this one superfluous; else it is remembered.

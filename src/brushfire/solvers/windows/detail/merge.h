@@ -17,7 +17,7 @@ struct MergeBudget {
   double pace = 0.03;
 };
 
-// Replaces neighbours a = [a.b0, m] and b = [m', b.b1], m' - m a sliver at most, by one window on [a.b0, b.b1] that
+// L2. Replaces neighbours a = [a.b0, m] and b = [m', b.b1], m' - m a sliver at most, by one window on [a.b0, b.b1] that
 //   (M1) is nowhere above either,
 //   (M2) equals a at the left end and b at the right end,
 //   (M3) carries as slack the largest of  a.slack + (a - merged)  and  b.slack + (b - merged)  over their intervals,

@@ -20,7 +20,7 @@ inline double share_on_left(const Window& w, Vec2 apex, double b) {
   return b * q / (apex.x * q - apex.y * (origin_weight(w.kind) * b - w.source.x));
 }
 
-// Propagation: the children's pre-images tile the lit interval; slack, lift and root are inherited (the slack stays
+// Propagation (L3, L4): the children's pre-images tile the lit interval; slack, lift and root are inherited (the slack stays
 // valid because the value grows along a ray as fast as the path does). `apex_value`: straight_value at the apex.
 // Needs is_lit(w) and, where the source lies on the edge, an apex off it. What rounding decides about a ray through the
 // apex is worth nothing: both children meet there.
