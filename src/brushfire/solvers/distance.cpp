@@ -22,13 +22,13 @@ constexpr std::array kMethods{Method::Windows,          Method::Exact,         M
 
 // Methods that share one engine go by the name of the first.
 Method engine_of(Method method) {
+  if (method == Method::Exact) return Method::Windows;
   return method == Method::NovotniKlein2002 || method == Method::KimmelSethian ? Method::NovotniKlein : method;
 }
 
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
   switch (method) {
     case Method::Windows:
-    case Method::Exact:
       return detail::make_windows(mesh);
     case Method::NovotniKlein:
       return detail::make_fast_marching(mesh);
