@@ -56,6 +56,13 @@ TEST(Dirty, FacesWithoutAreaOverTheSameVerticesComeToAnEnd) {
               {2.1504241774812902, 0.6445024623314348, 2.1504241774812902, 0.68186956682860252});
 }
 
+TEST(Dirty, LightThatGoesRoundDoesNotImproveByRounding) {
+  const std::vector<Vec3> positions{{2, 2, 3}, {1, 0, 2}, {4, 6, 5}};
+  const std::vector<Face> faces{{0, 1, 2}, {2, 0, 1}};
+  expect_near(distances(Mesh(positions, faces), {0, {0, 0.9853515625, 0.0146484375}}),
+              {2.3418461505710267, 0.10764359221215138, 7.2408256361373829});
+}
+
 TEST(Dirty, VerticesSeenByNothingYetAreNotReadAfterAnEarlyStop) {
   // A needle whose far end has only a bound by way of a bent path when the target is reached.
   const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0.5, 0.1, 0}, {0.5, 40, 0}, {1.5, 0.5, 0}};

@@ -4,6 +4,7 @@
 #include <brushfire/solvers/windows/detail/ridge.h>
 #include <brushfire/solvers/windows/detail/window.h>
 
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -27,10 +28,15 @@ class WindowMemory {
   void clear() { known_.clear(); }
 
  private:
+  static constexpr double kTurns = 32 * std::numeric_limits<double>::epsilon();
+
   static bool covers(const Window& k, const Window& w) {
-    const double margin = kSliver * (w.b1 - w.b0);
-    if (k.b0 > w.b0 + margin || k.b1 < w.b1 - margin) return false;
-    const auto no_worse = [&](double x) { return value_at(k, x) <= value_at(w, x) + tie(value_at(w, x)); };
+    // Light that has come round has been turned through a few frames: its source and its ends have moved by some
+    // epsilons of the longest number there. That must not look like an improvement, or it would go round for ever and
+    // improve each time; dropping a true one of that size costs no more than that.
+    const double moved = kTurns * (norm(w.source) + w.b1);
+    if (k.b0 > w.b0 + moved || k.b1 < w.b1 - moved) return false;
+    const auto no_worse = [&](double x) { return value_at(k, x) <= value_at(w, x) + moved; };
     if (!no_worse(w.b0) || !no_worse(w.b1)) return false;
     const double x = equal_slope(k, w);
     return !(x > w.b0 && x < w.b1) || no_worse(x);
