@@ -9,6 +9,7 @@ import numpy.typing as npt
 _Floats: TypeAlias = npt.NDArray[np.float64]
 _Ints: TypeAlias = npt.NDArray[np.int64]
 _Signed: TypeAlias = npt.NDArray[np.int32]
+_Options: TypeAlias = dict[str, str | float]
 _Progress: TypeAlias = Callable[[float], object] | None
 
 version: str
@@ -33,8 +34,7 @@ class Solver:
         offsets: _Floats,
         target_index: _Ints | None,
         target_weights: _Floats | None,
-        method: str | None,
-        max_distance: float,
+        options: _Options,
         progress: _Progress,
     ) -> tuple[_Floats, _Signed, _Floats | None]: ...
 
@@ -58,8 +58,7 @@ def fill_matrix(
     row_weights: _Floats | None,
     column_index: _Ints | None,
     column_weights: _Floats | None,
-    method: str | None,
-    max_distance: float,
+    options: _Options,
     threads: int,
     progress: _Progress,
 ) -> None: ...
@@ -68,7 +67,7 @@ def sparse_float32(
     radius: float,
     row_index: _Ints | None,
     row_weights: _Floats | None,
-    method: str | None,
+    options: _Options,
     threads: int,
     memory_limit: int,
     progress: _Progress,
@@ -78,7 +77,7 @@ def sparse_float64(
     radius: float,
     row_index: _Ints | None,
     row_weights: _Floats | None,
-    method: str | None,
+    options: _Options,
     threads: int,
     memory_limit: int,
     progress: _Progress,
@@ -91,8 +90,7 @@ def write_matrix(
     row_weights: _Floats | None,
     column_index: _Ints | None,
     column_weights: _Floats | None,
-    method: str | None,
-    max_distance: float,
+    options: _Options,
     threads: int,
     progress: _Progress,
 ) -> None: ...

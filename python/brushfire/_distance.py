@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, number, offsets
+from brushfire._arrays import Floats, offsets
 from brushfire._errors import BrushfireError
+from brushfire._options import options
 from brushfire._places import PlaceArrays, Places
 
 Labels = npt.NDArray[np.int32]
@@ -32,6 +33,8 @@ class Distances:
         sources: Places,
         *,
         method: str | None = ...,
+        tolerance: float | None = ...,
+        bound: str | None = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: Places | None = ...,
@@ -45,6 +48,8 @@ class Distances:
         sources: Places,
         *,
         method: str | None = ...,
+        tolerance: float | None = ...,
+        bound: str | None = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: Places | None = ...,
@@ -58,6 +63,8 @@ class Distances:
         sources: Places,
         *,
         method: str | None = ...,
+        tolerance: float | None = ...,
+        bound: str | None = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: None = ...,
@@ -71,6 +78,8 @@ class Distances:
         sources: Places,
         *,
         method: str | None = ...,
+        tolerance: float | None = ...,
+        bound: str | None = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: None = ...,
@@ -83,6 +92,8 @@ class Distances:
         sources: Places,
         *,
         method: str | None = None,
+        tolerance: float | None = None,
+        bound: str | None = None,
         offset: npt.ArrayLike = 0.0,
         max_distance: float = np.inf,
         targets: Places | None = None,
@@ -95,6 +106,10 @@ class Distances:
         :param sources: a vertex, a :class:`Point`, a list or array of them, a mask with one bool per vertex, or
             :class:`Points`; at least one.
         :param method: one of :func:`methods`; the library's default if none is given.
+        :param tolerance: for method ``"windows"``, which is meant where a tolerance is given: the relative error at every
+            vertex is at most this; in [0, 0.1], 0 is exact.
+        :param bound: for method ``"windows"``: ``"lower"`` gives values never above the distance, ``"upper"`` never below
+            it, ``"estimate"`` (the default) values in between.
         :param offset: the value that the front starts with, one number or one per source; finite, may be negative.
         :param max_distance: what is farther reads +inf; the run costs what it reaches.
         :param targets: where only some distances are needed; the solver may stop as soon as it has them.
@@ -115,23 +130,25 @@ class Distances:
         >>> d, source = mesh.distance([1, 3], offset=[0, 1], method="dijkstra", return_source=True)
         >>> d.tolist(), source.tolist()
         ([3.0, 0.0, 4.0, 1.0], [0, 0, 0, 1])
+        >>> d, bound = mesh.distance(0, tolerance=1e-3, return_bound=True)
+        >>> bool((abs(d - [0, 3, 5, 4]) <= bound + 1e-11).all())
+        True
         >>> mesh.distance(0, targets=[2, 1], method="dijkstra").tolist()
         [5.0, 3.0]
         """
         start = self._arrays(sources, "sources")
         end = None if targets is None else self._arrays(targets, "targets")
-        distance, source, bound = self._run().solve(
+        distance, source, error = self._run().solve(
             start.index,
             start.weights,
             offsets(offset, len(start.index)),
             end.index if end else None,
             end.weights if end else None,
-            method,
-            number(max_distance, "max_distance"),
+            options(method, tolerance, max_distance, bound),
             progress,
         )
-        if return_bound and bound is None:
+        if return_bound and error is None:
             raise BrushfireError("return_bound: the method has no bound, or there are targets")
         if return_source or return_bound:
-            return (distance, *([source] if return_source else []), *([bound] if return_bound else []))
+            return (distance, *([source] if return_source else []), *([error] if return_bound else []))
         return distance

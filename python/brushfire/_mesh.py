@@ -13,6 +13,7 @@ from brushfire import _arrays, _core
 from brushfire._arrays import Floats, number
 from brushfire._distance import Distances, Progress
 from brushfire._errors import BrushfireError
+from brushfire._options import options
 from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
 
 if TYPE_CHECKING:
@@ -289,6 +290,7 @@ class Mesh(Distances):
         columns: Places | None = None,
         *,
         method: str | None = None,
+        tolerance: float | None = None,
         max_distance: float = np.inf,
         dtype: npt.DTypeLike = np.float32,
         out: npt.NDArray[Any] | None = None,
@@ -299,6 +301,7 @@ class Mesh(Distances):
 
         :param rows: vertices, points or a mask; all vertices if none are given.
         :param columns: likewise.
+        :param method, tolerance: as for :meth:`distance`.
         :param max_distance: what is farther reads +inf.
         :param dtype: float32 (rounded from float64, 7 digits) or float64.
         :param out: a C-contiguous, writable array of shape (rows, columns) of the dtype that is wanted, a
@@ -315,6 +318,7 @@ class Mesh(Distances):
         row, row_count = self._optional(rows, "rows")
         column, column_count = self._optional(columns, "columns")
         shape = (row_count, column_count)
+        chosen = options(method, tolerance, max_distance)
         if out is None:
             single = _is_float32(dtype)
             _core.require_dense_memory(*shape, single, 0)
@@ -322,16 +326,7 @@ class Mesh(Distances):
         else:
             _check_out(out, shape)
         if out.size:
-            _core.fill_matrix(
-                self._mesh,
-                out,
-                *row,
-                *column,
-                method,
-                number(max_distance, "max_distance"),
-                _threads(threads),
-                progress,
-            )
+            _core.fill_matrix(self._mesh, out, *row, *column, chosen, _threads(threads), progress)
         return out
 
     def distances_within(
@@ -340,6 +335,7 @@ class Mesh(Distances):
         rows: Places | None = None,
         *,
         method: str | None = None,
+        tolerance: float | None = None,
         dtype: npt.DTypeLike = np.float32,
         threads: int = 0,
         memory_limit: int = 0,
@@ -371,7 +367,13 @@ class Mesh(Distances):
         if memory_limit < 0:
             raise BrushfireError(f"memory_limit: {memory_limit} is negative")
         data, indices, starts = compute(
-            self._mesh, number(radius, "radius"), *row, method, _threads(threads), memory_limit, progress
+            self._mesh,
+            number(radius, "radius"),
+            *row,
+            options(method, tolerance, np.inf),
+            _threads(threads),
+            memory_limit,
+            progress,
         )
         # scipy wants one integer type for both: 32 bits where they do.
         integer = np.int32 if len(data) <= np.iinfo(np.int32).max else np.int64
@@ -389,6 +391,7 @@ class Mesh(Distances):
         columns: Places | None = None,
         *,
         method: str | None = None,
+        tolerance: float | None = None,
         max_distance: float = np.inf,
         dtype: npt.DTypeLike = np.float32,
         threads: int = 0,
@@ -410,9 +413,9 @@ class Mesh(Distances):
         """
         row, _ = self._optional(rows, "rows")
         column, _ = self._optional(columns, "columns")
-        limit = number(max_distance, "max_distance")
+        chosen = options(method, tolerance, max_distance)
         _core.write_matrix(
-            self._mesh, os.fspath(path), _is_float32(dtype), *row, *column, method, limit, _threads(threads), progress
+            self._mesh, os.fspath(path), _is_float32(dtype), *row, *column, chosen, _threads(threads), progress
         )
 
     def _run(self) -> _core.Solver:

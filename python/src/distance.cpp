@@ -42,11 +42,10 @@ std::vector<Source> sources_from(const Mesh& mesh, const PlaceArrays& places, co
 // methods that have none.
 nb::tuple solve(Solver& solver, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
                 const Vector<double>& offsets, const std::optional<Vector<std::int64_t>>& target_index,
-                const std::optional<Triples<double>>& target_weights, const std::optional<std::string>& method,
-                double max_distance, nb::object progress) {
+                const std::optional<Triples<double>>& target_weights, const nb::dict& given, nb::object progress) {
   const Mesh& mesh = solver.mesh();
   Computation computation(std::move(progress));
-  DistanceOptions options = CommonOptions{method, max_distance}.make(computation);
+  DistanceOptions options = options_from(given, computation);
   std::vector<Source> sources;
   DistanceField field;
   field = computation.run(mesh.face_count() < kBriefFaces, [&] {
@@ -69,15 +68,35 @@ nb::tuple method_names() {
   return nb::tuple(names);
 }
 
+Bound bound_named(std::string_view name) {
+  if (name == "estimate") return Bound::Estimate;
+  if (name == "lower") return Bound::Lower;
+  if (name == "upper") return Bound::Upper;
+  throw Error(ErrorCode::InvalidArgument, "unknown bound '" + std::string(name) + "': it is estimate, lower or upper");
+}
+
 }  // namespace
+
+DistanceOptions options_from(const nb::dict& given, Computation& computation) {
+  DistanceOptions options;
+  for (const auto [key, value] : given) {
+    const auto name = nb::cast<std::string>(key);
+    if (name == "method") options.method = method_named(nb::cast<std::string>(value));
+    if (name == "bound") options.bound = bound_named(nb::cast<std::string>(value));
+    if (name == "tolerance") options.tolerance = nb::cast<double>(value);
+    if (name == "max_distance") options.max_distance = nb::cast<double>(value);
+  }
+  options.cancel = computation.cancel();
+  options.progress = computation.progress();
+  return options;
+}
 
 void bind_distance(nb::module_& m) {
   nb::class_<Solver>(m, "Solver")
       .def(nb::init<const Mesh&>(), nb::arg("mesh"))
       .def("solve", solve, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
            nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert().none(),
-           nb::arg("target_weights").noconvert().none(), nb::arg("method").none(), nb::arg("max_distance"),
-           nb::arg("progress").none());
+           nb::arg("target_weights").noconvert().none(), nb::arg("options"), nb::arg("progress").none());
   m.def("method_names", method_names);
   m.attr("default_method") = std::string(name_of(DistanceOptions{}.method));
 }

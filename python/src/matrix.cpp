@@ -26,12 +26,11 @@ Places view(const std::optional<std::vector<Place>>& places) {
 
 struct Call {
   Call(const OptionalIndex& row_index, const OptionalWeights& row_weights, const OptionalIndex& column_index,
-       const OptionalWeights& column_weights, const std::optional<std::string>& method, double max_distance,
-       unsigned threads, nb::object progress)
+       const OptionalWeights& column_weights, const nb::dict& given, unsigned threads, nb::object progress)
       : computation(std::move(progress)),
         rows(places_or_all(row_index, row_weights)),
         columns(places_or_all(column_index, column_weights)) {
-    options.distance = CommonOptions{method, max_distance}.make(computation);
+    options.distance = options_from(given, computation);
     options.threads = threads;
   }
 
@@ -43,9 +42,8 @@ struct Call {
 template <class T>
 void fill_matrix(const Mesh& mesh, const nb::ndarray<T, nb::ndim<2>, nb::c_contig, nb::device::cpu>& out,
                  const OptionalIndex& row_index, const OptionalWeights& row_weights, const OptionalIndex& column_index,
-                 const OptionalWeights& column_weights, const std::optional<std::string>& method, double max_distance,
-                 unsigned threads, nb::object progress) {
-  Call call(row_index, row_weights, column_index, column_weights, method, max_distance, threads, std::move(progress));
+                 const OptionalWeights& column_weights, const nb::dict& given, unsigned threads, nb::object progress) {
+  Call call(row_index, row_weights, column_index, column_weights, given, threads, std::move(progress));
   call.computation.run(false, [&] {
     distance_matrix<T>(mesh, view(call.rows), view(call.columns), std::span<T>(out.data(), out.size()), call.options);
     return true;
@@ -54,9 +52,8 @@ void fill_matrix(const Mesh& mesh, const nb::ndarray<T, nb::ndim<2>, nb::c_conti
 
 template <class T>
 nb::tuple sparse(const Mesh& mesh, double radius, const OptionalIndex& row_index, const OptionalWeights& row_weights,
-                 const std::optional<std::string>& method, unsigned threads, std::uint64_t memory_limit,
-                 nb::object progress) {
-  Call call(row_index, row_weights, {}, {}, method, kInfinity, threads, std::move(progress));
+                 const nb::dict& given, unsigned threads, std::uint64_t memory_limit, nb::object progress) {
+  Call call(row_index, row_weights, {}, {}, given, threads, std::move(progress));
   call.options.memory_limit = memory_limit;
   SparseMatrix<T> matrix =
       call.computation.run(false, [&] { return distances_within<T>(mesh, radius, view(call.rows), call.options); });
@@ -67,8 +64,8 @@ nb::tuple sparse(const Mesh& mesh, double radius, const OptionalIndex& row_index
 
 void write(const Mesh& mesh, const std::string& path, bool float32, const OptionalIndex& row_index,
            const OptionalWeights& row_weights, const OptionalIndex& column_index, const OptionalWeights& column_weights,
-           const std::optional<std::string>& method, double max_distance, unsigned threads, nb::object progress) {
-  Call call(row_index, row_weights, column_index, column_weights, method, max_distance, threads, std::move(progress));
+           const nb::dict& given, unsigned threads, nb::object progress) {
+  Call call(row_index, row_weights, column_index, column_weights, given, threads, std::move(progress));
   call.computation.run(false, [&] {
     write_distance_matrix(path, mesh, view(call.rows), view(call.columns),
                           float32 ? ValueType::Float32 : ValueType::Float64, call.options);
@@ -84,7 +81,7 @@ template <class T>
 void bind_typed(nb::module_& m) {
   m.def("fill_matrix", fill_matrix<T>, nb::arg("mesh"), nb::arg("out").noconvert(), nb::arg("row_index").none(),
         nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
-        nb::arg("method").none(), nb::arg("max_distance"), nb::arg("threads"), nb::arg("progress").none());
+        nb::arg("options"), nb::arg("threads"), nb::arg("progress").none());
 }
 
 }  // namespace
@@ -94,12 +91,12 @@ void bind_matrix(nb::module_& m) {
   bind_typed<double>(m);
   for (const bool is_float : {true, false}) {
     m.def(is_float ? "sparse_float32" : "sparse_float64", is_float ? sparse<float> : sparse<double>, nb::arg("mesh"),
-          nb::arg("radius"), nb::arg("row_index").none(), nb::arg("row_weights").none(), nb::arg("method").none(),
+          nb::arg("radius"), nb::arg("row_index").none(), nb::arg("row_weights").none(), nb::arg("options"),
           nb::arg("threads"), nb::arg("memory_limit"), nb::arg("progress").none());
   }
   m.def("write_matrix", write, nb::arg("mesh"), nb::arg("path"), nb::arg("float32"), nb::arg("row_index").none(),
         nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
-        nb::arg("method").none(), nb::arg("max_distance"), nb::arg("threads"), nb::arg("progress").none());
+        nb::arg("options"), nb::arg("threads"), nb::arg("progress").none());
   m.def("require_dense_memory", require_dense, nb::arg("rows"), nb::arg("columns"), nb::arg("float32"),
         nb::arg("limit"));
 }

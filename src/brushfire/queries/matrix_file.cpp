@@ -63,6 +63,8 @@ std::uint64_t fingerprint_of(const Mesh& mesh, const Places& rows, const Places&
   f.add(columns);
   f.add(static_cast<std::uint64_t>(type));
   f.add(name_of(options.method));
+  f.add(options.tolerance);
+  f.add(static_cast<std::uint64_t>(options.bound));
   f.add(static_cast<std::uint64_t>(options.precision));
   f.add(options.max_distance);
   return f.value();

@@ -1,0 +1,30 @@
+"""How to compute: the arguments that every distance call takes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from brushfire._arrays import number
+from brushfire._errors import BrushfireError
+
+Options = dict[str, "str | float"]
+
+TOLERANT = "windows"
+
+
+def options(method: Any, tolerance: Any, max_distance: Any, bound: Any = None) -> Options:
+    """Those that were given, checked; a tolerance without a method means the one that keeps it."""
+    chosen: Options = {"max_distance": number(max_distance, "max_distance")}
+    if tolerance is not None or bound is not None:
+        if method not in (None, TOLERANT):
+            raise BrushfireError(f"tolerance and bound are for method {TOLERANT!r}: {method!r} has none")
+        method = TOLERANT
+    if tolerance is not None:
+        chosen["tolerance"] = number(tolerance, "tolerance")
+    for name, value in (("method", method), ("bound", bound)):
+        if value is None:
+            continue
+        if not isinstance(value, str):
+            raise TypeError(f"{name}: a string is needed, not {value!r}")
+        chosen[name] = value
+    return chosen
