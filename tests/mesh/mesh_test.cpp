@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 namespace brushfire {
@@ -139,7 +139,8 @@ TEST(Mesh, ReportCountsDegenerateDuplicateAndIsolatedParts) {
   positions.push_back({2, 0, 0});
   positions.push_back({5, 5, 5});
   const std::vector<Face> faces{{0, 1, 2}, {0, 2, 3}, {2, 0, 1}, {0, 1, 1}, {0, 1, 4}};
-  const MeshReport& r = Mesh(positions, faces).report();
+  const Mesh mesh(positions, faces);
+  const MeshReport& r = mesh.report();
   EXPECT_EQ(r.duplicate_faces, 1u);
   EXPECT_EQ(r.repeated_index_faces, 1u);
   EXPECT_EQ(r.zero_area_faces, 1u);
@@ -221,9 +222,10 @@ TEST(Mesh, FacesThatNameAVertexTwiceKeepTheirNumberAndJoinNothing) {
 }
 
 TEST(Mesh, FansAndBooksOfManyFacesTakeNoQuadraticTime) {
-  // 200000 faces at one vertex, then at one edge: linear is some milliseconds, quadratic minutes.
-  const auto started = std::chrono::steady_clock::now();
-  const Index n = 200000;
+  // 50000 faces at one vertex, then at one edge: linear is 0.1 s, quadratic half a minute. Of the process, so that a
+  // busy machine does not count.
+  const std::clock_t started = std::clock();
+  const Index n = 50000;
   const Mesh fan = shapes::cone(1, n).mesh();
   EXPECT_EQ(fan.links()[0], Link::Circle);
   EXPECT_EQ(fan.report().boundary_edges, n);
@@ -241,7 +243,7 @@ TEST(Mesh, FansAndBooksOfManyFacesTakeNoQuadraticTime) {
   EXPECT_EQ(book.links()[0], Link::Other);
   const Mesh intrinsic = Mesh::from_lengths(n + 2, faces, lengths);
   EXPECT_EQ(intrinsic.lengths()[3] * intrinsic.unit(), 1);
-  EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(10));
+  EXPECT_LT(std::clock() - started, 10 * CLOCKS_PER_SEC);
 }
 
 TEST(Mesh, LengthPrecisionBoundsWhatLengthsAloneLose) {
