@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Regenerates docs/paper.md from the built measuring program. Scans come from Debian's libcgal-demo, where it is installed.
+# Regenerates docs/paper.md and its pictures from the built measuring programs. Scans come from Debian's libcgal-demo, where it is installed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -17,4 +17,9 @@ else
 fi
 build/benchmark/benchmarks/paper/paper benchmarks/paper/paper.md.in "${scans[@]}" >"$folder/paper.md"
 mv "$folder/paper.md" docs/paper.md
+pictures=()
+for scan in "${scans[@]}"; do
+  case $scan in */man.off) ;; *) pictures+=("$scan") ;; esac  # two scans, as in the paper
+done
+build/benchmark/benchmarks/paper/figures docs/images "${pictures[@]}"
 echo "docs/paper.md" >&2
