@@ -264,7 +264,7 @@ TEST_F(Program, TheExtensionDecidesWhatIsWrittenAndTheTalkGoesToStderr) {
     const Ended ended = run_program({"distance", path("square.off"), "-s", "0", "-o", file});
     EXPECT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(ended.out, "");
-    EXPECT_EQ(lines_of(ended.err).size(), 4u) << ended.err;
+    EXPECT_EQ(lines_of(ended.err).size(), 5u) << ended.err;
     EXPECT_GT(fs::file_size(file), 0u);
     EXPECT_EQ(run_program({"distance", path("square.off"), "-s", "0", "-o", file, "--quiet"}).err, "");
   }

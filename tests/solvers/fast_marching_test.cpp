@@ -310,6 +310,7 @@ TEST(FastMarching, ProgressGrowsFromZeroToOne) {
   const Mesh mesh = shapes::icosphere(5).mesh();
   std::vector<double> shares;
   DistanceOptions options;
+  options.method = Method::NovotniKlein;
   options.progress = [&](double share) { shares.push_back(share); };
   const Source source = at_vertex(mesh, 0);
   distance(mesh, {&source, 1}, options);

@@ -45,7 +45,7 @@ struct Source {
 inline constexpr double kMaxTolerance = 0.1;
 
 struct DistanceOptions {
-  Method method = Method::NovotniKlein;
+  Method method = Method::Windows;
   // Method::Windows: |value - distance| <= tolerance * distance at every vertex (of the path's length, where sources
   // have offsets); in [0, kMaxTolerance], 0 is exact.
   double tolerance = 1e-3;
@@ -68,7 +68,7 @@ struct DistanceField {
   std::vector<double> error_bound;             // [vertex_count] absolute and proven; empty for methods without a bound
   double max_error_bound = kInfinity;          // relative, over all reached vertices; +inf for methods without a bound
   std::shared_ptr<const WindowField> windows;  // where keep_paths or keep_windows was set and the method has windows
-  Method method = Method::NovotniKlein;
+  Method method = Method::Windows;
   Index reached = 0;          // vertices with a finite distance
   Index beyond_radius = 0;    // vertices that the front saw but that are farther than max_distance or not final
   Index unreachable = 0;      // the rest (exact where neither radius nor targets stopped the front)
