@@ -1,7 +1,8 @@
 // The driver: sources, events, windows from edge to edge, light from vertices, and what is read off at the end.
 //
-// L1 ... L8 are the lemmas of docs/tolerance.md. Every write to a vertex is the length of a real path (to rounding), and a window or a part of one is dropped only
-// where another real path is shown to be shorter; so order does not matter to the result, only to the time.
+// L1 ... L8 are the lemmas of docs/tolerance.md. Every write to a vertex is the length of a real path (to rounding),
+// and a window or a part of one is dropped only where another real path is shown to be shorter; so order does not
+// matter to the result, only to the time.
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/windows/detail/engine.h>
 #include <brushfire/solvers/windows/detail/envelope.h>

@@ -8,8 +8,8 @@
 
 namespace brushfire::detail {
 
-// L5. The lower envelope of windows on one edge, by merging envelopes of halves: O(n log n) windows, whatever their order
-// and overlap (two windows cross at most twice, so envelopes stay short). Keeps its buffers between calls.
+// L5. The lower envelope of windows on one edge, by merging envelopes of halves: O(n log n) windows, whatever their
+// order and overlap (two windows cross at most twice, so envelopes stay short). Keeps its buffers between calls.
 class Envelope {
  public:
   // The envelope, from left to right, disjoint; valid until the next call. Windows are equal only within rounding

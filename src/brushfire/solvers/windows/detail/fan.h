@@ -54,9 +54,9 @@ void walk_fan(const WindowStructure& mesh, Index vertex, Index start, Index exit
   }
 }
 
-// L6. The sectors in the shadow of a Saddle or Boundary vertex that a ray has reached: at an angle of pi or more from the
-// arrival on both sides (on a boundary, the side that there is). Any one of several shortest arrivals will do: a path
-// that goes on shortest from one of them goes on shortest from all.
+// L6. The sectors in the shadow of a Saddle or Boundary vertex that a ray has reached: at an angle of pi or more from
+// the arrival on both sides (on a boundary, the side that there is). Any one of several shortest arrivals will do: a
+// path that goes on shortest from one of them goes on shortest from all.
 template <class Visit>
 void for_each_shadow(const WindowStructure& mesh, Index vertex, const Ray& arrival, Visit&& visit) {
   const Index start = arrival.halfedge / 3;

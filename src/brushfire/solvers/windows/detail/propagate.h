@@ -20,8 +20,8 @@ inline double share_on_left(const Window& w, Vec2 apex, double b) {
   return b * q / (apex.x * q - apex.y * (origin_weight(w.kind) * b - w.source.x));
 }
 
-// Propagation (L3, L4): the children's pre-images tile the lit interval; slack, lift and root are inherited (the slack stays
-// valid because the value grows along a ray as fast as the path does). `apex_value`: straight_value at the apex.
+// Propagation (L3, L4): the children's pre-images tile the lit interval; slack, lift and root are inherited (the slack
+// stays valid because the value grows along a ray as fast as the path does). `apex_value`: straight_value at the apex.
 // Needs is_lit(w) and, where the source lies on the edge, an apex off it. What rounding decides about a ray through the
 // apex is worth nothing: both children meet there.
 inline Children propagate(const Window& w, const Frame& frame, double apex_value) {
