@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -429,6 +430,30 @@ TEST_F(Program, CtrlCEndsWithOneHundredThirty) {
   EXPECT_FALSE(ended.killed);
   EXPECT_EQ(ended.out, "");
   EXPECT_EQ(ended.err, "brushfire: interrupted\n");
+}
+
+TEST_F(Program, TheReadmeKnowsTheDefaultMethod) {
+  run_program({"shape", "cube", "-o", path("cube.ply"), "-q"});
+  const std::string told = run_program({"distance", path("cube.ply"), "-s", "0", "--json"}).out;
+  std::smatch method;
+  ASSERT_TRUE(std::regex_search(told, method, std::regex("\"method\": \"([a-z0-9-]+)\"")));
+  std::ifstream file(BRUSHFIRE_SOURCE_DIR "/README.md");
+  const std::string readme{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(readme.find("| `" + method[1].str() + "` (default) |"), std::string::npos) << method[1];
+}
+
+// A shell that has sourced the script, with the cursor at the end of "brushfire distance --method dij".
+TEST_F(Program, BashCompletesAMethod) {
+  write("script", run_program({"completion", "bash"}).out);
+  const std::string command = "bash -c 'source \"" + path("script") +
+                              "\"; COMP_WORDS=(brushfire distance --method dij); COMP_CWORD=3; _brushfire; "
+                              "echo \"${COMPREPLY[*]}\"' > \"" +
+                              path("completed") + "\"";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  std::ifstream file(path("completed"));
+  std::string completed;
+  std::getline(file, completed);
+  EXPECT_EQ(completed, "dijkstra");
 }
 
 TEST_F(Program, CompletionKnowsVerbsOptionsAndMethods) {

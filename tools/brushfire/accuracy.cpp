@@ -39,10 +39,11 @@ std::string name_of(Bound bound) {
 void add_accuracy(Verb& verb, Accuracy& accuracy) {
   std::vector<std::string> methods;
   for (const Method m : all_methods()) methods.emplace_back(brushfire::name_of(m));
-  const std::string how = "How; if not given: " + std::string(brushfire::name_of(DistanceOptions{}.method)) +
-                          ", or windows with any of the next three";
+  const std::string how =
+      "How to compute (if not given: " + std::string(brushfire::name_of(DistanceOptions{}.method)) + ")";
   verb.choice("-m,--method", accuracy.method, methods, how.c_str());
-  verb.option("--tolerance", accuracy.tolerance, "T", "Relative error that is kept at every vertex, 0 to 0.1");
+  verb.option("--tolerance", accuracy.tolerance, "T",
+              "Relative error that windows keeps at every vertex, 0 to 0.1 (1e-3)");
   verb.choice("--accuracy", accuracy.level, names(kLevels), "The same in words, 0.01, 0.001, 0.00001 and 0");
   verb.choice("--bound", accuracy.bound, names(kBounds), "Never shorter (upper), never longer (lower) than the truth");
 }
