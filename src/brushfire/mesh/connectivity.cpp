@@ -2,6 +2,8 @@
 #include <brushfire/mesh/detail/connectivity.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <utility>
 
 namespace brushfire::detail {
@@ -9,26 +11,34 @@ namespace {
 
 bool usable(const Face& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; }
 
+// A halfedge and the other end of its edge, as one number that sorts by that end.
+using EndAndHalfedge = std::uint64_t;
+
+EndAndHalfedge pack(Index end, Index h) { return EndAndHalfedge{end} << 32 | h; }
+Index end_of(EndAndHalfedge e) { return static_cast<Index>(e >> 32); }
+Index halfedge_of(EndAndHalfedge e) { return static_cast<Index>(e); }
+
 // Links the halfedges of one edge, given in ascending order, in a ring.
-void link_ring(std::span<const std::pair<Index, Index>> same_edge, std::vector<Index>& opposite) {
+void link_ring(std::span<const EndAndHalfedge> same_edge, UninitializedArray<Index>& opposite) {
   for (std::size_t i = 0; i < same_edge.size(); ++i) {
-    opposite[same_edge[i].second] = same_edge[(i + 1) % same_edge.size()].second;
+    opposite[halfedge_of(same_edge[i])] = halfedge_of(same_edge[(i + 1) % same_edge.size()]);
   }
 }
 
-// Small lists (a vertex of ordinary valence) are sorted by insertion: std::sort costs three times as much there.
-void sort_pairs(std::vector<std::pair<Index, Index>>& list) {
-  constexpr std::size_t kInsertionLimit = 24;
-  if (list.size() > kInsertionLimit) {
+// Small lists (a vertex of ordinary valence) are sorted by counting what is less: no branch that cannot be foreseen.
+void sort_edges(std::span<EndAndHalfedge> list) {
+  constexpr std::size_t kSmall = 16;
+  if (list.size() > kSmall) {
     std::sort(list.begin(), list.end());
     return;
   }
-  for (std::size_t i = 1; i < list.size(); ++i) {
-    const auto item = list[i];
-    std::size_t j = i;
-    for (; j > 0 && item < list[j - 1]; --j) list[j] = list[j - 1];
-    list[j] = item;
+  std::array<EndAndHalfedge, kSmall> sorted;
+  for (const EndAndHalfedge item : list) {
+    std::size_t place = 0;
+    for (const EndAndHalfedge other : list) place += other < item;
+    sorted[place] = item;
   }
+  std::copy_n(sorted.begin(), list.size(), list.begin());
 }
 
 // The halfedge that leaves v over the other edge of the corner's face: v is between `corner` and this one's edge.
@@ -38,37 +48,45 @@ Index incoming(Index corner) { return Mesh::previous(corner); }
 
 VertexCorners build_corners(Index vertex_count, std::span<const Face> faces) {
   VertexCorners result;
-  result.offset.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
+  UninitializedArray<Index>& offset = result.offset;
+  offset.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
   for (const Face& t : faces) {
-    for (const Index v : t) ++result.offset[v + 1];
+    for (const Index v : t) ++offset[v];
   }
-  for (Index v = 0; v < vertex_count; ++v) result.offset[v + 1] += result.offset[v];
+  Index sum = 0;
+  for (Index& o : offset) o = sum += o;  // where the corners of v end
   result.corner.resize(3 * faces.size());
-  std::vector<Index> fill(result.offset.begin(), result.offset.end() - 1);
-  for (Index h = 0; h < result.corner.size(); ++h) result.corner[fill[faces[h / 3][h % 3]]++] = h;
+  for (Index h = sum; h > 0; h -= 3) {  // backwards, so that every list ascends and ends with its offset in place
+    const Face& t = faces[h / 3 - 1];
+    for (Index k = 3; k-- > 0;) result.corner[--offset[t[k]]] = h - 3 + k;
+  }
   return result;
 }
 
-std::vector<Index> build_opposite(std::span<const Face> faces, const VertexCorners& corners) {
-  std::vector<Index> opposite(3 * faces.size());
+UninitializedArray<Index> build_opposite(std::span<const Face> faces, const VertexCorners& corners) {
+  UninitializedArray<Index> opposite(3 * faces.size());
   for (Index h = 0; h < opposite.size(); ++h) opposite[h] = h;
-  std::vector<std::pair<Index, Index>> upward;  // (other end, halfedge) of the edges from v to a higher vertex
+  UninitializedArray<EndAndHalfedge> upward;  // the edges from v to higher vertices
   const Index vertex_count = static_cast<Index>(corners.offset.size() - 1);
   for (Index v = 0; v < vertex_count; ++v) {
-    upward.clear();
+    // Written always, kept where wanted: there is no telling which end is the higher one.
+    upward.resize(2 * static_cast<std::size_t>(corners.offset[v + 1] - corners.offset[v]));
+    std::size_t count = 0;
     for (Index i = corners.offset[v]; i < corners.offset[v + 1]; ++i) {
       const Index h = corners.corner[i];
       const Face& t = faces[h / 3];
       if (!usable(t)) continue;
-      const Index ahead = t[(h + 1) % 3];
-      const Index back = t[(h + 2) % 3];
-      if (ahead > v) upward.emplace_back(ahead, h);
-      if (back > v) upward.emplace_back(back, incoming(h));
+      const Index ahead = t[Mesh::next(h) % 3], back = t[Mesh::previous(h) % 3];
+      upward[count] = pack(ahead, h);
+      count += ahead > v;
+      upward[count] = pack(back, incoming(h));
+      count += back > v;
     }
-    sort_pairs(upward);
-    for (std::size_t begin = 0; begin < upward.size();) {
+    upward.resize(count);
+    sort_edges(upward);
+    for (std::size_t begin = 0; begin < count;) {
       std::size_t end = begin + 1;
-      while (end < upward.size() && upward[end].first == upward[begin].first) ++end;
+      while (end < count && end_of(upward[end]) == end_of(upward[begin])) ++end;
       if (end - begin > 1) link_ring(std::span(upward).subspan(begin, end - begin), opposite);
       begin = end;
     }
@@ -76,7 +94,7 @@ std::vector<Index> build_opposite(std::span<const Face> faces, const VertexCorne
   return opposite;
 }
 
-void open_ring(Index h, std::vector<Index>& opposite) {
+void open_ring(Index h, UninitializedArray<Index>& opposite) {
   while (opposite[h] != h) h = std::exchange(opposite[h], h);
 }
 

@@ -3,6 +3,7 @@
 // Based on: Hamilton, Rau-Chaplin, "Compact Hilbert Indices", 2008 (the curve as a machine of 24 states).
 #include <brushfire/mesh/locality_order.h>
 
+#include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/detail/hilbert.h>
 
 #include <algorithm>
@@ -53,24 +54,56 @@ constexpr std::array<Step, 24 * 8> kSteps = [] {
   return steps;
 }();
 
+// Two steps at once, from two octants to two places.
+struct TwoSteps {
+  std::uint8_t places;
+  std::uint8_t next_state;
+};
+
+constexpr std::array<TwoSteps, 24 * 64> kTwoSteps = [] {
+  std::array<TwoSteps, 24 * 64> steps{};
+  for (unsigned state = 0; state < 24; ++state) {
+    for (unsigned octants = 0; octants < 64; ++octants) {
+      const Step first = kSteps[state * 8 + octants / 8];
+      const Step second = kSteps[first.next_state * 8u + octants % 8];
+      steps[state * 64 + octants] = {static_cast<std::uint8_t>(first.place * 8u + second.place), second.next_state};
+    }
+  }
+  return steps;
+}();
+
+// Spreads the lower two bits of x three apart.
+constexpr unsigned spread(unsigned x) { return (x & 1) | (x & 2) << 2; }
+
 struct Keyed {
   std::uint64_t key;
   Index item;
 };
 
-// Sorts by the lowest `bits` bits of the keys; keeps the order of equal ones.
-void radix_sort(std::vector<Keyed>& items, int bits) {
-  constexpr int kDigitBits = 12;
-  std::vector<Keyed> other(items.size());
-  for (int shift = 0; shift < bits; shift += kDigitBits) {
-    std::array<Index, 1 << kDigitBits> start{};
-    const auto digit = [shift](const Keyed& k) { return (k.key >> shift) & ((1 << kDigitBits) - 1); };
-    for (const Keyed& k : items) ++start[digit(k)];
-    Index sum = 0;
-    for (Index& s : start) sum += std::exchange(s, sum);
-    for (const Keyed& k : items) other[start[digit(k)]++] = k;
-    items.swap(other);
+// The items by the lowest `kBits` bits of their keys, equal ones in the order given. `items` is used up.
+template <int kBits>
+std::vector<Index> radix_sorted(UninitializedArray<Keyed>& items) {
+  constexpr int kDigitBits = 12, kDigits = kBits / kDigitBits;
+  static_assert(kBits % kDigitBits == 0);
+  const auto digit = [](const Keyed& k, int i) { return (k.key >> (i * kDigitBits)) & ((1 << kDigitBits) - 1); };
+  std::vector<std::array<Index, 1 << kDigitBits>> start(kDigits);
+  for (const Keyed& k : items) {
+    for (int i = 0; i < kDigits; ++i) ++start[static_cast<std::size_t>(i)][digit(k, i)];
   }
+  UninitializedArray<Keyed> other(items.size());
+  std::vector<Index> order(items.size());
+  for (int i = 0; i < kDigits; ++i) {
+    auto& place = start[static_cast<std::size_t>(i)];
+    Index sum = 0;
+    for (Index& s : place) sum += std::exchange(s, sum);
+    if (i + 1 < kDigits) {
+      for (const Keyed& k : items) other[place[digit(k, i)]++] = k;
+      items.swap(other);
+    } else {
+      for (const Keyed& k : items) order[place[digit(k, i)]++] = k.item;
+    }
+  }
+  return order;
 }
 
 std::vector<Index> hilbert_order(std::span<const Vec3> positions) {
@@ -86,15 +119,12 @@ std::vector<Index> hilbert_order(std::span<const Vec3> positions) {
   const auto cell = [=](double x, double lowest) {
     return extent > 0 ? static_cast<std::uint32_t>((0.5 * x - 0.5 * lowest) / extent * kCells) : 0u;
   };
-  std::vector<Keyed> items(positions.size());
+  UninitializedArray<Keyed> items(positions.size());
   for (Index v = 0; v < items.size(); ++v) {
     const Vec3 p = positions[v];
     items[v] = {detail::hilbert_index(cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z)), v};
   }
-  radix_sort(items, 3 * kHilbertBits);
-  std::vector<Index> order(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) order[i] = items[i].item;
-  return order;
+  return radix_sorted<3 * kHilbertBits>(items);
 }
 
 std::vector<Index> breadth_first_order(const Mesh& mesh) {
@@ -134,18 +164,23 @@ std::vector<Index> order_faces(std::span<const Face> faces, std::span<const Inde
 std::uint64_t detail::hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   std::uint64_t index = 0;
   unsigned state = 0;
-  for (int bit = kHilbertBits - 1; bit >= 0; --bit) {
-    const unsigned octant = (x >> bit & 1) | (y >> bit & 1) << 1 | (z >> bit & 1) << 2;
-    const Step step = kSteps[state * 8 + octant];
-    index = index << 3 | step.place;
+  static_assert(kHilbertBits % 2 == 0);
+  for (int bit = kHilbertBits - 2; bit >= 0; bit -= 2) {
+    const unsigned octants = spread(x >> bit) | spread(y >> bit) << 1 | spread(z >> bit) << 2;
+    const TwoSteps step = kTwoSteps[state * 64 + octants];
+    index = index << 6 | step.places;
     state = step.next_state;
   }
   return index;
 }
 
+std::vector<Index> vertex_locality_order(const Mesh& mesh) {
+  return mesh.has_positions() ? hilbert_order(mesh.positions()) : breadth_first_order(mesh);
+}
+
 LocalityOrder locality_order(const Mesh& mesh) {
   LocalityOrder result;
-  result.vertices = mesh.has_positions() ? hilbert_order(mesh.positions()) : breadth_first_order(mesh);
+  result.vertices = vertex_locality_order(mesh);
   result.vertex_rank.resize(result.vertices.size());
   for (Index i = 0; i < result.vertices.size(); ++i) result.vertex_rank[result.vertices[i]] = i;
   result.faces = order_faces(mesh.faces(), result.vertex_rank);

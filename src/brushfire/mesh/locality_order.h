@@ -22,4 +22,7 @@ struct LocalityOrder {
 // faces): a radix sort.
 LocalityOrder locality_order(const Mesh& mesh);
 
+// Its `vertices` alone.
+std::vector<Index> vertex_locality_order(const Mesh& mesh);
+
 }  // namespace brushfire

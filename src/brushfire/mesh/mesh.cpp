@@ -3,10 +3,12 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/core/planar.h>
+#include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/report.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <string>
@@ -19,11 +21,17 @@ class Lazy {
  public:
   template <class Make>
   const T& get(Make&& make) const {
-    std::call_once(once_, [&] { value_ = make(); });
+    if (!ready_.load(std::memory_order_acquire)) {  // call_once() alone costs ten times this
+      std::call_once(once_, [&] {
+        value_ = make();
+        ready_.store(true, std::memory_order_release);
+      });
+    }
     return value_;
   }
 
  private:
+  mutable std::atomic<bool> ready_ = false;
   mutable std::once_flag once_;
   mutable T value_;
 };
@@ -32,8 +40,8 @@ namespace {
 
 struct Geometry {
   double unit = 1;
-  std::vector<double> lengths;       // [halfedge_count]
-  std::vector<double> double_areas;  // [face_count]
+  UninitializedArray<double> lengths;       // [halfedge_count]
+  UninitializedArray<double> double_areas;  // [face_count]
 };
 
 void check_faces(Index vertex_count, std::span<const Face> faces) {
@@ -69,7 +77,8 @@ double length_of(Vec3 e) {
 
 // Twice the area from the two shorter edges: rounding of a cross product grows with the product of the lengths.
 double double_area_of(const std::array<Vec3, 3>& edge, const double* length) {
-  const std::size_t longest = static_cast<std::size_t>(std::max_element(length, length + 3) - length);
+  std::size_t longest = length[1] > length[0] ? 1 : 0;
+  longest = length[2] > length[longest] ? 2 : longest;
   return length_of(cross(edge[(longest + 1) % 3], edge[(longest + 2) % 3]));
 }
 
@@ -138,7 +147,7 @@ struct Mesh::Data {
   std::vector<Index> slits;           // halfedges whose rings are opened
 
   Lazy<detail::VertexCorners> corners;
-  Lazy<std::vector<Index>> opposite;
+  Lazy<UninitializedArray<Index>> opposite;
   Lazy<std::vector<Link>> links;
   Lazy<Geometry> geometry;
   Lazy<MeshReport> report;
@@ -146,9 +155,9 @@ struct Mesh::Data {
   const detail::VertexCorners& get_corners() const {
     return corners.get([this] { return detail::build_corners(vertex_count, faces); });
   }
-  const std::vector<Index>& get_opposite() const {
+  const UninitializedArray<Index>& get_opposite() const {
     return opposite.get([this] {
-      std::vector<Index> ring = detail::build_opposite(faces, get_corners());
+      UninitializedArray<Index> ring = detail::build_opposite(faces, get_corners());
       for (const Index h : slits) detail::open_ring(h, ring);
       return ring;
     });
@@ -179,7 +188,7 @@ constexpr double kLengthAgreement = 1e-9;
 
 // Every face's own lengths; agreement across an edge is checked against the first face of its ring.
 void Mesh::Data::check_lengths() const {
-  const std::vector<Index>& ring = get_opposite();
+  const UninitializedArray<Index>& ring = get_opposite();
   for (Index f = 0; f < faces.size(); ++f) {
     std::array<double, 3> l;
     for (Index k = 0; k < 3; ++k) {
@@ -210,7 +219,7 @@ Geometry Mesh::Data::geometry_from_lengths() const {
   for (const double l : input_lengths) sum += l * scale;
   if (!input_lengths.empty()) g.unit = power_of_two_below(sum / static_cast<double>(input_lengths.size()) / scale);
   g.lengths.resize(input_lengths.size());
-  const std::vector<Index>& ring = get_opposite();
+  const UninitializedArray<Index>& ring = get_opposite();
   std::vector<bool> done(input_lengths.size(), false);
   for (Index h = 0; h < input_lengths.size(); ++h) {
     // One length for all faces of an edge: that of the ring's lowest halfedge, which comes first.

@@ -1,6 +1,7 @@
 // The triangles around every vertex, laid out for vector registers and in an order that keeps neighbours close.
 #pragma once
 
+#include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
 
 #include <cstddef>
@@ -32,7 +33,7 @@ struct RingLayout {
 template <class T>
 struct Rings {
   RingLayout layout;
-  std::vector<RingBlock<T>> blocks;
+  UninitializedArray<RingBlock<T>> blocks;
   std::vector<T> bend;  // [vertex_count] by place: by how much the curvature of a front falls that passes the vertex
 };
 

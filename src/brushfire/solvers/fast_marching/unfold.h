@@ -5,6 +5,7 @@
 
 #include <brushfire/mesh/mesh.h>
 
+#include <span>
 #include <vector>
 
 namespace brushfire::detail {
@@ -17,8 +18,9 @@ struct UnfoldedTriangle {
   Vec2 at_first, at_second;
 };
 
-// True where the angle at the corner of halfedge h is obtuse (beyond rounding: right angles are not).
-bool is_obtuse(const Mesh& mesh, Index h);
+// The halfedge that names the obtuse corner of face f, kNoIndex where there is none (right angles, up to rounding, are
+// not obtuse). `lengths`: mesh.lengths().
+Index obtuse_corner(std::span<const double> lengths, Index f);
 
 struct Unfolding {
   int crossed = 0;     // edges that were crossed
