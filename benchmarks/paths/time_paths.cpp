@@ -4,7 +4,7 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 
-#include "measure.h"
+#include "../measure.h"
 
 #include <algorithm>
 #include <cstdio>
