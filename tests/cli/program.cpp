@@ -86,6 +86,11 @@ Ended run_program(const std::vector<std::string>& arguments, const Surroundings&
     dup2(err.descriptor(), STDERR_FILENO);
     if (surroundings.close_stdout) {
       close(STDOUT_FILENO);
+    } else if (surroundings.broken_pipe) {
+      std::array<int, 2> broken{};
+      if (pipe(broken.data()) != 0) _exit(126);
+      close(broken[0]);
+      dup2(broken[1], STDOUT_FILENO);
     } else if (!surroundings.stdout_path.empty()) {
       dup2(open(surroundings.stdout_path.c_str(), O_WRONLY), STDOUT_FILENO);
     } else {

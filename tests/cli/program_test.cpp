@@ -414,6 +414,9 @@ TEST_F(Program, ClosedOrFullStandardOutputIsAnError) {
   const Ended closed = run_program({"info", path("square.off")}, {.close_stdout = true});
   EXPECT_EQ(closed.code, 1);
   EXPECT_EQ(closed.err, "brushfire: standard output: Bad file descriptor\n");
+  const Ended broken = run_program({"info", path("square.off")}, {.broken_pipe = true});
+  EXPECT_EQ(broken.code, 1);
+  EXPECT_EQ(broken.err, "brushfire: standard output: Broken pipe\n");
   const Ended full = run_program({"info", path("square.off")}, {.stdout_path = "/dev/full"});
   EXPECT_EQ(full.code, 1);
   EXPECT_EQ(full.err, "brushfire: standard output: No space left on device\n");

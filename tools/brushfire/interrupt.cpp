@@ -25,6 +25,10 @@ void stop_if_interrupted() {
 }
 
 void cancel_on_interrupt() {
+#ifdef SIGPIPE
+  // A closed pipe is an error of writing, told in one line, and not a silent death.
+  std::signal(SIGPIPE, SIG_IGN);
+#endif
   // A lock-free atomic is all that the handler touches.
   for (const int signal : {SIGINT, SIGTERM}) {
     // A program started with the signal ignored (nohup, a background job) keeps ignoring it.

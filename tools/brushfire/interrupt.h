@@ -11,7 +11,7 @@ CancelToken& cancel_token();
 // Throws Error(Cancelled) once the token is set. For the stretches between computations.
 void stop_if_interrupted();
 
-// From now on SIGINT and SIGTERM set the token.
+// From now on SIGINT and SIGTERM set the token, and writing to a closed pipe fails instead of ending the program.
 void cancel_on_interrupt();
 
 }  // namespace brushfire::tool
