@@ -64,6 +64,22 @@ TEST(Path, OnShapesIsJudgedGoodAndAsLongAsTheFieldSays) {
   expect_good_paths(shapes::noise_terrain(20, 20, 0.5).mesh(), 60, 7, "terrain");
 }
 
+// On a grid many lines run over vertices exactly, some of them to a target on an edge from a corner of the face beyond.
+TEST(Path, ToEdgePointsByEitherNameOverVerticesExactlyIsJudgedGood) {
+  const Mesh mesh = shapes::plane(5, 4).mesh();
+  PathFinder finder(mesh);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const SurfacePoint from = vertex_point(mesh, v);
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+      SurfacePoint to{h / 3, {0, 0, 0}};
+      to.weights[h % 3] = to.weights[Mesh::next(h) % 3] = 0.5;
+      const SurfacePath path = finder.between(from, to);
+      ASSERT_EQ(test::judge(mesh, path), "") << "vertex " << v << ", halfedge " << h;
+      ASSERT_NEAR(path.length, norm(test::place(mesh, to) - mesh.positions()[v]), 1e-14);
+    }
+  }
+}
+
 TEST(Path, OnScansAndDirtyMeshesIsJudgedGood) {
   BRUSHFIRE_NEEDS_SHARED_DATA();
   for (const std::string& name : test::shared_mesh_names()) {

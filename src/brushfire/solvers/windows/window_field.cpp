@@ -2,6 +2,7 @@
 #include <brushfire/solvers/window_field.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/mesh/flat_face.h>
 #include <brushfire/solvers/windows/detail/face.h>
 #include <brushfire/solvers/windows/detail/record.h>
 #include <brushfire/solvers/windows/detail/trace.h>
@@ -124,26 +125,12 @@ WindowField::Leg leg_without_ray(const detail::WindowFieldData& data, const Foun
   }
   leg.vertex = root;
   leg.length = mesh.unit() * (found.record.value - data.vertices[root].value);
-  Index face = found.at.face;
-  const auto corner_of = [&](Index f, Index v) {
-    for (Index k = 0; k < 3; ++k) {
-      if (mesh.faces()[f][k] == v) return k;
-    }
-    return kNoIndex;
-  };
-  if (vertex != kNoIndex) {
-    for (const Index h : mesh.corners(vertex)) {
-      if (corner_of(Mesh::face_of(h), root) != kNoIndex) face = Mesh::face_of(h);
-    }
-    SurfacePoint start{face, {0, 0, 0}};
-    start.weights[corner_of(face, vertex)] = 1;
-    leg.points.push_back(start);
-  } else {
-    leg.points.push_back({face, found.at.weights});
-  }
-  SurfacePoint end{face, {0, 0, 0}};
-  end.weights[corner_of(face, root)] = 1;
-  leg.points.push_back(end);
+  // Both are points of one face: for a point of an edge not always the one that it was given by.
+  const PointLocation here =
+      locate(mesh, vertex != kNoIndex ? vertex_point(mesh, vertex) : SurfacePoint{found.at.face, found.at.weights});
+  const PointLocation there = locate(mesh, vertex_point(mesh, root));
+  const Index face = common_face(mesh, here, there, here.face);
+  leg.points = {{face, *weights_in(mesh, here, face)}, {face, *weights_in(mesh, there, face)}};
   return leg;
 }
 
