@@ -78,10 +78,9 @@ class Tracer {
     SurfacePoint crossing{Mesh::face_of(h), {0, 0, 0}};
     crossing.weights[next3(h % 3)] = x / length;
     crossing.weights[h % 3] = 1 - x / length;
-    // Where the ray leaves a face at the corner where it came in, one point is enough.
-    const bool progress = so_far - at.length > kSamePlace * value_;
-    if (!progress && leg.points.size() > 1) leg.points.pop_back();
-    if (progress || leg.points.size() > 1) leg.points.push_back(crossing);
+    // Also where the ray leaves a face at the place where it came in (near a corner, or through a face without area):
+    // the next point shares a face with this one only.
+    leg.points.push_back(crossing);
     const auto opposite = mesh_.opposite();
     for (Index g = opposite[h]; g != h; g = opposite[g]) {
       const bool turned = mesh_.from(g) == mesh_.to(h);
