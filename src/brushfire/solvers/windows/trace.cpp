@@ -4,6 +4,7 @@
 #include <brushfire/solvers/windows/detail/face.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace brushfire::detail {
 namespace {
@@ -107,8 +108,10 @@ class Tracer {
   }
 
   bool ends_at_vertex(Index v, Index corner, Index h, double so_far, double length, WindowField::Leg& leg) const {
+    // The root too must be as far as the value says: over non-manifold edges another sheet may lead there, by a detour.
+    const bool unknown = std::isnan(value_of(v));
     const bool consistent = std::abs(value_of(v) + length - value_) <= kAgreement * value_ && value_of(v) < value_;
-    if (v != ray_.root && !consistent) return false;
+    if (unknown ? v != ray_.root : !consistent) return false;
     SurfacePoint p{Mesh::face_of(h), {0, 0, 0}};
     p.weights[corner] = 1;
     if (length - so_far <= kSamePlace * value_ && leg.points.size() > 1) leg.points.pop_back();
