@@ -64,6 +64,7 @@ PROGRAM = """
 import signal, sys, time
 import numpy as np
 import brushfire as bf
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job starts with the signal ignored
 sys.path.insert(0, sys.argv[1])
 from conftest import grid
 mesh = bf.Mesh(*grid(700))
