@@ -6,6 +6,7 @@
 #include <brushfire/queries/path.h>
 
 #include "support/path_checker.h"
+#include "support/random_points.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -16,25 +17,6 @@ namespace {
 
 using namespace brushfire;
 
-double uniform(std::mt19937& random) { return (static_cast<double>(random() % 1000000) + 0.5) / 1000000; }
-
-// A vertex, a point of an edge or a point inside a face.
-SurfacePoint any_point(const Mesh& mesh, std::mt19937& random) {
-  Index f = kNoIndex;
-  do {
-    f = static_cast<Index>(random() % mesh.face_count());
-  } while (!mesh.is_face_usable(f));
-  const double a = uniform(random), b = (1 - a) * uniform(random);
-  switch (random() % 3) {
-    case 0:
-      return {f, {1, 0, 0}};
-    case 1:
-      return {f, {a, 1 - a, 0}};
-    default:
-      return {f, {a, b, 1 - a - b}};
-  }
-}
-
 struct Row {
   int reached = 0, bad = 0;
   double off_field = 0, off_reverse = 0;  // largest relative difference
@@ -42,7 +24,7 @@ struct Row {
 };
 
 void check_pair(const Mesh& mesh, PathFinder& finder, DistanceSolver& solver, std::mt19937& random, Row& row) {
-  const SurfacePoint from = any_point(mesh, random), to = any_point(mesh, random);
+  const SurfacePoint from = test::any_point(mesh, random), to = test::any_point(mesh, random);
   DistanceOptions options;
   options.method = Method::Exact;
   options.targets = {to};

@@ -4,6 +4,7 @@
 #include <brushfire/queries/path.h>
 
 #include "support/path_checker.h"
+#include "support/random_points.h"
 #include "support/shared_meshes.h"
 
 #include <gtest/gtest.h>
@@ -13,29 +14,12 @@
 namespace brushfire {
 namespace {
 
-double uniform(std::mt19937& random) { return (static_cast<double>(random() % 1000000) + 0.5) / 1000000; }
-
-// A vertex, a point of an edge or a point inside a face.
-SurfacePoint any_point(const Mesh& mesh, std::mt19937& random) {
-  Index f = static_cast<Index>(random() % mesh.face_count());
-  while (!mesh.is_face_usable(f)) f = static_cast<Index>(random() % mesh.face_count());
-  const double a = uniform(random), b = (1 - a) * uniform(random);
-  switch (random() % 3) {
-    case 0:
-      return {f, {1, 0, 0}};
-    case 1:
-      return {f, {a, 1 - a, 0}};
-    default:
-      return {f, {a, b, 1 - a - b}};
-  }
-}
-
 void expect_good_paths(const Mesh& mesh, int pairs, unsigned seed, const std::string& name) {
   PathFinder finder(mesh);
   DistanceSolver solver(mesh);
   std::mt19937 random(seed);
   for (int i = 0; i < pairs; ++i) {
-    const SurfacePoint from = any_point(mesh, random), to = any_point(mesh, random);
+    const SurfacePoint from = test::any_point(mesh, random), to = test::any_point(mesh, random);
     const SurfacePath path = finder.between(from, to);
     ASSERT_EQ(test::judge(mesh, path), "") << name << ", pair " << i << ", seed " << seed;
     DistanceOptions options;
