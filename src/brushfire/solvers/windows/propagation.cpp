@@ -4,8 +4,12 @@
 // and a window or a part of one is dropped only where another real path is shown to be shorter; so order does not
 // matter to the result, only to the time.
 #include <brushfire/core/error.h>
+#include <brushfire/solvers/windows/detail/dominance.h>
 #include <brushfire/solvers/windows/detail/engine.h>
 #include <brushfire/solvers/windows/detail/envelope.h>
+#include <brushfire/solvers/windows/detail/exact_cross.h>
+#include <brushfire/solvers/windows/detail/exact_lists.h>
+#include <brushfire/solvers/windows/detail/exact_trim.h>
 #include <brushfire/solvers/windows/detail/fan.h>
 #include <brushfire/solvers/windows/detail/lists.h>
 #include <brushfire/solvers/windows/detail/memory.h>
@@ -18,14 +22,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace brushfire::detail {
 namespace {
 
-// A window is dropped where another path is shorter by more than this share: far more than rounding, so that a window
-// is never dropped for the sake of a value that it made itself.
-constexpr double kDominated = 1 - 1e-12;
+// Lists of exact runs are trimmed when their windows have crossed this many faces.
+constexpr unsigned kTrimEvery = 8;
+// Exact runs are quicker with narrower buckets.
+constexpr double kExactBucket = 0.2;
 // A vertex this little (relative) off a window's limit ray counts as seen, with the length of the path that bends.
 constexpr double kSeen = 1e-10;
 // A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
@@ -85,7 +91,8 @@ class WindowEngine final : public Engine {
               })->offset;
     radius_ = problem.max_distance + shift_;
     budget_ = budget_of(*problem.options);
-    queue_.reset(structure_.bucket_width);
+    queue_.reset(merges() ? structure_.bucket_width : kExactBucket * structure_.bucket_width);
+    if (!merges() && !exact_) exact_.emplace(static_cast<Index>(3 * structure_.faces.size()));
     place_targets();
     for (const LocatedSource& s : problem.sources) start(s);
     drain();
@@ -108,7 +115,10 @@ class WindowEngine final : public Engine {
       state_[v] = {};
     }
     touched_.clear();
-    if (!queue_.empty()) lists_.clear();
+    if (!queue_.empty()) {
+      lists_.clear();
+      if (exact_) exact_->clear();
+    }
     for (const TargetInFace& t : targets_in_faces_) structure_.faces[t.face].has_target = false;
     targets_in_faces_.clear();
     kept_.clear();
@@ -217,7 +227,11 @@ class WindowEngine final : public Engine {
       const EventQueue::Event event = queue_.pop();
       prefetch_next();
       if (event.is_list) {
-        if (!lists_.empty(event.index)) spread(event.index);
+        if (goes_in_lists(event.index)) {
+          if (!exact_->empty(event.index)) spread_list(event.index);
+        } else if (!lists_.empty(event.index)) {
+          spread(event.index);
+        }
       } else if (values_[event.index].lower < state_[event.index].emitted) {
         shine(event.index);
       }
@@ -313,22 +327,21 @@ class WindowEngine final : public Engine {
 
   // ---- windows
 
-  // L7.
+  EdgeBounds bounds_of(const WindowFace& f, Index k) const {
+    return {f.length[k], values_[f.vertex[k]].upper, values_[f.vertex[next3(k)]].upper};
+  }
   bool is_dominated(const WindowFace& f, Index k, const Window& w) const {
-    // Xin and Wang 2009: a path through either end of the edge is shorter at the far end of the window, hence
-    // (the path along the edge grows fastest) everywhere in it.
-    return values_[f.vertex[k]].upper + w.b1 < w.d1 * kDominated ||
-           values_[f.vertex[next3(k)]].upper + (f.length[k] - w.b0) < w.d0 * kDominated;
+    return detail::is_dominated(bounds_of(f, k), w.b0, w.b1, w.d0, w.d1);
   }
 
   // A window leaves a face over its halfedge h; it is described from beyond, from the end of h to its start.
-  void cross_edge(Index h, const Window& w) {
+  void cross_edge(Index h, const Window& w, Origin origin = Origin::Anywhere) {
     const WindowFace& f = structure_.faces[h / 3];
     switch (f.beyond[h % 3]) {
       case Beyond::Nothing:
         return;
       case Beyond::Face:
-        return insert(f.opposite[h % 3], w);
+        return insert(f.opposite[h % 3], w, origin);
       case Beyond::Several:
         break;
     }
@@ -340,10 +353,14 @@ class WindowEngine final : public Engine {
   }
 
   // A window is about to enter the face of h: unless it is of no use, it waits there for its turn.
-  void insert(Index h, const Window& w) {
+  void insert(Index h, const Window& w, Origin origin = Origin::Anywhere) {
     const WindowFace& f = structure_.faces[h / 3];
     const Index k = h % 3;
     if (is_sliver(w) || least_value(w) > radius_ || is_dominated(f, k, w)) return;
+    if (goes_in_lists(h)) {
+      exact_->put(h, origin, w);
+      return queue_list(h, std::min({w.d0, w.d1, nearer_end(h)}));
+    }
     if (f.thin && !memory_.learn(h, w)) return;
     const Arrival at_apex = arrival(w, frame_of(f, k).apex);
     const Index apex = f.vertex[previous3(k)];
@@ -377,6 +394,152 @@ class WindowEngine final : public Engine {
     if (merges()) windows = windows.first(merge_neighbours(windows));
     for (const Window& w : windows) pass(h, frame, w);
   }
+
+  // ---- lists of exact runs
+
+  // Faces so thin that windows may come back for ever take them one by one (WindowMemory).
+  bool goes_in_lists(Index h) const { return !merges() && !structure_.faces[h / 3].thin; }
+
+  // The key of lists is what is known of the nearer end of the edge: nearly all that enters over the edge has come by
+  // then.
+  double nearer_end(Index h) const {
+    const WindowFace& f = structure_.faces[h / 3];
+    return std::min(values_[f.vertex[h % 3]].upper, values_[f.vertex[next3(h % 3)]].upper);
+  }
+  void queue_list(Index h, double key) {
+    double& queued = exact_->key(h);
+    if (key < queued && !(queued < kInfinity && queue_.same_bucket(key, queued))) queue_.push_list(h, key);
+    queued = std::min(queued, key);
+  }
+
+  // The turn of a list: trimmed now and then, and on to the other two edges as a whole.
+  void spread_list(Index h) {
+    const WindowFace& f = structure_.faces[h / 3];
+    const Index k = h % 3;
+    WindowList list = exact_->take(h);
+    if (list.age >= kTrimEvery || !list.ordered || radius_ < kInfinity || problem_->options->keep_windows) {
+      trim_(list, bounds_of(f, k), radius_, exact_->blocks());
+    }
+    if (list.size > 0) cross_face(h, list);
+    exact_->blocks().release(list.block);
+  }
+
+  void cross_face(Index h, const WindowList& list) {
+    const WindowFace& f = structure_.faces[h / 3];
+    const Frame frame = frame_of(f, h % 3);
+    const WindowColumns w = list.block.columns();
+    look_at_apex(w, list.size, frame, sight_);
+    const Index best = reach_apex(h, frame, w, list.size);
+    if (f.has_target) reach_targets(h, frame, w, list.size);
+    if (problem_->options->keep_windows) {
+      for (Index i = 0; i < list.size; ++i) kept_.push_back({structure_.outer_halfedge(h), w.window(i)});
+    }
+    const Index apex = f.vertex[previous3(h % 3)];
+    // A list that comes late is on its way out: it is worth trimming.
+    const bool late = best != kNoIndex && sight_.value[best] > values_[apex].upper / kDominated;
+    const unsigned age = late ? kTrimEvery : list.age + 1;
+    const Index left_edge = 3 * (h / 3) + previous3(h % 3), right_edge = 3 * (h / 3) + next3(h % 3);
+    Sides sides;
+    if (sides_in_order(w, list.size, frame, sight_, best, sides)) {
+      send_left(left_edge, frame, w, sides.left_end, sight_.right.data(), age);
+      send_right(right_edge, frame, w.from(sides.right_begin), list.size - sides.right_begin,
+                 sight_.left.data() + sides.right_begin, age);
+      return;
+    }
+    const WindowBlock copy = exact_->blocks().allocate(list.size);
+    const WindowColumns some = copy.columns();
+    Index count = 0;
+    chosen_.resize(list.size);
+    for (Index i = 0; i < list.size; ++i) {
+      if (!choose_sides(w, frame, sight_, best, i).left) continue;
+      some.copy_from(count, w, i);
+      chosen_[count++] = sight_.right[i];
+    }
+    send_left(left_edge, frame, some, count, chosen_.data(), age);
+    count = 0;
+    for (Index i = 0; i < list.size; ++i) {
+      if (!choose_sides(w, frame, sight_, best, i).right) continue;
+      some.copy_from(count, w, i);
+      chosen_[count++] = sight_.left[i];
+    }
+    send_right(right_edge, frame, some, count, chosen_.data(), age);
+    exact_->blocks().release(copy);
+  }
+
+  // What the list is to the apex. Returns the window that is best there among those that see it, if any.
+  Index reach_apex(Index h, const Frame& frame, const WindowColumns& w, Index count) {
+    const Index apex = structure_.faces[h / 3].vertex[previous3(h % 3)];
+    double* const value = sight_.value.data();
+    const auto sees = [&](Index i) { return sight_.left[i] > 0 && sight_.right[i] > 0; };
+    while (true) {
+      const Index i = least_of(value, count);
+      if (value[i] == kInfinity) break;
+      if (sees(i)) {
+        offer_apex(apex, value[i], w, i, h);
+        return i;
+      }
+      // The ray to the apex just misses the window.
+      const Window window = w.window(i);
+      const Arrival at = arrival(window, frame.apex);
+      if (at.detour <= kSeen * at.value) offer_apex(apex, at.value, w, i, h);
+      value[i] = kInfinity;
+    }
+    // Nobody sees it: paths that bend where the windows next to it end.
+    Index right = 0;
+    while (right < count && sight_.left[right] > 0) ++right;
+    const auto bend = [&](Index i, double x) {
+      reach(apex, w.sigma[i] + length_of(x - w.x[i], w.y[i]) + length_of(frame.apex.x - x, frame.apex.y));
+    };
+    if (right > 0) bend(right - 1, w.b1[right - 1]);
+    if (right < count) bend(right, w.b0[right]);
+    return kNoIndex;
+  }
+
+  void offer_apex(Index apex, double value, const WindowColumns& w, Index i, Index h) {
+    reach(apex, value);
+    offer(apex, value, {{w.x[i], w.y[i]}, h, w.root[i], WindowKind::Circular}, false);
+  }
+
+  void reach_targets(Index h, const Frame& frame, const WindowColumns& w, Index count) {
+    for_each_target_in(h / 3, [&](const TargetInFace& t) {
+      const Vec2 p = in_frame(frame, h % 3, t.weights);
+      for (Index i = 0; i < count; ++i) {
+        offer_target(t.target, arrival(w.window(i), p).value, 0, 0,
+                     {{w.x[i], w.y[i]}, h, w.root[i], WindowKind::Circular});
+      }
+    });
+  }
+
+  // Windows on to the edge on the left of the apex, the edge on the right; `passes`: their Sight::right, left.
+  void send_left(Index edge, const Frame& frame, const WindowColumns& w, Index count, const double* passes,
+                 unsigned age) {
+    if (count == 0 || structure_.faces[edge / 3].beyond[edge % 3] == Beyond::Nothing) return;
+    WindowList list{exact_->blocks().allocate(count), 0, age, true};
+    list.size = cross_to_left(w, count, frame, passes, list.block.columns());
+    hand_over(edge, list, Origin::Start);
+  }
+  void send_right(Index edge, const Frame& frame, const WindowColumns& w, Index count, const double* passes,
+                  unsigned age) {
+    if (count == 0 || structure_.faces[edge / 3].beyond[edge % 3] == Beyond::Nothing) return;
+    WindowList list{exact_->blocks().allocate(count), 0, age, true};
+    list.size = cross_to_right(w, count, frame, passes, list.block.columns());
+    hand_over(edge, list, Origin::End);
+  }
+
+  // A list leaves a face over its halfedge h.
+  void hand_over(Index h, const WindowList& list, Origin origin) {
+    const WindowFace& f = structure_.faces[h / 3];
+    const Index beyond = f.opposite[h % 3];
+    if (list.size > 0 && f.beyond[h % 3] == Beyond::Face && goes_in_lists(beyond)) {
+      exact_->put(beyond, origin, list);
+      return queue_list(beyond, nearer_end(beyond));
+    }
+    const WindowColumns w = list.block.columns();
+    for (Index i = 0; i < list.size; ++i) cross_edge(h, w.window(i));
+    exact_->blocks().release(list.block);
+  }
+
+  // ---- merging
 
   // L2, L8. From left to right, each with the one before it as long as that works. Returns how many are left.
   std::size_t merge_neighbours(std::span<Window> w) const {
@@ -488,7 +651,7 @@ class WindowEngine final : public Engine {
     w.slack = slack_of(v);
     w.lift = static_cast<float>(lift_of(v));
     w.root = v;
-    if (is_lit(w)) cross_edge(3 * sector.face + near, w);
+    if (is_lit(w)) cross_edge(3 * sector.face + near, w, Origin::Apex);
   }
 
   // Along the edge from v to corner j of a face that contains both.
@@ -649,6 +812,10 @@ class WindowEngine final : public Engine {
   EventQueue queue_;
   Envelope envelope_;
   WindowMemory memory_;
+  std::optional<ExactLists> exact_;  // made by the first exact run
+  ListTrimmer trim_;
+  Sight sight_;
+  std::vector<double> chosen_;
   std::vector<VertexValues> values_;  // [vertex_count]
   std::vector<VertexState> state_;    // [vertex_count]
   std::vector<Index> touched_;        // vertices whose entries have changed

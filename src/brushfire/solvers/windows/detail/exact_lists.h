@@ -1,0 +1,136 @@
+// The windows of an exact run: whole lists in blocks of columns, waiting at halfedges.
+#pragma once
+
+#include <brushfire/solvers/windows/detail/prefetch.h>
+#include <brushfire/solvers/windows/detail/window.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace brushfire::detail {
+
+// The columns of a list of circular windows without slack. The values at the ends are not kept: they are needed when a
+// list is trimmed, and a list crosses several faces between two trimmings.
+struct WindowColumns {
+  double *b0, *b1;  // the lit interval
+  double *x, *y;    // the virtual source
+  double* sigma;    // value there
+  Index* root;      // see Window::root
+
+  Window window(Index i) const {
+    Window w;
+    w.b0 = b0[i];
+    w.b1 = b1[i];
+    w.source = {x[i], y[i]};
+    w.sigma = sigma[i];
+    w.d0 = value_at(w, w.b0);
+    w.d1 = value_at(w, w.b1);
+    w.root = root[i];
+    return w;
+  }
+  void set(Index i, const Window& w) const {
+    b0[i] = w.b0;
+    b1[i] = w.b1;
+    x[i] = w.source.x;
+    y[i] = w.source.y;
+    sigma[i] = w.sigma;
+    root[i] = w.root;
+  }
+  void move(Index to, Index from) const { copy_from(to, *this, from); }
+  void copy_from(Index to, const WindowColumns& other, Index from) const {
+    b0[to] = other.b0[from];
+    b1[to] = other.b1[from];
+    x[to] = other.x[from];
+    y[to] = other.y[from];
+    sigma[to] = other.sigma[from];
+    root[to] = other.root[from];
+  }
+  WindowColumns from(Index i) const { return {b0 + i, b1 + i, x + i, y + i, sigma + i, root + i}; }
+};
+void copy_windows(const WindowColumns& from, const WindowColumns& to, Index count);
+
+// Memory for 4 << size_class windows.
+struct WindowBlock {
+  std::byte* data = nullptr;
+  unsigned size_class = 0;
+
+  Index capacity() const { return Index{4} << size_class; }
+  WindowColumns columns() const {
+    const std::size_t n = capacity();
+    double* const d = reinterpret_cast<double*>(data);
+    return {d, d + n, d + 2 * n, d + 3 * n, d + 4 * n, reinterpret_cast<Index*>(d + 5 * n)};
+  }
+};
+
+// Blocks cut from chunks; freed ones are used again, so that a run in steady state allocates nothing.
+class BlockPool {
+ public:
+  WindowBlock allocate(Index windows);
+  void release(const WindowBlock& block) { free_[block.size_class].push_back(block.data); }
+  void clear();  // forgets all blocks, keeps the memory of the first chunk
+
+ private:
+  static constexpr std::size_t kChunk = std::size_t{1} << 18;  // bytes
+  std::vector<std::vector<std::byte>> chunks_;
+  std::byte* unused_ = nullptr;
+  std::size_t left_ = 0;
+  std::array<std::vector<std::byte*>, 32> free_;
+};
+
+// From where windows come to a halfedge: in this order they lie from its start to its end, because shortest paths do
+// not cross.
+enum class Origin : std::uint8_t {
+  Start,     // over the other edge at the halfedge's start
+  Apex,      // from the vertex opposite, in the face behind
+  End,       // over the other edge at the halfedge's end
+  Anywhere,  // one by one from special faces and sources
+};
+
+// A list that is being worked on.
+struct WindowList {
+  WindowBlock block;
+  Index size = 0;
+  unsigned age = 0;     // how many faces its windows have crossed since they were last trimmed
+  bool ordered = true;  // from left to right, as far as is known
+};
+
+// What waits at each halfedge: up to one list of each origin. More than that, and the list is known to be out of order.
+class ExactLists {
+ public:
+  explicit ExactLists(Index halfedge_count) : first_(halfedge_count, kNoIndex) {}
+
+  bool empty(Index h) const { return first_[h] == kNoIndex; }
+  // The key under which h's lists were queued last.
+  double& key(Index h) { return keys_[first_[h]]; }
+
+  BlockPool& blocks() { return blocks_; }
+  // The list waits at h from now on; its block is the caller's no longer.
+  void put(Index h, Origin origin, const WindowList& list);
+  void put(Index h, Origin origin, const Window& w);
+  // All that waits at h as one list, from origin to origin; the caller releases its block.
+  WindowList take(Index h);
+
+  void prefetch_head(Index h) const { prefetch(&first_[h]); }
+  void prefetch_list(Index h) const {
+    if (first_[h] != kNoIndex) prefetch(parts_[first_[h]].list.block.data);
+  }
+  void clear();
+
+ private:
+  struct Part {
+    WindowList list;
+    Index next = kNoIndex;  // by origin
+    Origin origin = Origin::Start;
+  };
+  Index allocate_part();
+
+  std::vector<Index> first_;  // [halfedge_count]
+  std::vector<Part> parts_;
+  std::vector<double> keys_;  // [part], of a halfedge's first part
+  Index free_part_ = kNoIndex;
+  BlockPool blocks_;
+};
+
+}  // namespace brushfire::detail

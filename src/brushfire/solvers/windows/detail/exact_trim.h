@@ -1,0 +1,40 @@
+// Trimming of whole lists: windows lose what others on the same edge reach on a shorter way.
+#pragma once
+
+#include <brushfire/solvers/windows/detail/dominance.h>
+#include <brushfire/solvers/windows/detail/envelope.h>
+#include <brushfire/solvers/windows/detail/exact_lists.h>
+
+#include <vector>
+
+namespace brushfire::detail {
+
+// L5, L7 for the lists of exact runs. A list in order, nearly an envelope already, is gone through once from left to
+// right: of two windows that overlap, one loses what it was shown to lose, at both ends of the overlap and where slopes
+// are equal, as long as it stays in one piece; otherwise the overlap stays. Windows may overlap: each is a set of real
+// paths, so what is not dropped costs time only. Lists out of order are replaced by their lower envelope.
+class ListTrimmer {
+ public:
+  // Nothing beyond `radius` is wanted. The list may move to another block of the pool.
+  void operator()(WindowList& list, const EdgeBounds& edge, double radius, BlockPool& blocks);
+
+ private:
+  // A window's index in the list, and what of it is left.
+  struct Part {
+    Index window;
+    double b0, b1, d0, d1;
+  };
+
+  void load(const WindowList& list, const EdgeBounds& edge, double radius);
+  void sweep(const WindowColumns& w);
+  static void settle(const WindowColumns& w, Part& left, Part& right);
+  void store(WindowList& list) const;
+  void replace_by_envelope(WindowList& list, BlockPool& blocks);
+
+  std::vector<double> d0_, d1_;
+  std::vector<Part> parts_;
+  std::vector<Window> windows_;
+  Envelope envelope_;
+};
+
+}  // namespace brushfire::detail
