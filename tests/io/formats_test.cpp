@@ -1,7 +1,7 @@
 // One small file per format, written out by hand, and what must come of it.
 #include "io_support.h"
 
-#include <brushfire/io/detail/base64.h>
+#include <brushfire/core/detail/base64.h>
 #include <brushfire/io/detail/inflate.h>
 #include <brushfire/io/read_field.h>
 

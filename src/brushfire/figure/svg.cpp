@@ -1,6 +1,7 @@
 // SVG: the shaded surface as a picture, everything thin as vectors, hidden parts left out.
 #include <brushfire/figure/render.h>
 
+#include <brushfire/core/detail/base64.h>
 #include <brushfire/core/error.h>
 #include <brushfire/figure/detail/legend.h>
 #include <brushfire/figure/detail/panel.h>
@@ -53,15 +54,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve(4 * (bytes.size() + 2) / 3);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? static_cast<unsigned>(bytes[i + k]) : 0U; };
-    const unsigned group = byte(0) << 16 | byte(1) << 8 | byte(2);
-    for (unsigned k = 0; k < 4; ++k) out += i + k > bytes.size() ? '=' : kDigits[group >> (18 - 6 * k) & 63U];
-  }
-  return out;
+  return detail::encode_base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 // Draws polylines of one panel, leaving out what lies behind the surface.
@@ -159,24 +152,26 @@ std::string draw_panel(const Panel& panel, std::span<const Polyline> lines, cons
   return out;
 }
 
-std::string draw_frame(const detail::Layout& layout, const RenderOptions& options) {
+std::string draw_bar(const detail::Bar& bar, const std::string& id) {
+  std::string out = "<defs><linearGradient id=\"" + id + "\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">";
+  constexpr int kStops = 33;
+  for (int i = 0; i < kStops; ++i) {
+    const double share = static_cast<double>(i) / (kStops - 1);
+    out += "<stop offset=\"" + number(share) + "\" stop-color=\"" + hex(color_of(bar.colormap, share)) + "\"/>";
+  }
+  const Rectangle& at = bar.at;
+  out += "</linearGradient></defs>\n<rect x=\"" + std::to_string(at.x) + "\" y=\"" + std::to_string(at.y) +
+         "\" width=\"" + std::to_string(at.width) + "\" height=\"" + std::to_string(at.height) + "\" fill=\"url(#" +
+         id + ")\"/>\n";
+  for (const double row : bar.ticks) {
+    out += "<path d=\"M" + std::to_string(at.x + at.width) + " " + number(row) + "h4\" stroke=\"#1f1f24\"/>\n";
+  }
+  return out;
+}
+
+std::string draw_frame(const detail::Layout& layout) {
   std::string out;
-  const Rectangle& bar = layout.bar;
-  if (bar.width > 0) {
-    out += "<defs><linearGradient id=\"bar\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">";
-    constexpr int kStops = 33;
-    for (int i = 0; i < kStops; ++i) {
-      const double share = static_cast<double>(i) / (kStops - 1);
-      out += "<stop offset=\"" + number(share) + "\" stop-color=\"" + hex(color_of(options.colormap, share)) + "\"/>";
-    }
-    out += "</linearGradient></defs>\n<rect x=\"" + std::to_string(bar.x) + "\" y=\"" + std::to_string(bar.y) +
-           "\" width=\"" + std::to_string(bar.width) + "\" height=\"" + std::to_string(bar.height) +
-           "\" fill=\"url(#bar)\"/>\n";
-  }
-  for (const double row : layout.ticks) {
-    const std::string x = std::to_string(bar.x + bar.width), y = number(row);
-    out += "<path d=\"M" + x + " " + y + "h4\" stroke=\"#1f1f24\"/>\n";
-  }
+  for (std::size_t i = 0; i < layout.bars.size(); ++i) out += draw_bar(layout.bars[i], "bar" + std::to_string(i));
   for (const detail::Swatch& s : layout.swatches) {
     out += "<rect x=\"" + std::to_string(s.at.x) + "\" y=\"" + std::to_string(s.at.y) + "\" width=\"" +
            std::to_string(s.at.width) + "\" height=\"" + std::to_string(s.at.height) + "\" fill=\"" + hex(s.color) +
@@ -201,17 +196,17 @@ std::string render_svg(std::span<const Panel> panels, std::span<const std::vecto
                                                 std::to_string(panels.size()) + " panels: one per panel is needed");
   }
   const detail::Font font(options.font);
-  const detail::ScalarRange range = detail::range_of(panels, options);
-  const detail::Layout layout = detail::lay_out(panels, options, range, font);
+  const std::vector<detail::ScalarRange> ranges = detail::ranges_of(panels, options);
+  const detail::Layout layout = detail::lay_out(panels, options, ranges, font);
   const std::string size = std::to_string(layout.width) + "\" height=\"" + std::to_string(layout.height);
   std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size + "\" viewBox=\"0 0 " +
                     std::to_string(layout.width) + " " + std::to_string(layout.height) + "\">\n";
   if (!options.transparent) out += "<rect width=\"" + size + "\" fill=\"#ffffff\"/>\n";
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const std::span<const Polyline> own = lines.empty() ? std::span<const Polyline>{} : std::span(lines[i]);
-    out += draw_panel(panels[i], own, options, range, layout.panels[i]);
+    out += draw_panel(panels[i], own, options, ranges[panels[i].scale], layout.panels[i]);
   }
-  return out + draw_frame(layout, options) + "</svg>\n";
+  return out + draw_frame(layout) + "</svg>\n";
 }
 
 }  // namespace brushfire

@@ -2,7 +2,7 @@
 //
 // Based on: GIFTI Surface Data Format, version 1.0 (NITRC 2008).
 #include <brushfire/core/error.h>
-#include <brushfire/io/detail/base64.h>
+#include <brushfire/core/detail/base64.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/inflate.h>
 #include <brushfire/io/detail/numbers.h>

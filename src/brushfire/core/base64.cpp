@@ -1,5 +1,5 @@
 // Base64 (RFC 4648), both ways.
-#include <brushfire/io/detail/base64.h>
+#include <brushfire/core/detail/base64.h>
 
 #include <algorithm>
 #include <array>
