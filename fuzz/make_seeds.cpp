@@ -1,6 +1,6 @@
 // Writes a few small valid files per reader into DIRECTORY/READER/, for the fuzzers to start from.
-#include <brushfire/core/error.h>
 #include <brushfire/core/detail/base64.h>
+#include <brushfire/core/error.h>
 #include <brushfire/io/npy.h>
 #include <brushfire/io/write_field.h>
 

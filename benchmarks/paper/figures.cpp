@@ -73,11 +73,11 @@ void draw_squares(const std::filesystem::path& folder) {
     magnified[v] = kMagnified * error[v];
   }
   RenderOptions options = height_field_view();
-  options.unit = "distance";
+  options.scales[0].unit = "distance";
   const Panel cone = raised(square, circular, circular, "Figure 6: novotni-klein, every vertex on the cone");
   save(folder / "figure-6.png", std::span(&cone, 1), options);
-  options.unit = "error";
-  options.colormap = Colormap::Magma;
+  options.scales[0].unit = "error";
+  options.scales[0].colormap = Colormap::Magma;
   const std::vector<Panel> seven{raised(square, planar, error, "Figure 7: kimmel-sethian"),
                                  raised(square, magnified, error, "its error, magnified ten times")};
   save(folder / "figure-7.png", seven, options);
@@ -103,7 +103,7 @@ void draw_scan(const std::filesystem::path& folder, const std::string& file) {
   options.width = 620;
   options.height = 560;
   options.fill = Fill::Bands;
-  options.unit = "distance";
+  options.scales[0].unit = "distance";
   // Towards the seed, so that the bands around it are seen.
   const Vec3 seed = mesh.positions()[0];
   Vec3 centre;

@@ -121,6 +121,26 @@ TEST_F(Curves, RenderWritesPngSvgAndAnimation) {
   EXPECT_EQ(content("w.webp").substr(8, 4), "WEBP");
 }
 
+TEST_F(Curves, RenderShowsTheErrorBesideTheFields) {
+  const Ended ended = run({"render", "--source", "0", "-m", "dijkstra", "-m", "exact", "--error", "--error-range",
+                           "0,50", "--size", "64x48", "--samples", "1", "--json", "-o", path("e.svg")});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("\"panels\": 3"), std::string::npos) << ended.out;
+  const std::string svg = content("e.svg");
+  EXPECT_NE(svg.find("url(#bar0)"), std::string::npos);
+  EXPECT_NE(svg.find("url(#bar1)"), std::string::npos);
+}
+
+TEST_F(Curves, AmbientOcclusionDarkensOrSaysWhatItNeeds) {
+  const std::vector<std::string> picture{"render", "--source", "0", "--size", "64x48", "-o", path("a.png")};
+  std::vector<std::string> shaded = picture;
+  shaded.push_back("--ambient-occlusion");
+  const Ended ended = run(shaded);
+  if (ended.code == 0) return;
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_NE(ended.err.find("libembree-dev"), std::string::npos) << ended.err;
+}
+
 TEST_F(Curves, RenderRefusesMalformedOptionsBeforeReading) {
   const std::vector<std::vector<std::string>> bad{{"-o", "p.gif"},
                                                   {"-o", "p.png", "--size", "100"},
@@ -131,6 +151,23 @@ TEST_F(Curves, RenderRefusesMalformedOptionsBeforeReading) {
                                                   {"-o", "p.png", "--wave", "10"},
                                                   {"-o", "p.webp"},
                                                   {"-o", "p.png", "--path", "3"},
+                                                  {"-o", "p.png", "--source", "0", "-m", "exact", "--error"},
+                                                  {"-o", "p.png", "--error-range", "0,1"},
+                                                  {"-o", "p.png", "--source", "0", "-m", "fast"},
+                                                  {"-o", "p.png", "--isolines", "-1", "--source", "0"},
+                                                  {"-o", "p.png", "--range", "2,1"},
+                                                  {"-o", "p.png", "--zoom", "0"},
+                                                  {"-o", "p.png", "--azimuth", "north"},
+                                                  {"-o", "p.png", "--elevation", "nan"},
+                                                  {"-o", "p.png", "--up", "w"},
+                                                  {"-o", "p.png", "--colormap", "jet"},
+                                                  {"-o", "p.png", "--size", "20000x100"},
+                                                  {"-o", "p.webp", "--turntable", "1"},
+                                                  {"-o", "p.webp", "--turntable", "10", "--frame-ms", "0"},
+                                                  {"-o", "p.webp", "--turntable", "4", "--wave", "4", "--source", "0"},
+                                                  {"-o", "p.png", "--turntable", "4"},
+                                                  {"-o", "p.png", "--source", "0", "--path", "nowhere"},
+                                                  {"-o", "p.png", "--labels"},
                                                   {"-o", "p.png", "--scalar", "a.npy", "--source", "0"},
                                                   {}};
   for (const std::vector<std::string>& options : bad) {

@@ -59,8 +59,8 @@ RenderOptions options() {
   o.height = 160;
   o.camera.up = Axis::Z;
   o.camera.elevation = 40;
-  o.low = -1.8;
-  o.high = 1.8;
+  o.scales[0].low = -1.8;
+  o.scales[0].high = 1.8;
   o.colour_bar = false;
   return o;
 }
@@ -74,7 +74,7 @@ TEST(Golden, TorusInBandsWithPerspectiveAndWireframe) {
   o.fill = Fill::Bands;
   o.camera.perspective = true;
   o.wireframe = true;
-  o.colormap = Colormap::Cividis;
+  o.scales[0].colormap = Colormap::Cividis;
   expect_golden("torus-bands", render_one(torus(), o));
 }
 

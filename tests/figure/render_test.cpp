@@ -76,8 +76,8 @@ TEST(Render, BandsAlternateBetweenConsecutiveLevels) {
   panel.isolines = {0.25, 0.5, 0.75};
   RenderOptions options = front(200);
   options.fill = Fill::Bands;
-  options.low = -1;  // one colour throughout, so that only the bands differ
-  options.high = 1000;
+  options.scales[0].low = -1;  // one colour throughout, so that only the bands differ
+  options.scales[0].high = 1000;
   const Image image = render_one(panel, options);
   const double first = brightness(image, 30, 90), second = brightness(image, 75, 90),
                third = brightness(image, 120, 90);
@@ -160,12 +160,54 @@ TEST(Render, PanelsShareOneRangeOfColours) {
   Panel low = square(), high = square();
   for (double& x : high.scalar) x += 9;
   const std::vector<Panel> panels{low, high};
-  const auto range = detail::range_of(panels, {});
+  const detail::ScalarRange range = detail::ranges_of(panels, {}).front();
   EXPECT_EQ(range.low, 0);
   EXPECT_EQ(range.high, 10);
   const Image image = render(panels, front(100));
   EXPECT_EQ(image.width, 200);
   EXPECT_GT(image.pixel(90, 50)[2], image.pixel(90, 50)[1]);  // still violet: a tenth of the range
+}
+
+TEST(Render, PanelsOfAnotherScaleHaveTheirOwnRangeAndBar) {
+  std::vector<Panel> panels{square(), square(), square()};
+  for (double& x : panels[1].scalar) x += 9;
+  for (double& x : panels[2].scalar) x *= 1e-3;
+  panels[2].scale = 1;
+  RenderOptions options = front(100);
+  options.colour_bar = true;
+  options.scales.resize(2);
+  options.scales[1].colormap = Colormap::Magma;
+  const std::vector<detail::ScalarRange> ranges = detail::ranges_of(panels, options);
+  EXPECT_EQ(ranges[0].high, 10);
+  EXPECT_EQ(ranges[1].high, 1e-3);
+  const detail::Layout layout = detail::lay_out(panels, options, ranges, detail::Font(""));
+  ASSERT_EQ(layout.bars.size(), 2u);
+  EXPECT_EQ(layout.bars[1].colormap, Colormap::Magma);
+  // panel, panel, bar, panel, bar, none over another
+  EXPECT_EQ(layout.panels[1].x, 100);
+  EXPECT_GE(layout.bars[0].at.x, 200);
+  EXPECT_GT(layout.panels[2].x, layout.bars[0].at.x + layout.bars[0].at.width);
+  EXPECT_GE(layout.bars[1].at.x, layout.panels[2].x + 100);
+  EXPECT_GT(layout.width, layout.bars[1].at.x + layout.bars[1].at.width);
+  // The third panel uses the whole of its map: nearly black to nearly white.
+  const Image image = render(panels, options);
+  const int x = layout.panels[2].x;
+  EXPECT_LT(brightness(image, x + 6, 50), 40);
+  EXPECT_GT(brightness(image, x + 92, 50), 180);
+}
+
+TEST(Render, CornersThatAreLessOpenAreDarker) {
+  Panel panel = square();
+  const Image plain = render_one(panel, front(100));
+  panel.openness.assign(panel.mesh.halfedge_count(), {1, 1});
+  EXPECT_EQ(render_one(panel, front(100)).rgba, plain.rgba);
+  panel.openness.assign(panel.mesh.halfedge_count(), {0.5, 1});
+  const Image shaded = render_one(panel, front(100));
+  EXPECT_LT(brightness(shaded, 50, 50), 0.7 * brightness(plain, 50, 50));
+  RenderOptions options = front(100);
+  options.camera = named_view("back");  // where everything is open
+  const Image back = render_one(panel, options);
+  EXPECT_GT(brightness(back, 50, 50), brightness(shaded, 50, 50) / 0.7);
 }
 
 TEST(Render, TextOfTheFrameStaysInsideThePicture) {
@@ -177,9 +219,9 @@ TEST(Render, TextOfTheFrameStaysInsideThePicture) {
   RenderOptions options;
   options.width = 160;
   options.height = 120;
-  options.unit = "geodesic distance, in units of the mesh";
+  options.scales[0].unit = "geodesic distance, in units of the mesh";
   const std::vector<Panel> panels{panel};
-  const auto layout = detail::lay_out(panels, options, detail::range_of(panels, options), font);
+  const auto layout = detail::lay_out(panels, options, detail::ranges_of(panels, options), font);
   EXPECT_GE(layout.texts.size(), 4u);
   for (const detail::TextAt& t : layout.texts) {
     EXPECT_GE(t.x, 0) << t.text;
@@ -197,7 +239,7 @@ TEST(Render, LabelsGetALegendAndDistinctColours) {
   RenderOptions options = front(100);
   options.colour_bar = true;
   const std::vector<Panel> panels{panel};
-  const auto layout = detail::lay_out(panels, options, {}, detail::Font(""));
+  const auto layout = detail::lay_out(panels, options, detail::ranges_of(panels, options), detail::Font(""));
   ASSERT_EQ(layout.swatches.size(), 2u);
   EXPECT_TRUE(layout.swatches[1].color == label_color(3));
   const Image image = render(panels, options);
@@ -224,10 +266,16 @@ TEST(Render, BadRequestsAreErrorsThatSayWhatIsWrong) {
   options.width = 5;
   EXPECT_NE(message(panel, options).find("5 x 100"), std::string::npos);
   options = front(100);
-  options.low = 2;
-  options.high = 1;
+  options.scales[0].low = 2;
+  options.scales[0].high = 1;
   EXPECT_NE(message(panel, options).find("range"), std::string::npos);
   options = front(100);
+  panel.scale = 1;
+  EXPECT_NE(message(panel, options).find("scale 1 of 1"), std::string::npos);
+  panel.scale = 0;
+  panel.openness.resize(3);
+  EXPECT_NE(message(panel, options).find("384 corners"), std::string::npos);
+  panel.openness.clear();
   options.samples = 0;
   EXPECT_NE(message(panel, options).find("samples"), std::string::npos);
   options = front(100);

@@ -4,6 +4,7 @@
 #include "where.h"
 
 #include <brushfire/core/error.h>
+#include <brushfire/figure/ambient_occlusion.h>
 #include <brushfire/figure/render.h>
 #include <brushfire/io/read_field.h>
 #include <brushfire/io/read_mesh.h>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -27,7 +29,8 @@ constexpr const char* kExamples = R"(Examples:
   brushfire render bunny.ply --source 0 --isolines 30 --colormap magma --view iso -o bunny.svg
   brushfire render bunny.ply --source 0 --path 12000 --path 300 --bands --isolines 40 -o paths.png
   brushfire render bunny.ply --scalar error.npy --range 0,0.01 --unit "relative error" -o error.png
-  brushfire render bunny.ply --source 0 --method kimmel-sethian --method exact -o side-by-side.png
+  brushfire render bunny.ply --source 0 --method kimmel-sethian --method exact --error -o side-by-side.png
+  brushfire render bunny.ply --source 0 --isolines 20 --ambient-occlusion -o crevices.png
   brushfire render bunny.ply --source 0 --wave 60 -o brushfire.webp
   brushfire render bunny.ply --source 0 --isolines 20 --turntable 72 -o turntable.webp
 
@@ -35,11 +38,12 @@ The extension of -o decides: .png, .svg (lines as vectors over the shaded surfac
 Places (--source, --path) are written as for brushfire distance.)";
 
 struct Arguments {
-  std::string file, scalar_file, labels_file, output, view, size = "1024x768", range, unit, title, colormap = "viridis";
-  std::string up = "y", font;
+  std::string file, scalar_file, labels_file, output, view, size = "1024x768", range, error_range, unit, title;
+  std::string colormap = "viridis", up = "y", font;
   std::vector<std::string> sources, paths, methods, levels;
   std::optional<double> isolines, azimuth, elevation, zoom, samples, turntable, wave, frame_ms;
   bool bands = false, labels = false, perspective = false, transparent = false, wireframe = false, no_bar = false;
+  bool error = false, ambient_occlusion = false;
 };
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::InvalidArgument, what); }
@@ -67,6 +71,16 @@ int whole(const std::optional<double>& value, int otherwise, int low, int high, 
   return static_cast<int>(*value);
 }
 
+// The scale of the distances (or other values), and the scale of the errors.
+enum : std::size_t { kValues = 0, kErrors = 1 };
+
+void set_range(const std::string& text, const char* what, ColorScale& scale) {
+  if (text.empty()) return;
+  const auto [low, high] = two_numbers(text, ',', what);
+  scale.low = low;
+  scale.high = high;
+}
+
 RenderOptions options_of(const Arguments& a) {
   RenderOptions options;
   const auto [width, height] = two_numbers(a.size, 'x', "a size is written as 1024x768");
@@ -74,19 +88,20 @@ RenderOptions options_of(const Arguments& a) {
   if (std::abs(width) > kAnyInt || std::abs(height) > kAnyInt) refuse("'" + a.size + "' is too large a picture");
   options.width = static_cast<int>(width);
   options.height = static_cast<int>(height);
-  options.colormap = colormap_named(a.colormap);
+  options.scales.resize(2);
+  options.scales[kValues].colormap = colormap_named(a.colormap);
+  options.scales[kValues].unit = a.unit;
+  set_range(a.range, "a range is written as 0,2.5", options.scales[kValues]);
+  options.scales[kErrors].colormap = Colormap::Magma;
+  options.scales[kErrors].unit = "error, %";
+  options.scales[kErrors].low = 0;
+  set_range(a.error_range, "a range of errors is written in percent, as 0,2.5", options.scales[kErrors]);
   options.fill = a.bands ? Fill::Bands : Fill::Smooth;
-  options.unit = a.unit;
   options.colour_bar = !a.no_bar;
   options.transparent = a.transparent;
   options.wireframe = a.wireframe;
   options.font = a.font;
   options.samples = whole(a.samples, options.samples, 1, 8, "--samples");
-  if (!a.range.empty()) {
-    const auto [low, high] = two_numbers(a.range, ',', "a range is written as 0,2.5");
-    options.low = low;
-    options.high = high;
-  }
   options.camera.up = a.up == "x" ? Axis::X : a.up == "z" ? Axis::Z : Axis::Y;
   if (!a.view.empty()) options.camera = named_view(a.view, options.camera);
   options.camera.azimuth = a.azimuth.value_or(options.camera.azimuth);
@@ -119,6 +134,13 @@ void check(const Arguments& a) {
   if (!a.scalar_file.empty() && !a.sources.empty()) refuse("--scalar and --source both say what to show: give one");
   if (a.labels && a.sources.empty()) refuse("--labels colours by the nearest --source: give some");
   if (!a.methods.empty() && a.sources.empty()) refuse("--method needs a --source");
+  if (a.error && a.methods.size() < 2) refuse("--error compares with the last --method: give at least two");
+  if (!a.error_range.empty() && !a.error) refuse("--error-range is the range of the colours of --error");
+  if (a.ambient_occlusion && !has_ambient_occlusion()) {
+    refuse(
+        "--ambient-occlusion needs Embree, which this brushfire was built without: install Embree 3 or 4 (Debian: "
+        "libembree-dev) and build again");
+  }
   if (a.wave && a.turntable) refuse("--wave and --turntable are two animations: give one");
   if (a.wave && a.sources.empty() && a.scalar_file.empty()) refuse("--wave needs a --source or a --scalar");
 }
@@ -179,7 +201,58 @@ Panel solved_panel(const Arguments& a, const Mesh& mesh, const std::string& meth
   return panel;
 }
 
-std::vector<Panel> panels_of(const Arguments& a, const Mesh& mesh, const Snap& snap, const Talk& talk) {
+// How far, in percent of it, `field` is from `exact`; +inf where there is nothing to compare.
+std::vector<double> percent_off(const std::vector<double>& field, const std::vector<double>& exact) {
+  constexpr double kPercent = 100;
+  std::vector<double> error(field.size());
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    error[v] = field[v] == exact[v] ? 0 : kPercent * std::abs(field[v] - exact[v]) / exact[v];
+    if (!std::isfinite(field[v]) || !std::isfinite(exact[v])) error[v] = kInfinity;
+  }
+  return error;
+}
+
+// A few vertices next to a source are often far worse than all others: colours that ran up to them would show nothing
+// else. So they run up to the error that 99 % of the vertices stay under, and the title says how large it gets.
+double usual(std::vector<double> errors) {
+  errors.erase(std::remove_if(errors.begin(), errors.end(), [](double e) { return !std::isfinite(e); }), errors.end());
+  if (errors.empty()) return 0;
+  const auto place = errors.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(errors.size() - 1));
+  std::nth_element(errors.begin(), place, errors.end());
+  return *place;
+}
+
+// One more panel for each but the last: its relative difference from the last. Returns where their colours end.
+double add_errors(std::vector<Panel>& panels) {
+  double high = 0;
+  const std::size_t reference = panels.size() - 1;
+  for (std::size_t i = 0; i < reference; ++i) {
+    Panel error = panels[i];
+    error.scalar = percent_off(panels[i].scalar, panels[reference].scalar);
+    error.scale = kErrors;
+    error.labels.clear();
+    double worst = 0;
+    for (const double e : error.scalar) worst = std::isfinite(e) ? std::max(worst, e) : worst;
+    high = std::max(high, usual(error.scalar));
+    char at_most[48];
+    std::snprintf(at_most, sizeof at_most, ", at most %.2g %%", worst);
+    error.title = "error of " + panels[i].title + at_most;
+    panels.push_back(std::move(error));
+  }
+  return high;
+}
+
+void add_ambient_occlusion(const Mesh& mesh, const Talk& talk, std::vector<Panel>& panels) {
+  AmbientOcclusionOptions options;
+  options.progress = talk.progress("light");
+  options.cancel = &cancel_token();
+  const auto openness = ambient_occlusion(mesh, options);
+  talk.end_progress();
+  for (Panel& panel : panels) panel.openness = openness;
+}
+
+std::vector<Panel> panels_of(const Arguments& a, const Mesh& mesh, const Snap& snap, RenderOptions& options,
+                             const Talk& talk) {
   std::vector<Panel> panels;
   if (a.sources.empty()) {
     Panel& panel = panels.emplace_back();
@@ -194,33 +267,39 @@ std::vector<Panel> panels_of(const Arguments& a, const Mesh& mesh, const Snap& s
       panels.push_back(solved_panel(a, mesh, m, snap, talk));
       panels.back().title = m;
     }
+    if (a.error) {
+      ColorScale& scale = options.scales[kErrors];
+      const double high = add_errors(panels);
+      if (!scale.high && high > 0) scale.high = high;
+    }
   }
+  if (a.ambient_occlusion) add_ambient_occlusion(mesh, talk, panels);
   if (!a.title.empty()) panels.front().title = a.title;
   return panels;
 }
 
-double largest(const std::vector<Panel>& panels) {
-  double high = 0;
-  for (const Panel& p : panels) {
-    for (const double x : p.scalar) high = std::isfinite(x) ? std::max(high, x) : high;
-  }
-  return high;
-}
-
-// The same levels in all panels: N of them evenly between the least and the greatest value, ends left out.
-void add_isolines(const Arguments& a, std::vector<Panel>& panels) {
-  constexpr int kDefaultBands = 20;
-  const int count = whole(a.isolines, a.bands ? kDefaultBands : 0, 0, 10000, "--isolines");
+// The least and the greatest value; first > second where there is none.
+std::pair<double, double> extent_of(const std::vector<Panel>& panels) {
   double low = kInfinity, high = -kInfinity;
   for (const Panel& p : panels) {
+    if (p.scale != kValues) continue;
     for (const double x : p.scalar) {
       if (!std::isfinite(x)) continue;
       low = std::min(low, x);
       high = std::max(high, x);
     }
   }
+  return {low, high};
+}
+
+// The same levels in all panels: N of them evenly between the least and the greatest value, ends left out.
+void add_isolines(const Arguments& a, std::vector<Panel>& panels) {
+  constexpr int kDefaultBands = 20;
+  const int count = whole(a.isolines, a.bands ? kDefaultBands : 0, 0, 10000, "--isolines");
+  const auto [low, high] = extent_of(panels);
   if (!(high > low)) return;
   for (Panel& p : panels) {
+    if (p.scale != kValues) continue;
     for (int i = 1; i <= count; ++i) p.isolines.push_back(low + (high - low) * i / (count + 1));
   }
 }
@@ -242,7 +321,7 @@ std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> pa
                                        const Talk& talk) {
   const bool turning = a.turntable.has_value();
   const int count = turning ? whole(a.turntable, 0, 2, 720, "--turntable") : whole(a.wave, 0, 2, 2000, "--wave");
-  const double high = largest(panels);
+  const double high = std::max(0.0, extent_of(panels).second);
   const double azimuth = options.camera.azimuth;
   const Progress progress = talk.progress("frames");
   std::vector<Image> frames;
@@ -251,7 +330,9 @@ std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> pa
     if (turning) {
       options.camera.azimuth = azimuth + 360.0 * i / count;
     } else {
-      for (Panel& p : panels) p.front = high * (i + 1) / count;
+      for (Panel& p : panels) {
+        if (p.scale == kValues) p.front = high * (i + 1) / count;
+      }
     }
     frames.push_back(render(panels, options));
     if (progress) progress((i + 1.0) / count);
@@ -264,9 +345,9 @@ std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> pa
 int render_verb(const Arguments& a, const Talk& talk) {
   check(a);
   const Output output = output_of(a);
-  const RenderOptions options = options_of(a);
+  RenderOptions options = options_of(a);
   const Mesh mesh = read_mesh(a.file).mesh;
-  std::vector<Panel> panels = panels_of(a, mesh, snapper(mesh), talk);
+  std::vector<Panel> panels = panels_of(a, mesh, snapper(mesh), options, talk);
   add_isolines(a, panels);
   switch (output) {
     case Output::Png:
@@ -298,6 +379,7 @@ void add_render(CommandLine& command_line) {
     verb.option("--label-file", a->labels_file, "FIELD", "Show these labels, one per vertex");
     verb.flag("--labels", a->labels, "Colour by the nearest source");
     verb.option("-m,--method", a->methods, "NAME", "How to compute; given several times: panels side by side");
+    verb.flag("--error", a->error, "One more panel for each method but the last: its error against the last");
     verb.option("--isolines", a->isolines, "N", "This many isolines");
     verb.flag("--bands", a->bands, "Bands of alternating lightness between the isolines");
     verb.option("--path", a->paths, "WHERE", "Draw the shortest path from the sources to here; may be repeated");
@@ -310,10 +392,13 @@ void add_render(CommandLine& command_line) {
     verb.option("--size", a->size, "WxH", "Of a panel, in pixels");
     verb.choice("--colormap", a->colormap, {"viridis", "magma", "cividis"}, "Colours");
     verb.option("--range", a->range, "LO,HI", "Range of the colours");
+    verb.option("--error-range", a->error_range, "LO,HI",
+                "Range of the colours of --error, in percent; otherwise up to what 99 % of the vertices stay under");
     verb.option("--unit", a->unit, "TEXT", "Above the colour bar");
     verb.option("--title", a->title, "TEXT", "Above the (first) panel");
     verb.flag("--no-bar", a->no_bar, "No colour bar and no legend");
     verb.flag("--wireframe", a->wireframe, "Show the edges of the mesh");
+    verb.flag("--ambient-occlusion", a->ambient_occlusion, "Darken crevices (where built with Embree)");
     verb.flag("--transparent", a->transparent, "Transparent background");
     verb.option("--samples", a->samples, "N", "Samples per pixel and direction, 1 to 8");
     verb.option("--font", a->font, "TTF", "A TrueType font for the text");

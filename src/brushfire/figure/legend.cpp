@@ -55,9 +55,12 @@ std::vector<Tick> ticks_of(ScalarRange range) {
   return ticks;
 }
 
-bool has_scalar(std::span<const Panel> panels) {
-  return std::any_of(panels.begin(), panels.end(),
-                     [](const Panel& p) { return !p.scalar.empty() && p.labels.empty(); });
+// Whether no panel after the first of these has the first one's scale: its bar follows it.
+bool last_of_its_scale(std::span<const Panel> panels) {
+  const auto coloured = [&](const Panel& p) {
+    return !p.scalar.empty() && p.labels.empty() && p.scale == panels.front().scale;
+  };
+  return coloured(panels.front()) && std::none_of(panels.begin() + 1, panels.end(), coloured);
 }
 
 // The labels in use, with a name each.
@@ -79,32 +82,33 @@ std::vector<std::pair<Index, std::string>> legend_entries(std::span<const Panel>
 class Builder {
  public:
   Builder(std::span<const Panel> panels, const RenderOptions& options, const Font& font)
-      : panels_(panels), options_(options), font_(font), size_(text_height(options)) {
+      : options_(options), font_(font), size_(text_height(options)) {
     const bool titled = std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return !p.title.empty(); });
     top_ = titled && !font.empty() ? static_cast<int>(1.9 * size_) : 0;
     layout_.height = options.height + top_;
-    for (std::size_t i = 0; i < panels.size(); ++i) {
-      const int x = static_cast<int>(i) * options.width;
-      layout_.panels.push_back({x, top_, options.width, options.height});
-      add_title(panels[i].title, x);
-    }
-    layout_.width = static_cast<int>(panels.size()) * options.width;
   }
 
-  void add_bar(ScalarRange range) {
+  void add_panel(const Panel& panel) {
+    layout_.panels.push_back({layout_.width, top_, options_.width, options_.height});
+    add_title(panel.title, layout_.width);
+    layout_.width += options_.width;
+  }
+
+  void add_bar(const ColorScale& scale, ScalarRange range) {
     const int x = layout_.width + kPad, width = static_cast<int>(std::max(14.0, 0.9 * size_));
-    const int unit_room = options_.unit.empty() ? 0 : static_cast<int>(1.6 * size_);
+    const int unit_room = scale.unit.empty() ? 0 : static_cast<int>(1.6 * size_);
     const int height = std::max(16, static_cast<int>(0.82 * options_.height) - unit_room);
-    layout_.bar = {x, top_ + unit_room + (options_.height - height - unit_room) / 2, width, height};
-    double right = layout_.bar.x + width;
+    const Rectangle at{x, top_ + unit_room + (options_.height - height - unit_room) / 2, width, height};
+    Bar& bar = layout_.bars.emplace_back(Bar{at, scale.colormap, {}});
+    double right = at.x + width;
     const double span = range.high - range.low;
     for (const Tick& tick : ticks_of(range)) {
       const double share = span > 0 ? (tick.value - range.low) / span : 0.5;
-      const double row = layout_.bar.y + (1 - share) * (layout_.bar.height - 1);
-      layout_.ticks.push_back(row);
-      right = std::max(right, add_text(layout_.bar.x + width + 7, row + 0.32 * size_, tick.text));
+      const double row = at.y + (1 - share) * (at.height - 1);
+      bar.ticks.push_back(row);
+      right = std::max(right, add_text(at.x + width + 7, row + 0.32 * size_, tick.text));
     }
-    if (unit_room > 0) right = std::max(right, add_text(x, layout_.bar.y - 0.6 * size_, options_.unit));
+    if (unit_room > 0) right = std::max(right, add_text(x, at.y - 0.6 * size_, scale.unit));
     layout_.width = static_cast<int>(std::ceil(right)) + kPad;
   }
 
@@ -143,13 +147,50 @@ class Builder {
     layout_.texts.push_back({x, 0.72 * top_, size, title});
   }
 
-  std::span<const Panel> panels_;
   const RenderOptions& options_;
   const Font& font_;
   double size_;
   int top_ = 0;
   Layout layout_;
 };
+
+}  // namespace
+
+std::vector<ScalarRange> ranges_of(std::span<const Panel> panels, const RenderOptions& options) {
+  std::vector<ScalarRange> ranges(options.scales.size(), {kInfinity, -kInfinity});
+  for (const Panel& p : panels) {
+    ScalarRange& range = ranges[p.scale];
+    for (const double x : p.scalar) {
+      if (!std::isfinite(x)) continue;
+      range.low = std::min(range.low, x);
+      range.high = std::max(range.high, x);
+    }
+  }
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (ranges[i].low > ranges[i].high) ranges[i] = {0, 0};
+    ranges[i] = {options.scales[i].low.value_or(ranges[i].low), options.scales[i].high.value_or(ranges[i].high)};
+  }
+  return ranges;
+}
+
+Layout lay_out(std::span<const Panel> panels, const RenderOptions& options, std::span<const ScalarRange> ranges,
+               const Font& font) {
+  Builder builder(panels, options, font);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    builder.add_panel(panels[i]);
+    const std::size_t scale = panels[i].scale;
+    if (options.colour_bar && last_of_its_scale(panels.subspan(i))) {
+      builder.add_bar(options.scales[scale], ranges[scale]);
+    }
+  }
+  if (options.colour_bar) {
+    const auto entries = legend_entries(panels);
+    if (!entries.empty()) builder.add_legend(entries);
+  }
+  return builder.take();
+}
+
+namespace {
 
 void fill(Image& picture, Rectangle r, Color c) {
   for (int y = std::max(0, r.y); y < std::min(picture.height, r.y + r.height); ++y) {
@@ -159,41 +200,22 @@ void fill(Image& picture, Rectangle r, Color c) {
   }
 }
 
+void paint_bar(const Bar& bar, Image& picture) {
+  const Rectangle& at = bar.at;
+  for (int row = 0; row < at.height; ++row) {
+    const double share = 1 - static_cast<double>(row) / std::max(1, at.height - 1);
+    fill(picture, {at.x, at.y + row, at.width, 1}, color_of(bar.colormap, share));
+  }
+  for (const double row : bar.ticks) {
+    constexpr int kTickLength = 4;
+    fill(picture, {at.x + at.width, static_cast<int>(std::lround(row)), kTickLength, 1}, kInk);
+  }
+}
+
 }  // namespace
 
-ScalarRange range_of(std::span<const Panel> panels, const RenderOptions& options) {
-  double low = kInfinity, high = -kInfinity;
-  for (const Panel& p : panels) {
-    for (const double x : p.scalar) {
-      if (!std::isfinite(x)) continue;
-      low = std::min(low, x);
-      high = std::max(high, x);
-    }
-  }
-  if (low > high) low = high = 0;
-  return {options.low.value_or(low), options.high.value_or(high)};
-}
-
-Layout lay_out(std::span<const Panel> panels, const RenderOptions& options, ScalarRange range, const Font& font) {
-  Builder builder(panels, options, font);
-  if (options.colour_bar) {
-    if (has_scalar(panels)) builder.add_bar(range);
-    const auto entries = legend_entries(panels);
-    if (!entries.empty()) builder.add_legend(entries);
-  }
-  return builder.take();
-}
-
-void paint(const Layout& layout, const RenderOptions& options, const Font& font, Image& picture) {
-  const Rectangle& bar = layout.bar;
-  for (int row = 0; row < bar.height; ++row) {
-    const double share = 1 - static_cast<double>(row) / std::max(1, bar.height - 1);
-    fill(picture, {bar.x, bar.y + row, bar.width, 1}, color_of(options.colormap, share));
-  }
-  for (const double row : layout.ticks) {
-    constexpr int kTickLength = 4;
-    fill(picture, {bar.x + bar.width, static_cast<int>(std::lround(row)), kTickLength, 1}, kInk);
-  }
+void paint(const Layout& layout, const Font& font, Image& picture) {
+  for (const Bar& bar : layout.bars) paint_bar(bar, picture);
   for (const Swatch& s : layout.swatches) fill(picture, s.at, s.color);
   for (const TextAt& t : layout.texts) font.write(picture, t.x, t.y, t.height, t.text, kInk);
 }

@@ -36,14 +36,29 @@ void detail::check_request(std::span<const Panel> panels, const RenderOptions& o
            " pixels are wider than 16384");
   }
   if (options.samples < 1 || options.samples > kMostSamples) refuse("samples per pixel lie between 1 and 8");
+  if (!std::isfinite(options.camera.azimuth) || !std::isfinite(options.camera.elevation)) {
+    refuse("azimuth and elevation are finite angles");
+  }
+  for (const double size : {options.line_width, options.path_width, options.dot_size}) {
+    if (!(size >= 0 && size <= kLargest)) refuse("widths of lines and paths and sizes of dots lie between 0 and 16384");
+  }
   if (!(options.camera.zoom > 0) || !std::isfinite(options.camera.zoom)) refuse("the zoom must be > 0");
-  if (options.low.has_value() && options.high.has_value() && !(*options.low < *options.high)) {
-    refuse("the range of colours is empty: its low end must be below its high end");
+  for (const ColorScale& scale : options.scales) {
+    if (scale.low.has_value() && scale.high.has_value() && !(*scale.low < *scale.high)) {
+      refuse("the range of colours is empty: its low end must be below its high end");
+    }
   }
   for (const Panel& p : panels) {
     if (!p.mesh.has_positions()) refuse("a mesh from lengths has no positions and cannot be drawn");
     check_size(p.scalar.size(), p, "values");
     check_size(p.labels.size(), p, "labels");
+    if (p.scale >= options.scales.size()) {
+      refuse("scale " + std::to_string(p.scale) + " of " + std::to_string(options.scales.size()) + " (from 0 on)");
+    }
+    if (!p.openness.empty() && p.openness.size() != p.mesh.halfedge_count()) {
+      refuse(std::to_string(p.openness.size()) + " values of openness for a mesh of " +
+             std::to_string(p.mesh.halfedge_count()) + " corners: one per corner is needed");
+    }
     if (!std::is_sorted(p.isolines.begin(), p.isolines.end())) refuse("isoline levels must ascend");
   }
 }
@@ -61,13 +76,13 @@ Image blank(int width, int height, bool transparent) {
 Image render(std::span<const Panel> panels, const RenderOptions& options) {
   detail::check_request(panels, options);
   const detail::Font font(options.font);
-  const detail::ScalarRange range = detail::range_of(panels, options);
-  const detail::Layout layout = detail::lay_out(panels, options, range, font);
+  const std::vector<detail::ScalarRange> ranges = detail::ranges_of(panels, options);
+  const detail::Layout layout = detail::lay_out(panels, options, ranges, font);
   Image picture = blank(layout.width, layout.height, options.transparent);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    detail::paint_panel(panels[i], options, range, layout.panels[i], true, picture);
+    detail::paint_panel(panels[i], options, ranges[panels[i].scale], layout.panels[i], true, picture);
   }
-  detail::paint(layout, options, font, picture);
+  detail::paint(layout, font, picture);
   return picture;
 }
 

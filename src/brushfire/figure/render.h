@@ -23,12 +23,16 @@ struct Polyline {
 struct Panel {
   Mesh mesh;                             // with positions
   std::vector<double> scalar;            // [vertex_count]; faces with a value that is not finite are grey
+  std::size_t scale = 0;                 // which of RenderOptions::scales colours it
   std::vector<Index> labels;             // [vertex_count]; coloured by label instead of by scalar; kNoIndex is grey
   std::vector<std::string> label_names;  // for the legend; by number where there are none
   double front = kInfinity;      // where `scalar` is greater, the surface is plain: what a fire has not reached yet
   std::vector<double> isolines;  // levels of `scalar`, ascending; drawn as lines of constant screen width
   std::vector<Polyline> paths;
   std::vector<Vec3> dots;  // sources
+  // How open each corner is on the front and on the back of its face, [halfedge_count], as ambient_occlusion() makes
+  // it: crevices are shaded darker.
+  std::vector<std::array<float, 2>> openness;
   std::string title;
 };
 
@@ -37,14 +41,19 @@ enum class Fill : std::uint8_t {
   Bands,   // alternating darker and lighter bands between consecutive isolines (figure 8 of Novotni & Klein 2002)
 };
 
+// How values become colours, and the colour bar that says so.
+struct ColorScale {
+  Colormap colormap = Colormap::Viridis;
+  std::optional<double> low, high;  // the range; from the finite scalars of all panels with this scale otherwise
+  std::string unit;                 // written above the bar
+};
+
 struct RenderOptions {
   int width = 1024, height = 768;  // of each panel, pixels; 16 to 16384
   Camera camera;
-  Colormap colormap = Colormap::Viridis;
+  std::vector<ColorScale> scales = std::vector<ColorScale>(1);  // Panel::scale counts them
   Fill fill = Fill::Smooth;
-  std::optional<double> low, high;  // range of the colours; from the finite scalars of all panels otherwise
-  std::string unit;                 // written above the colour bar
-  bool colour_bar = true;           // shown where a panel has a scalar, or labels
+  bool colour_bar = true;  // shown where a panel has a scalar, or labels
   bool wireframe = false;
   bool silhouettes = true;   // dark lines where the surface ends or steps back
   bool transparent = false;  // background; otherwise white
@@ -56,9 +65,11 @@ struct RenderOptions {
   std::string font;          // a TrueType file; empty: DejaVu Sans or the like, where the system has one
 };
 
-// The panels side by side, in one picture with one range of colours and one colour bar. The same input gives the same
-// pixels. Throws Error(InvalidArgument) for sizes that do not match the mesh or lie out of range, a mesh without
-// positions, and a font that cannot be read; a system without any font gives a picture without text.
+// The panels side by side in one picture. Those of one scale share a range of colours and a colour bar, which stands
+// after the last of them: (paper, exact, error) with scales 0, 0, 1 has the bar of the distances after the second panel
+// and the bar of the error after the third. The same input gives the same pixels. Throws Error(InvalidArgument) for
+// sizes that do not match the mesh or lie out of range, a scale that is not there, a mesh without positions, and a font
+// that cannot be read; a system without any font gives a picture without text.
 // O(faces + pixels) time; 36 bytes a sample for a strip of the picture, not the whole.
 Image render(std::span<const Panel> panels, const RenderOptions& options = {});
 

@@ -1,6 +1,8 @@
 // Shading of surface samples.
 #include <brushfire/figure/detail/surface.h>
 
+#include <brushfire/figure/detail/corner_normals.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,49 +13,12 @@ constexpr Color kGrey{0.72F, 0.72F, 0.72F};   // no value: unreachable, unlabell
 constexpr Color kPlain{0.80F, 0.82F, 0.85F};  // nothing to show but the shape
 constexpr Color kLineColor{0.08F, 0.08F, 0.10F};
 
-// Faces that meet at a sharper angle than this keep separate normals: an edge of a machine part stays an edge.
-constexpr double kCreaseCosine = 0.76604444311897801;  // 40 degrees
-
-std::vector<Vec3> unit_face_normals(const Mesh& mesh) {
-  std::vector<Vec3> normals(mesh.face_count());
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const Face& t = mesh.faces()[f];
-    const Vec3 a = mesh.positions()[t[0]];
-    const double scale = 1 / mesh.unit();
-    const Vec3 n = cross(scale * (mesh.positions()[t[1]] - a), scale * (mesh.positions()[t[2]] - a));
-    const double length = norm(n);
-    normals[f] = length > 0 ? (1 / length) * n : Vec3{};
-  }
-  return normals;
-}
-
-// Area-weighted mean over the faces at the vertex that lie within the crease angle, whatever way round they are.
-std::vector<std::array<float, 3>> smooth_corner_normals(const Mesh& mesh, const Projection& projection) {
-  const std::vector<Vec3> face = unit_face_normals(mesh);
-  std::vector<std::array<float, 3>> normals(mesh.halfedge_count());
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const std::span<const Index> corners = mesh.corners(v);
-    constexpr std::size_t kManyFaces = 64;  // the pairwise test is quadratic in the valence
-    for (const Index h : corners) {
-      const Vec3 own = face[Mesh::face_of(h)];
-      Vec3 sum = own;
-      if (corners.size() <= kManyFaces) {
-        sum = {};
-        for (const Index g : corners) {
-          const Vec3 other = face[Mesh::face_of(g)];
-          const double cosine = dot(own, other);
-          const double area = mesh.double_areas()[Mesh::face_of(g)];
-          if (std::abs(cosine) >= kCreaseCosine) sum = sum + (cosine < 0 ? -area : area) * other;
-        }
-      }
-      const Vec3 n = projection.direction(sum);
-      normals[h] = {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
-      const float length =
-          std::sqrt(normals[h][0] * normals[h][0] + normals[h][1] * normals[h][1] + normals[h][2] * normals[h][2]);
-      if (length > 0) {
-        for (float& x : normals[h]) x /= length;
-      }
-    }
+// The corners' normals in the camera's axes.
+std::vector<std::array<float, 3>> normals_seen(const Mesh& mesh, const Projection& projection) {
+  std::vector<std::array<float, 3>> normals = corner_normals(mesh);
+  for (auto& n : normals) {
+    const Vec3 seen = projection.direction({n[0], n[1], n[2]});
+    n = {static_cast<float>(seen.x), static_cast<float>(seen.y), static_cast<float>(seen.z)};
   }
   return normals;
 }
@@ -65,7 +30,7 @@ Surface::Surface(const Panel& panel, const RenderOptions& options, const Project
       options_(options),
       range_(range),
       vertices_(project(panel.mesh.positions(), projection, options.samples)),
-      corner_normals_(smooth_corner_normals(panel.mesh, projection)) {}
+      corner_normals_(normals_seen(panel.mesh, projection)) {}
 
 void SurfaceShader::enter(Index face) {
   face_ = face;
@@ -79,6 +44,10 @@ void SurfaceShader::enter(Index face) {
     value_[k] = surface_.panel_.scalar[t[k]];
     has_value_ = std::isfinite(value_[k]);
   }
+  // Seen from the front where its corners run counter-clockwise; y runs down on the screen.
+  const std::size_t side = triangle_->double_area() < 0 ? 0 : 1;
+  const auto& openness = surface_.panel_.openness;
+  for (std::size_t k = 0; k < 3 && !openness.empty(); ++k) open_[k] = openness[3 * std::size_t{face} + k][side];
 }
 
 Color SurfaceShader::color_at(Index face, int column, int row) {
@@ -99,7 +68,7 @@ Color SurfaceShader::color_at(Index face, int column, int row) {
       gy += static_cast<double>(dy_[k]) * part;
     }
   }
-  Color c = scaled(base_color(value, w), light(w));
+  Color c = scaled(base_color(value, w), light(w) * daylight(w));
   if (surface_.options_.wireframe) c = with_wireframe(c, screen);
   const double per_pixel = std::sqrt(gx * gx + gy * gy) * surface_.options_.samples;
   if (has_value_ && !surface_.panel_.isolines.empty()) c = with_isoline(c, value, per_pixel);
@@ -127,7 +96,7 @@ Color SurfaceShader::base_color(double value, std::array<float, 3> w) const {
   if (value > panel.front) return kPlain;
   const ScalarRange range = surface_.range_;
   const double span = range.high - range.low;
-  const Color c = color_of(surface_.options_.colormap, span > 0 ? (value - range.low) / span : 0);
+  const Color c = color_of(surface_.options_.scales[panel.scale].colormap, span > 0 ? (value - range.low) / span : 0);
   if (surface_.options_.fill == Fill::Smooth || panel.isolines.empty()) return c;
   const auto band = std::upper_bound(panel.isolines.begin(), panel.isolines.end(), value) - panel.isolines.begin();
   constexpr float kDarkBand = 0.45F, kLightBand = 0.55F;
@@ -177,6 +146,14 @@ float SurfaceShader::light(std::array<float, 3> w) const {
   const float cosine = (n[0] * kLamp[0] + n[1] * kLamp[1] + n[2] * kLamp[2]) / length;
   constexpr float kAmbient = 0.48F, kDiffuse = 0.57F;
   return kAmbient + kDiffuse * std::max(0.0F, cosine);
+}
+
+// What ambient occlusion leaves of the light; never so little that the colour cannot be read.
+float SurfaceShader::daylight(std::array<float, 3> w) const {
+  constexpr float kDeepest = 0.25F;
+  float open = 0;
+  for (std::size_t k = 0; k < 3; ++k) open += w[k] * open_[k];
+  return kDeepest + (1 - kDeepest) * open;
 }
 
 }  // namespace brushfire::detail

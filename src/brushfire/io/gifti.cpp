@@ -1,8 +1,8 @@
 // GIFTI (.gii): surfaces, and functional, shape and label data; ascii, base64, zlib and external binary.
 //
 // Based on: GIFTI Surface Data Format, version 1.0 (NITRC 2008).
-#include <brushfire/core/error.h>
 #include <brushfire/core/detail/base64.h>
+#include <brushfire/core/error.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/inflate.h>
 #include <brushfire/io/detail/numbers.h>

@@ -2,8 +2,8 @@
 //
 // glTF stores coordinates as 32-bit floats or smaller. Exporters split vertices along creases of normals and texture;
 // as everywhere but in STL, nothing is welded.
-#include <brushfire/core/error.h>
 #include <brushfire/core/detail/base64.h>
+#include <brushfire/core/error.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/numbers.h>
 

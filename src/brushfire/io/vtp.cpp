@@ -1,6 +1,6 @@
 // VTK XML PolyData (.vtp): ascii, base64 and appended data, raw or compressed with zlib.
-#include <brushfire/core/error.h>
 #include <brushfire/core/detail/base64.h>
+#include <brushfire/core/error.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/inflate.h>
 #include <brushfire/io/detail/numbers.h>

@@ -19,21 +19,28 @@ struct Swatch {
   Color color;
 };
 
+struct Bar {
+  Rectangle at;
+  Colormap colormap;
+  std::vector<double> ticks;  // rows that have a mark
+};
+
 // The picture's frame around its panels.
 struct Layout {
   int width = 0, height = 0;
   std::vector<Rectangle> panels;
   std::vector<TextAt> texts;
   std::vector<Swatch> swatches;  // of labels
-  Rectangle bar;                 // width 0: none
-  std::vector<double> ticks;     // rows at which the bar has a mark
+  std::vector<Bar> bars;
 };
 
 // Throws Error(InvalidArgument) for anything in the request that render() refuses.
 void check_request(std::span<const Panel> panels, const RenderOptions& options);
 
-ScalarRange range_of(std::span<const Panel> panels, const RenderOptions& options);
-Layout lay_out(std::span<const Panel> panels, const RenderOptions& options, ScalarRange range, const Font& font);
-void paint(const Layout& layout, const RenderOptions& options, const Font& font, Image& picture);
+// One for each of the options' scales.
+std::vector<ScalarRange> ranges_of(std::span<const Panel> panels, const RenderOptions& options);
+Layout lay_out(std::span<const Panel> panels, const RenderOptions& options, std::span<const ScalarRange> ranges,
+               const Font& font);
+void paint(const Layout& layout, const Font& font, Image& picture);
 
 }  // namespace brushfire::detail

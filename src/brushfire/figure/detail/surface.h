@@ -45,6 +45,7 @@ class SurfaceShader {
   Color with_isoline(Color c, double value, double gradient) const;
   Color with_wireframe(Color c, std::array<float, 3> screen_weights) const;
   float light(std::array<float, 3> w) const;
+  float daylight(std::array<float, 3> w) const;
 
   const Surface& surface_;
   Index face_ = kNoIndex;
@@ -52,6 +53,7 @@ class SurfaceShader {
   std::optional<ScreenTriangle> triangle_;
   std::array<float, 3> dx_{}, dy_{};
   std::array<double, 3> value_{};
+  std::array<float, 3> open_{1, 1, 1};
   bool has_value_ = false;
 };
 
