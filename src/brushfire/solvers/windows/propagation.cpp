@@ -624,8 +624,7 @@ class WindowEngine final : public Engine {
     const Index face = corner / 3, i = corner % 3;
     const WindowFace& f = structure_.faces[face];
     if (f.usable) {
-      const double angle = angle_at(f, i);
-      shine_into(v, {face, i, 0, angle, angle});
+      shine_into(v, whole_sector(f, face, i));
       return;
     }
     for (const Index j : {next3(i), previous3(i)}) {
@@ -644,8 +643,8 @@ class WindowEngine final : public Engine {
   void shine_into(Index v, const Sector& sector) {
     const WindowFace& f = structure_.faces[sector.face];
     const Index i = sector.corner, near = next3(i), far = previous3(i);
-    if (sector.from <= 0) shine_along(v, sector.face, near, f.length[i]);
-    if (sector.to >= sector.angle) shine_along(v, sector.face, far, f.length[far]);
+    if (sector.from_edge()) shine_along(v, sector.face, near, f.length[i]);
+    if (sector.to_edge()) shine_along(v, sector.face, far, f.length[far]);
     if (!(f.length[near] > 0)) return;
     Window w = window_of(f, sector, values_[v].lower);
     w.slack = slack_of(v);

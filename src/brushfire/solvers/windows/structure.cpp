@@ -44,9 +44,8 @@ WindowStructure::WindowStructure(const Mesh& m) : mesh(m), order(locality_order(
   face_rank.resize(mesh.face_count());
   for (Index f = 0; f < mesh.face_count(); ++f) face_rank[order.faces[f]] = f;
   faces.resize(mesh.face_count());
-  total_angle.assign(n, 0);
   bend.assign(n, Bend::None);
-  std::vector<double> shortest(n, kInfinity), longest(n, 0);
+  std::vector<double> total_angle(n, 0), shortest(n, kInfinity), longest(n, 0);
   for (Index inner = 0; inner < mesh.face_count(); ++inner) {
     const Index f = order.faces[inner];
     WindowFace& face = faces[inner];

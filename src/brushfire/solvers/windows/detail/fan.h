@@ -6,52 +6,92 @@
 
 namespace brushfire::detail {
 
-// The part of a face at its corner `corner` between two directions, angles from the edge that leaves the corner
-// (halfedge 3 * face + corner) towards the one that enters it.
+// The part of a face at its corner `corner` between two directions. Directions at a corner have x along the edge that
+// leaves it (halfedge 3 * face + corner) and y into the face; their length is of no account.
 struct Sector {
   Index face;
   Index corner;
-  double from, to;
-  double angle;  // of the corner: 0 <= from <= to <= angle
+  Vec2 from, to;
+  Vec2 opening;  // the direction of the edge that enters the corner
+
+  bool from_edge() const { return from.y <= 0; }            // begins at the edge that leaves the corner
+  bool to_edge() const { return cross(to, opening) <= 0; }  // ends at the edge that enters it
 };
 
-// A shadow is lit wider by this on both sides: rounding of angle sums and of the arrival's direction. Whatever it adds
-// are real paths.
-inline constexpr double kShadowMargin = 1e-12;
-
-// The direction, at the vertex above a ray's halfedge, from which the ray arrives: an angle like those of a Sector.
-inline double arrival_angle(const WindowStructure& mesh, const Ray& ray) {
-  const WindowFace& f = mesh.faces[ray.halfedge / 3];
-  const Index k = ray.halfedge % 3;
-  const Frame frame = frame_of(f, k);
-  const Vec2 to_a = Vec2{} - frame.apex;
-  const Vec2 to_source = ray.source - origin_weight(ray.kind) * frame.apex;
-  const double angle = std::atan2(cross(to_a, to_source), dot(to_a, to_source));
-  return std::clamp(angle, 0.0, angle_at(f, previous3(k)));
+// The cosine and the sine of the angle at corner i, times the lengths of both edges.
+inline Vec2 opening_at(const WindowFace& f, Index i) {
+  const double a = f.length[i], b = f.length[previous3(i)], c = f.length[next3(i)];
+  return {0.5 * (a * a + (b - c) * (b + c)), f.double_area};
 }
 
-// Goes round a vertex, face by face, away from the face `start` over one of its two edges at the vertex; `turned`: the
-// angle from the arrival to that edge. Visits the parts of faces between the angles lo and hi from the arrival. The
-// vertex' faces form a circle or an arc.
-template <class Visit>
-void walk_fan(const WindowStructure& mesh, Index vertex, Index start, Index exit, double turned, double lo, double hi,
-              Visit&& visit) {
-  while (turned < hi) {
-    const Index entry = mesh.faces[exit / 3].opposite[exit % 3];
-    if (entry == exit || entry / 3 == start) return;
-    const Index face = entry / 3;
-    const WindowFace& f = mesh.faces[face];
-    // Entered over the edge that leaves the vertex: the angle grows as the sector's does; else against it.
-    const bool forwards = f.vertex[entry % 3] == vertex;
-    const Index corner = forwards ? entry % 3 : next3(entry % 3);
-    const double angle = angle_at(f, corner);
-    if (turned + angle >= lo) {
-      const double from = std::max(0.0, lo - turned), to = std::min(angle, hi - turned);
-      visit(forwards ? Sector{face, corner, from, to, angle} : Sector{face, corner, angle - to, angle - from, angle});
+inline Sector whole_sector(const WindowFace& f, Index face, Index corner) {
+  const Vec2 opening = opening_at(f, corner);
+  return {face, corner, {1, 0}, opening, opening};
+}
+
+// z turned back by the angle of `by`, as complex numbers: z times the conjugate.
+constexpr Vec2 turned_back(Vec2 z, Vec2 by) { return {dot(z, by), cross(by, z)}; }
+
+// A shadow is lit wider by this on both sides: rounding of products of turns and of the arrival's direction. Whatever
+// it adds are real paths.
+inline constexpr double kShadowMargin = 1e-12;
+
+// The directions from the vertex above a ray's halfedge: to the ray's source, and to the halfedge's two ends.
+struct ArrivalDirections {
+  Vec2 source, first, second;
+};
+inline ArrivalDirections arrival_directions(const WindowStructure& mesh, const Ray& ray) {
+  const Frame frame = frame_of(mesh.faces[ray.halfedge / 3], ray.halfedge % 3);
+  return {ray.source - origin_weight(ray.kind) * frame.apex, Vec2{} - frame.apex, Vec2{frame.length, 0} - frame.apex};
+}
+
+// A face around a vertex, come upon from a neighbour: over the edge that leaves the face's corner there (forwards:
+// angles from the edge that was crossed grow as a Sector's do), or over the one that enters it.
+struct FanFace {
+  Index face, corner;
+  bool forwards;
+
+  Index exit() const { return 3 * face + (forwards ? previous3(corner) : corner); }
+};
+
+// The face beyond halfedge `exit` at a vertex. False on the boundary, and back at the face `start`.
+inline bool next_in_fan(const WindowStructure& mesh, Index vertex, Index start, Index exit, FanFace& at) {
+  const Index entry = mesh.faces[exit / 3].opposite[exit % 3];
+  if (entry == exit || entry / 3 == start) return false;
+  at.face = entry / 3;
+  at.forwards = mesh.faces[at.face].vertex[entry % 3] == vertex;
+  at.corner = at.forwards ? entry % 3 : next3(entry % 3);
+  return true;
+}
+
+// Where the angle from an arrival reaches pi on one side of it: in which face, and in which direction from the edge
+// over which that face was entered.
+struct StraightOn {
+  FanFace at;
+  Vec2 direction;
+  bool found = false;
+};
+
+// `rest`: the angle from the arrival to the edge of `exit`, as a direction. Angles are never computed: the direction
+// straight on is turned back by face after face until it lies within one.
+inline StraightOn straight_on(const WindowStructure& mesh, Index vertex, Index start, Index exit, Vec2 rest) {
+  StraightOn s;
+  Vec2 z{-rest.x, std::max(0.0, rest.y)};  // pi - rest
+  z = {z.x + kShadowMargin * z.y, std::max(0.0, z.y - kShadowMargin * z.x)};
+  while (next_in_fan(mesh, vertex, start, exit, s.at)) {
+    const WindowFace& f = mesh.faces[s.at.face];
+    const Vec2 opening = opening_at(f, s.at.corner);
+    if (cross(z, opening) >= 0) {
+      s.direction = z;
+      s.found = true;
+      return s;
     }
-    turned += angle;
-    exit = 3 * face + (forwards ? previous3(corner) : corner);
+    const double scale = 1 / (f.length[s.at.corner] * f.length[previous3(s.at.corner)]);
+    z = scale * turned_back(z, opening);
+    z.y = std::max(0.0, z.y);
+    exit = s.at.exit();
   }
+  return s;
 }
 
 // L6. The sectors in the shadow of a Saddle or Boundary vertex that a ray has reached: at an angle of pi or more from
@@ -61,13 +101,36 @@ template <class Visit>
 void for_each_shadow(const WindowStructure& mesh, Index vertex, const Ray& arrival, Visit&& visit) {
   const Index start = arrival.halfedge / 3;
   const Index corner = previous3(arrival.halfedge % 3);  // the vertex' own, opposite of the halfedge
-  const double angle = arrival_angle(mesh, arrival);
-  const double rest = angle_at(mesh.faces[start], corner) - angle;
-  const double lo = kPi - kShadowMargin;
-  const bool open = mesh.bend[vertex] == Bend::Boundary;
-  const double hi = open ? kInfinity : mesh.total_angle[vertex] - kPi + kShadowMargin;
-  walk_fan(mesh, vertex, start, 3 * start + previous3(corner), rest, lo, hi, visit);
-  if (open) walk_fan(mesh, vertex, start, 3 * start + corner, angle, lo, hi, visit);
+  const ArrivalDirections to = arrival_directions(mesh, arrival);
+  const Vec2 to_second{dot(to.source, to.second), cross(to.source, to.second)};
+  const Vec2 to_first{dot(to.source, to.first), cross(to.first, to.source)};
+  const StraightOn one = straight_on(mesh, vertex, start, 3 * start + previous3(corner), to_second);
+  const StraightOn other = straight_on(mesh, vertex, start, 3 * start + corner, to_first);
+
+  // From straight on to the face in which the other side is straight on, or to the boundary.
+  const auto spread = [&](const StraightOn& begin, const StraightOn& end) {
+    FanFace at = begin.at;
+    Vec2 low = begin.direction;  // from the edge over which the walk has entered
+    do {
+      const Vec2 opening = opening_at(mesh.faces[at.face], at.corner);
+      const bool last = end.found && at.face == end.at.face;
+      const Vec2 high = last ? turned_back(opening, end.direction) : opening;
+      if (at.forwards) {
+        visit(Sector{at.face, at.corner, low, high, opening});
+      } else {
+        const Vec2 from = last ? end.direction : Vec2{1, 0};
+        visit(Sector{at.face, at.corner, from, low.y <= 0 ? opening : turned_back(opening, low), opening});
+      }
+      if (last) return;
+      low = {1, 0};
+    } while (next_in_fan(mesh, vertex, start, at.exit(), at));
+  };
+  if (mesh.bend[vertex] == Bend::Boundary) {
+    if (one.found) spread(one, {});
+    if (other.found) spread(other, {});
+  } else if (one.found && other.found) {
+    spread(one, other);
+  }
 }
 
 // The window that light from a sector's corner makes on the edge opposite of the corner, seen from beyond that edge: in
@@ -75,17 +138,17 @@ void for_each_shadow(const WindowStructure& mesh, Index vertex, const Ray& arriv
 inline Window window_of(const WindowFace& f, const Sector& sector, double sigma) {
   const Index i = sector.corner;
   const double near = f.length[i], far = f.length[previous3(i)], length = f.length[next3(i)];
-  // A ray at angle t from the near edge divides the opposite edge as near sin(t) : far sin(angle - t).
-  const auto place = [&](double t) {
-    const double a = near * std::sin(t), b = far * std::sin(sector.angle - t);
+  // A ray in direction z divides the opposite edge as  near sin(from near edge to z) : far sin(from z to far edge).
+  const auto place = [&](Vec2 z) {
+    const double a = near * near * z.y, b = cross(z, sector.opening);
     return a + b > 0 ? length * (b / (a + b)) : length;
   };
   Window w;
   const Vec2 corner = apex_over_edge(length, far, near, f.double_area);
   w.source = {corner.x, -corner.y};
   w.sigma = sigma;
-  w.b0 = sector.to >= sector.angle ? 0 : place(sector.to);
-  w.b1 = sector.from <= 0 ? length : place(sector.from);
+  w.b0 = sector.to_edge() ? 0 : place(sector.to);
+  w.b1 = sector.from_edge() ? length : place(sector.from);
   w.d0 = w.b0 <= 0 ? sigma + far : value_at(w, w.b0);
   w.d1 = w.b1 >= length ? sigma + near : value_at(w, w.b1);
   return w;

@@ -30,11 +30,10 @@ struct WindowStructure {
 
   Mesh mesh;  // the caller's
   LocalityOrder order;
-  std::vector<Index> face_rank;     // [face_count] mesh's number to inner
-  std::vector<WindowFace> faces;    // [face_count]
-  std::vector<Bend> bend;           // [vertex_count]
-  std::vector<double> total_angle;  // [vertex_count]
-  double bucket_width = 1;          // half a typical edge
+  std::vector<Index> face_rank;   // [face_count] mesh's number to inner
+  std::vector<WindowFace> faces;  // [face_count]
+  std::vector<Bend> bend;         // [vertex_count]
+  double bucket_width = 1;        // half a typical edge
 };
 
 // The angle at corner i.
