@@ -18,6 +18,7 @@
 #include <brushfire/solvers/windows/detail/queue.h>
 #include <brushfire/solvers/windows/detail/record.h>
 #include <brushfire/solvers/windows/detail/structure.h>
+#include <brushfire/solvers/windows/detail/sweep.h>
 
 #include <algorithm>
 #include <cmath>
@@ -335,16 +336,14 @@ class WindowEngine final : public Engine {
   }
 
   // A window leaves a face over its halfedge h; it is described from beyond, from the end of h to its start.
-  void cross_edge(Index h, const Window& w, Origin origin = Origin::Anywhere) {
+  [[gnu::always_inline]] void cross_edge(Index h, const Window& w, Origin origin = Origin::Anywhere) {
     const WindowFace& f = structure_.faces[h / 3];
-    switch (f.beyond[h % 3]) {
-      case Beyond::Nothing:
-        return;
-      case Beyond::Face:
-        return insert(f.opposite[h % 3], w, origin);
-      case Beyond::Several:
-        break;
-    }
+    if (f.beyond[h % 3] == Beyond::Face) return insert(f.opposite[h % 3], w, origin);
+    if (f.beyond[h % 3] == Beyond::Several) insert_into_all(h, w);
+  }
+
+  [[gnu::noinline]] void insert_into_all(Index h, const Window& w) {
+    const WindowFace& f = structure_.faces[h / 3];
     const Index end = f.vertex[next3(h % 3)];
     for (Index g = f.opposite[h % 3]; g != h; g = structure_.faces[g / 3].opposite[g % 3]) {
       const bool usual = structure_.faces[g / 3].vertex[g % 3] == end;
@@ -353,15 +352,12 @@ class WindowEngine final : public Engine {
   }
 
   // A window is about to enter the face of h: unless it is of no use, it waits there for its turn.
-  void insert(Index h, const Window& w, Origin origin = Origin::Anywhere) {
+  [[gnu::always_inline]] void insert(Index h, const Window& w, Origin origin = Origin::Anywhere) {
     const WindowFace& f = structure_.faces[h / 3];
     const Index k = h % 3;
     if (is_sliver(w) || least_value(w) > radius_ || is_dominated(f, k, w)) return;
-    if (goes_in_lists(h)) {
-      exact_->put(h, origin, w);
-      return queue_list(h, std::min({w.d0, w.d1, nearer_end(h)}));
-    }
-    if (f.thin && !memory_.learn(h, w)) return;
+    if (goes_in_lists(h)) return insert_into_list(h, w, origin);
+    if (f.thin && !learn(h, w)) return;
     const Arrival at_apex = arrival(w, frame_of(f, k).apex);
     const Index apex = f.vertex[previous3(k)];
     reach(apex, at_apex.value + w.slack);
@@ -372,6 +368,11 @@ class WindowEngine final : public Engine {
       queue_.push_list(h, at_apex.value);
     }
   }
+  [[gnu::noinline]] void insert_into_list(Index h, const Window& w, Origin origin) {
+    exact_->put(h, origin, w);
+    queue_list(h, std::min({w.d0, w.d1, nearer_end(h)}));
+  }
+  [[gnu::noinline]] bool learn(Index h, Window w) { return memory_.learn(h, w); }
 
   // The turn of a list: trimmed (L5), merged (L2), and on to the other two edges.
   void spread(Index h) {
@@ -384,15 +385,31 @@ class WindowEngine final : public Engine {
     }
     taken_.clear();
     lists_.take(h, taken_);
-    taken_.erase(std::remove_if(taken_.begin(), taken_.end(),
-                                [&](const Window& w) { return least_value(w) > radius_ || is_dominated(f, k, w); }),
-                 taken_.end());
-    if (taken_.empty()) return;
+    std::size_t count = 0;
+    for (const Window& w : taken_) {
+      if (!(least_value(w) > radius_) && !is_dominated(f, k, w)) taken_[count++] = w;
+    }
+    if (count == 0) return;
     const Frame frame = frame_of(f, k);
-    if (taken_.size() == 1) return pass(h, frame, taken_.front());
-    std::span<Window> windows = envelope_(taken_);
-    if (merges()) windows = windows.first(merge_neighbours(windows));
+    std::span<Window> windows = std::span(taken_).first(count);
+    if (count > 1) windows = merges() ? merged(windows) : envelope_(windows);
     for (const Window& w : windows) pass(h, frame, w);
+  }
+
+  // L2, L5, L8: what is left of the windows of an edge.
+  std::span<Window> merged(std::span<Window> windows) {
+    constexpr std::size_t kFew = 8;  // more are sorted by the envelope
+    if (windows.size() <= kFew) {
+      for (std::size_t i = 1; i < windows.size(); ++i) {
+        for (std::size_t j = i; j > 0 && windows[j].b0 < windows[j - 1].b0; --j) std::swap(windows[j], windows[j - 1]);
+      }
+      Sweep sweep(windows, [this](const Window& a, Window& b, const Joint& joint) { return merge_pair(a, b, joint); });
+      const bool done = sweep();
+      windows = windows.first(sweep.count());
+      if (done) return windows;
+    }
+    windows = envelope_(windows);
+    return windows.first(merge_neighbours(windows));
   }
 
   // ---- lists of exact runs
@@ -544,28 +561,29 @@ class WindowEngine final : public Engine {
   // L2, L8. From left to right, each with the one before it as long as that works. Returns how many are left.
   std::size_t merge_neighbours(std::span<Window> w) const {
     std::size_t last = 0;
-    Window merged;
     for (std::size_t i = 1; i < w.size(); ++i) {
       w[++last] = w[i];
       while (last > 0 && w[last].b0 - w[last - 1].b1 <= 2 * kSliver * (w[last].d0 - w[last].sigma) &&
-             merge_pair(w[last - 1], w[last], merged)) {
-        w[--last] = merged;
+             merge_pair(w[last - 1], w[last], {w[last - 1].b1, w[last - 1].d1, w[last].d0})) {
+        w[last - 1] = w[last];
+        --last;
       }
     }
     return w.empty() ? 0 : last + 1;
   }
 
   // Light of different sources stays apart, so that labels do.
-  bool merge_pair(const Window& a, const Window& b, Window& merged) const {
-    if (problem_->sources.size() == 1) return merge(a, b, start_of(0), budget_, merged);
+  bool merge_pair(const Window& a, Window& b, const Joint& joint) const {
+    if (problem_->sources.size() == 1) return merge_into(a, b, joint, start_of(0), budget_);
     const Index label = label_of(a.root);
-    if (label != label_of(b.root)) return false;
-    return merge(a, b, start_of(label), budget_, merged);
+    return label == label_of(b.root) && merge_into(a, b, joint, start_of(label), budget_);
   }
   // The value with which paths from a source start.
   double start_of(Index label) const { return problem_->sources[label].offset + shift_; }
 
-  void pass(Index h, const Frame& frame, const Window& w) {
+  void pass(Index h, const Frame& frame, const Window& waiting) {
+    Window w = waiting;
+    w.kind = WindowKind::Circular;  // known here: no other kind is ever started
     const WindowFace& f = structure_.faces[h / 3];
     const Index apex = f.vertex[previous3(h % 3)];
     const Ray ray{w.source, h, w.root, w.kind};
@@ -582,9 +600,16 @@ class WindowEngine final : public Engine {
     }
     if (problem_->options->keep_windows) kept_.push_back({structure_.outer_halfedge(h), w});
     if (frame.apex.y == 0 && w.source.y == 0) return pass_along(h, frame, w);
-    const Children children = propagate(w, frame, straight_value(w, frame.apex));
-    if (children.has_left) cross_edge(3 * (h / 3) + previous3(h % 3), children.left);
-    if (children.has_right) cross_edge(3 * (h / 3) + next3(h % 3), children.right);
+    const Division d = divide(w, frame.apex);
+    const double apex_value = straight_value(w, frame.apex);
+    if (d.lit_left() && frame.left > 0) {
+      const Window l = left_child(w, frame, d, apex_value);
+      if (is_lit(l)) cross_edge(3 * (h / 3) + previous3(h % 3), l);
+    }
+    if (d.lit_right() && frame.right > 0) {
+      const Window r = right_child(w, frame, d, apex_value);
+      if (is_lit(r)) cross_edge(3 * (h / 3) + next3(h % 3), r);
+    }
   }
 
   // Light from a point on the edge of a face without area: the point lies on another edge as well.

@@ -17,13 +17,26 @@ struct MergeBudget {
   double pace = 0.03;
 };
 
-// L2. Replaces neighbours a = [a.b0, m] and b = [m', b.b1], m' - m a sliver at most, by one window on [a.b0, b.b1] that
-//   (M1) is nowhere above either,
+// Where a merged pair's windows take over from each other, and both values there.
+struct Joint {
+  double at = 0, a = 0, b = 0;
+};
+
+// L2. Replaces neighbours a and b by one window on [a.b0, b.b1] that
+//   (M1) is nowhere above the lesser of the two,
 //   (M2) equals a at the left end and b at the right end,
-//   (M3) carries as slack the largest of  a.slack + (a - merged)  and  b.slack + (b - merged)  over their intervals,
+//   (M3) carries as slack the largest of  a.slack + (a - merged)  on [a.b0, joint] and  b.slack + (b - merged)  on
+//        [joint, b.b1],
 // if the budget allows; docs/tolerance.md has the proof that propagating such windows instead keeps
-// value <= distance <= value + slack at every vertex. `start`: the value at the source (its offset): lengths of paths
-// are counted from there. Returns false and leaves `merged` in any state where that is impossible or too dear.
-bool merge(const Window& a, const Window& b, double start, const MergeBudget& budget, Window& merged);
+// value <= distance <= value + slack at every vertex. The neighbours meet at the joint, with a gap of a sliver at most,
+// or overlap there, a being the lesser at a.b0 and b at b.b1; where exactly they cross need not be known. `start`: the
+// value at the source (its offset): lengths of paths are counted from there. The merged window takes b's place; false,
+// and nothing is changed, where that is impossible or too dear.
+bool merge_into(const Window& a, Window& b, const Joint& joint, double start, const MergeBudget& budget);
+
+// The same for neighbours that have been trimmed.
+inline bool merge_into(const Window& a, Window& b, double start, const MergeBudget& budget) {
+  return merge_into(a, b, {a.b1, a.d1, b.d0}, start, budget);
+}
 
 }  // namespace brushfire::detail

@@ -6,80 +6,97 @@
 
 namespace brushfire::detail {
 
-// The children of a window in the triangle that it enters. left lies on a-apex, in the frame with a at the origin;
-// right on apex-b, with the apex at the origin; both have the triangle below and their source in it or beyond.
-struct Children {
-  Window left, right;
-  bool has_left = false, has_right = false;
-};
+// How a window's rays divide between the sides of the triangle that it enters. A ray through (b,0) passes the apex at a
+// distance that is proportional to  aside = across - b * along  (positive: to its left), and meets the left (right)
+// side where that is divided as  b * depth : aside  (as -aside : (length - b) * depth), depth being that of the source.
+// The sums cancel for rays that graze the side; the error then runs along the ray and moves it sideways by rounding
+// only.
+struct Division {
+  double aside0 = 0, aside1 = 0;  // of the rays through b0 and b1
+  double depth = 0;
 
-// The ray from the source through (b,0) meets the edge from a to the apex at this share of its length. The denominator
-// cancels for rays that graze the edge; the error then runs along the ray and moves it sideways by rounding only.
-inline double share_on_left(const Window& w, Vec2 apex, double b) {
-  const double q = -w.source.y;
-  return b * q / (apex.x * q - apex.y * (origin_weight(w.kind) * b - w.source.x));
+  bool lit_left() const { return aside0 > 0; }
+  bool lit_right() const { return aside1 < 0; }
+  bool lit_apex() const { return aside0 >= 0 && aside1 <= 0; }
+};
+inline Division divide(const Window& w, Vec2 apex) {
+  const Crossing at = crossing(w, apex);
+  return {at.across - w.b0 * at.along, at.across - w.b1 * at.along, -w.source.y};
 }
 
 // Propagation (L3, L4): the children's pre-images tile the lit interval; slack, lift and root are inherited (the slack
 // stays valid because the value grows along a ray as fast as the path does). `apex_value`: straight_value at the apex.
 // Needs is_lit(w) and, where the source lies on the edge, an apex off it. What rounding decides about a ray through the
 // apex is worth nothing: both children meet there.
+//
+// On a-apex, in the frame with a at the origin; needs lit_left() and a side longer than 0.
+[[gnu::always_inline]] inline Window left_child(const Window& w, const Frame& frame, const Division& d,
+                                                double apex_value) {
+  const double inverse = 1 / frame.left;
+  const Vec2 u{frame.apex.x * inverse, frame.apex.y * inverse};
+  Window l = w;
+  l.source = {dot(w.source, u), w.source.y * u.x - w.source.x * u.y};
+  const auto place = [&](double b, double aside) {
+    return std::min(frame.left, frame.left * (b * d.depth / (aside + b * d.depth)));
+  };
+  if (w.b0 <= 0) {
+    l.b0 = 0;
+  } else {
+    l.b0 = place(w.b0, d.aside0);
+    l.d0 = value_at(l, l.b0);
+  }
+  if (d.lit_right()) {
+    l.b1 = frame.left;
+    l.d1 = apex_value;
+  } else {
+    l.b1 = place(w.b1, d.aside1);
+    l.d1 = value_at(l, l.b1);
+  }
+  return l;
+}
+// On apex-b, with the apex at the origin; needs lit_right() and a side longer than 0.
+[[gnu::always_inline]] inline Window right_child(const Window& w, const Frame& frame, const Division& d,
+                                                 double apex_value) {
+  const double inverse = 1 / frame.right;
+  const Vec2 u{(frame.length - frame.apex.x) * inverse, -frame.apex.y * inverse};  // from the apex to b
+  const Vec2 s = w.source - origin_weight(w.kind) * frame.apex;
+  Window r = w;
+  r.source = {dot(s, u), s.y * u.x - s.x * u.y};
+  if (w.kind == WindowKind::Linear) r.sigma = apex_value;
+  const auto place = [&](double b, double aside) {
+    return std::max(0.0, frame.right * (-aside / ((frame.length - b) * d.depth - aside)));
+  };
+  if (d.lit_left()) {
+    r.b0 = 0;
+    r.d0 = apex_value;
+  } else {
+    r.b0 = place(w.b0, d.aside0);
+    r.d0 = value_at(r, r.b0);
+  }
+  if (w.b1 >= frame.length) {
+    r.b1 = frame.right;
+  } else {
+    r.b1 = place(w.b1, d.aside1);
+    r.d1 = value_at(r, r.b1);
+  }
+  return r;
+}
+
+// Both, where they are lit; both have the triangle below and their source in it or beyond.
+struct Children {
+  Window left, right;
+  bool has_left = false, has_right = false;
+};
 inline Children propagate(const Window& w, const Frame& frame, double apex_value) {
   Children children;
-  const Vec2 c = frame.apex;
-  const Crossing at = crossing(w, c);
-  const bool lit_left = at.across > w.b0 * at.along;
-  const bool lit_right = at.across < w.b1 * at.along;
-  const double origin = origin_weight(w.kind);
-
-  if (lit_left && frame.left > 0) {
-    Window& l = children.left;
-    l = w;
-    const Vec2 u{c.x / frame.left, c.y / frame.left};
-    l.source = {dot(w.source, u), w.source.y * u.x - w.source.x * u.y};
-    if (w.b0 <= 0) {
-      l.b0 = 0;
-      l.d0 = w.d0;
-    } else {
-      l.b0 = std::min(frame.left, frame.left * share_on_left(w, c, w.b0));
-      l.d0 = value_at(l, l.b0);
-    }
-    if (lit_right) {
-      l.b1 = frame.left;
-      l.d1 = apex_value;
-    } else {
-      l.b1 = std::min(frame.left, frame.left * share_on_left(w, c, w.b1));
-      l.d1 = value_at(l, l.b1);
-    }
-    children.has_left = is_lit(l) && !is_sliver(l);
+  const Division d = divide(w, frame.apex);
+  if (d.lit_left() && frame.left > 0) {
+    children.left = left_child(w, frame, d, apex_value);
+    children.has_left = is_lit(children.left) && !is_sliver(children.left);
   }
-  if (lit_right && frame.right > 0) {
-    Window& r = children.right;
-    r = w;
-    const Vec2 u{(frame.length - c.x) / frame.right, -c.y / frame.right};  // from the apex to b
-    const Vec2 s = w.source - origin * c;
-    r.source = {dot(s, u), s.y * u.x - s.x * u.y};
-    if (w.kind == WindowKind::Linear) r.sigma = apex_value;
-    // Seen from b, with the frame turned round, the right edge is a left one.
-    const Vec2 turned{frame.length - c.x, c.y};
-    Window m;
-    m.kind = w.kind;
-    m.source = {origin * frame.length - w.source.x, w.source.y};
-    if (lit_left) {
-      r.b0 = 0;
-      r.d0 = apex_value;
-    } else {
-      r.b0 = std::max(0.0, frame.right * (1 - share_on_left(m, turned, frame.length - w.b0)));
-      r.d0 = value_at(r, r.b0);
-    }
-    if (w.b1 >= frame.length) {
-      r.b1 = frame.right;
-      r.d1 = w.d1;
-    } else {
-      r.b1 = std::max(0.0, frame.right * (1 - share_on_left(m, turned, frame.length - w.b1)));
-      r.d1 = value_at(r, r.b1);
-    }
-    children.has_right = is_lit(r) && !is_sliver(r);
+  if (d.lit_right() && frame.right > 0) {
+    children.right = right_child(w, frame, d, apex_value);
+    children.has_right = is_lit(children.right) && !is_sliver(children.right);
   }
   return children;
 }

@@ -16,7 +16,7 @@ namespace brushfire::detail {
 // Circular: the light comes from a point, the virtual source: the last vertex (or the source itself) around which the
 // path bends, unfolded into the plane of the edge. Linear: it comes from infinitely far away, in parallel rays, as
 // from a segment that is a source along its whole length.
-enum class WindowKind : std::uint8_t { Circular, Linear };
+enum class WindowKind : std::uint32_t { Circular, Linear };
 
 // The value of the window at x is  sigma + |x - source|  (circular) or  sigma - x * source.x  (linear). It is a lower
 // bound of the distance where windows were merged, and the distance along the window's rays where not; `slack` more is
