@@ -1,9 +1,7 @@
-// Clock, memory, medians, raw arrays and errors for the measurements.
+// Memory, raw arrays and errors for the measurements.
 #include "measure.h"
 
 #include <brushfire/core/error.h>
-
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,33 +33,10 @@ void write_array(const std::string& path, std::span<const T> values) {
   if (!out) throw Error(ErrorCode::FileNotWritable, path + ": cannot be written");
 }
 
-// A line of /proc/self/status. (getrusage's ru_maxrss would do, but it includes the program that started this one.)
-double status_mib(const std::string& key) {
-  std::ifstream in("/proc/self/status");
-  for (std::string word; in >> word;) {
-    double kib = 0;
-    if (word == key && in >> kib) return kib / 1024;
-  }
-  return 0;
-}
-
 }  // namespace
 
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double memory_mib() { return status_mib("VmRSS:"); }
-double peak_memory_mib() { return status_mib("VmHWM:"); }
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
+double memory_mib() { return static_cast<double>(tool::resident_memory()) / (1 << 20); }
+double peak_memory_mib() { return static_cast<double>(tool::peak_memory()) / (1 << 20); }
 
 std::vector<Vec3> read_positions(const std::string& path) { return read_array<Vec3>(path); }
 std::vector<Face> read_faces(const std::string& path) { return read_array<Face>(path); }

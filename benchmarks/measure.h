@@ -7,18 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "process.h"
+
 namespace brushfire::benchmark {
 
-// Processor time of this process in seconds, all threads together. Other programs on the machine do not show in it,
-// except through shared caches and memory.
-double cpu_seconds();
+// The clock and the median of `brushfire bench`.
+using tool::cpu_seconds;
+using tool::median;
 
 // Resident memory in MiB: now, and the most there has been.
 double memory_mib();
 double peak_memory_mib();
-
-// The middle value (the mean of the two middle ones); 0 of nothing.
-double median(std::vector<double> values);
 
 // Raw little-endian arrays without a header: what numpy's tofile() and fromfile() write and read.
 // Throws Error(FileNotReadable), Error(FileMalformed) where the size does not divide.

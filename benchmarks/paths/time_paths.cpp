@@ -15,10 +15,7 @@ namespace {
 
 using namespace brushfire;
 
-double median(std::vector<double> x) {
-  std::nth_element(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2), x.end());
-  return x[x.size() / 2];
-}
+using benchmark::median;
 
 }  // namespace
 

@@ -89,7 +89,8 @@ TEST_F(Program, VersionIsOneLine) {
 }
 
 TEST_F(Program, HelpOfEveryVerbHasExamplesAndFitsTheTerminal) {
-  for (const char* verb : {"info", "distance", "matrix", "compare", "shape", "completion"}) {
+  for (const char* verb :
+       {"info", "distance", "path", "isolines", "matrix", "compare", "render", "bench", "shape", "completion"}) {
     const Ended ended = run_program({verb, "--help"});
     EXPECT_EQ(ended.code, 0);
     EXPECT_NE(ended.out.find("Examples:\n"), std::string::npos) << verb;

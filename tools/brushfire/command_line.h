@@ -98,6 +98,7 @@ void add_path(CommandLine& command_line);
 void add_isolines(CommandLine& command_line);
 void add_render(CommandLine& command_line);
 void add_compare(CommandLine& command_line);
+void add_bench(CommandLine& command_line);
 void add_shape(CommandLine& command_line);
 void add_completion(CommandLine& command_line);
 

@@ -393,7 +393,7 @@ void add_render(CommandLine& command_line) {
     verb.choice("--colormap", a->colormap, {"viridis", "magma", "cividis"}, "Colours");
     verb.option("--range", a->range, "LO,HI", "Range of the colours");
     verb.option("--error-range", a->error_range, "LO,HI",
-                "Range of the colours of --error, in percent; otherwise up to what 99 % of the vertices stay under");
+                "Range of the colours of --error, in percent (0 to what 99 % stay under)");
     verb.option("--unit", a->unit, "TEXT", "Above the colour bar");
     verb.option("--title", a->title, "TEXT", "Above the (first) panel");
     verb.flag("--no-bar", a->no_bar, "No colour bar and no legend");

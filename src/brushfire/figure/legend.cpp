@@ -13,7 +13,7 @@ constexpr Color kInk{0.12F, 0.12F, 0.14F};
 constexpr int kPad = 12;
 
 double text_height(const RenderOptions& options) {
-  constexpr double kSmallest = 13, kShareOfHeight = 0.028;
+  constexpr double kSmallest = 17, kShareOfHeight = 0.032;  // still read where the picture is shown at half its size
   return std::max(kSmallest, kShareOfHeight * options.height);
 }
 
