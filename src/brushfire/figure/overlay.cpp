@@ -7,7 +7,10 @@
 namespace brushfire::detail {
 namespace {
 
+// Red, and a white seam on either side: without it the red is lost on green for those who cannot tell them apart.
 constexpr Color kPathColor{0.93F, 0.26F, 0.16F};
+constexpr Color kSeamColor{1.0F, 1.0F, 1.0F};
+constexpr float kPathShare = 0.66F;  // of the width; the seam is the rest
 constexpr Color kDotColor{1.0F, 1.0F, 1.0F};
 constexpr Color kDotRim{0.10F, 0.10F, 0.12F};
 constexpr float kDotRimShare = 0.28F;
@@ -66,7 +69,13 @@ std::vector<Capsule> overlay_capsules(const Panel& panel, const RenderOptions& o
     for (std::size_t i = 0; i + (path.closed ? 0 : 1) < n; ++i) {
       Capsule c = capsule(projection(path.points[i]), projection(path.points[(i + 1) % n]), options.path_width,
                           projection, options.samples);
+      c.color = kSeamColor;
+      out.push_back(c);
+      // The red lies higher, lest the seam of a piece that comes nearer covers the one before it.
       c.color = kPathColor;
+      c.radius *= kPathShare;
+      c.depth0 += c.lift;
+      c.depth1 += c.lift;
       out.push_back(c);
     }
   }

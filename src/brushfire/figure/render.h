@@ -58,7 +58,7 @@ struct RenderOptions {
   bool silhouettes = true;   // dark lines where the surface ends or steps back
   bool transparent = false;  // background; otherwise white
   double line_width = 1.6;   // of isolines, pixels
-  double path_width = 5;     // pixels
+  double path_width = 6.5;   // pixels, its white seam included
   double dot_size = 13;      // pixels
   int samples = 3;           // per pixel and direction, 1 to 8
   unsigned threads = 0;      // 0: one per processor; the pixels are the same for any number

@@ -141,7 +141,9 @@ std::string draw_panel(const Panel& panel, std::span<const Polyline> lines, cons
                     std::to_string(at.width) + "\" height=\"" + std::to_string(at.height) +
                     "\" href=\"data:image/png;base64," + base64(encode_png(picture)) + "\"/>\n";
   out += stroke(visible.trace(lines), "#14141a", options.line_width);
-  out += stroke(visible.trace(panel.paths), "#ed4229", options.path_width);
+  const std::string paths = visible.trace(panel.paths);
+  constexpr double kCore = 0.66;  // the rest is a white seam
+  out += stroke(paths, "#ffffff", options.path_width) + stroke(paths, "#ed4229", kCore * options.path_width);
   for (const Vec3& p : panel.dots) {
     const Projection::Screen s = projection(p);
     if (!visible.visible(s)) continue;
