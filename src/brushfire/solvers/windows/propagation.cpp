@@ -53,11 +53,17 @@ struct alignas(32) VertexValues {
   double estimate = kInfinity;  // what the window that gave `seen` expects the distance to be
 };
 
-struct VertexState {
-  double emitted = kInfinity;  // the value with which it last sent light on
-  Ray ray;
-  Index label = kNoIndex;
+// What a vertex where paths may bend needs to send light on.
+struct VertexLight {
+  CrossedAt from;           // where its least value came from
   bool all_around = false;  // sends light in all directions, whatever its faces are like
+  bool waiting = false;     // its value has fallen since it last sent light
+};
+
+// Where light comes from in the end; for runs with several sources.
+struct Origins {
+  Index root = kNoIndex;  // see Ray
+  Index label = kNoIndex;
 };
 
 struct TargetInFace {
@@ -75,10 +81,10 @@ struct TargetState {
 
 class WindowEngine final : public Engine {
  public:
-  explicit WindowEngine(const Mesh& mesh) : structure_(mesh), lists_(mesh.halfedge_count()) {
+  explicit WindowEngine(const Mesh& mesh) : structure_(mesh) {
     if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
     values_.resize(mesh.vertex_count());
-    state_.resize(mesh.vertex_count());
+    light_.resize(mesh.vertex_count());
   }
 
   bool lists_touched() const override { return true; }
@@ -91,6 +97,9 @@ class WindowEngine final : public Engine {
                 return a.offset < b.offset;
               })->offset;
     radius_ = problem.max_distance + shift_;
+    several_ = problem.sources.size() > 1;
+    if (several_) origins_.resize(values_.size());
+    if (keeps_rays()) rays_.resize(values_.size());
     budget_ = budget_of(*problem.options);
     queue_.reset(merges() ? structure_.bucket_width : kExactBucket * structure_.bucket_width);
     if (!merges() && !exact_) exact_.emplace(static_cast<Index>(3 * structure_.faces.size()));
@@ -109,15 +118,19 @@ class WindowEngine final : public Engine {
     return {std::max(0.0, options.bound == Bound::Estimate ? 2 * promise : promise)};
   }
   bool merges() const { return budget_.share > 0; }
+  bool keeps_rays() const { return problem_->options->keep_paths || problem_->options->keep_windows; }
 
   void clean() {
     for (const Index v : touched_) {
       values_[v] = {};
-      state_[v] = {};
+      light_[v] = {};
+      if (!origins_.empty()) origins_[v] = {};
+      if (!rays_.empty()) rays_[v] = {};
     }
     touched_.clear();
-    if (!queue_.empty()) {
+    if (!queue_.empty()) {  // left over from a run that was stopped
       lists_.clear();
+      for (WindowFace& f : structure_.faces) f.waiting = kNoIndex;
       if (exact_) exact_->clear();
     }
     for (const TargetInFace& t : targets_in_faces_) structure_.faces[t.face].has_target = false;
@@ -230,10 +243,10 @@ class WindowEngine final : public Engine {
       if (event.is_list) {
         if (goes_in_lists(event.index)) {
           if (!exact_->empty(event.index)) spread_list(event.index);
-        } else if (!lists_.empty(event.index)) {
+        } else {
           spread(event.index);
         }
-      } else if (values_[event.index].lower < state_[event.index].emitted) {
+      } else if (light_[event.index].waiting) {
         shine(event.index);
       }
     }
@@ -242,17 +255,11 @@ class WindowEngine final : public Engine {
   // What the next lists will read: their faces first, then their windows and the faces beyond, then the vertices there.
   void prefetch_next() const {
     const Index third = queue_.peek_list(5), second = queue_.peek_list(2), first = queue_.peek_list(1);
-    if (third != kNoIndex) {
-      prefetch(&structure_.faces[third / 3]);
-      lists_.prefetch_head(third);
-    }
+    if (third != kNoIndex) prefetch(&structure_.faces[third / 3]);
     if (second != kNoIndex) {
       const WindowFace& f = structure_.faces[second / 3];
-      lists_.prefetch_list(second);
-      for (const Index k : {next3(second % 3), previous3(second % 3)}) {
-        prefetch(&structure_.faces[f.opposite[k] / 3]);
-        lists_.prefetch_head(f.opposite[k]);
-      }
+      lists_.prefetch_list(f.waiting);
+      for (const Index k : {next3(second % 3), previous3(second % 3)}) prefetch(&structure_.faces[f.opposite[k] / 3]);
     }
     if (first != kNoIndex) {
       const WindowFace& f = structure_.faces[first / 3];
@@ -290,7 +297,7 @@ class WindowEngine final : public Engine {
 
   Index label_of(Index root) const {
     const Index n = structure_.vertex_count();
-    return root >= n ? root - n : state_[root].label;
+    return root >= n ? root - n : several_ ? origins_[root].label : 0;
   }
 
   // A window that is about to be merged with others sees v: what it expects the distance to be.
@@ -306,15 +313,19 @@ class WindowEngine final : public Engine {
   void offer(Index v, double value, const Ray& ray, bool all_around) {
     double& least = values_[v].lower;
     if (value > least) return;
-    VertexState& s = state_[v];
     const bool lower = value < least;
-    if (!lower && label_of(ray.root) >= s.label) return;
+    if (!lower && (!several_ || label_of(ray.root) >= origins_[v].label)) return;
     touch(v);
     least = value;
-    s.ray = ray;
-    s.label = label_of(ray.root);
-    s.all_around = all_around;
-    if (lower && (all_around || structure_.bend[v] != Bend::None)) queue_.push_vertex(v, value);
+    if (several_) origins_[v] = {ray.root, label_of(ray.root)};
+    if (!rays_.empty()) rays_[v] = ray;
+    if (!all_around && structure_.bend[v] == Bend::None) return;
+    VertexLight& light = light_[v];
+    light.from = crossed_at(structure_, ray);
+    light.all_around = all_around;
+    if (!lower) return;
+    light.waiting = true;
+    queue_.push_vertex(v, value);
   }
 
   void offer_target(Index i, double value, double slack, double lift, const Ray& ray) {
@@ -353,7 +364,7 @@ class WindowEngine final : public Engine {
 
   // A window is about to enter the face of h: unless it is of no use, it waits there for its turn.
   [[gnu::always_inline]] void insert(Index h, const Window& w, Origin origin = Origin::Anywhere) {
-    const WindowFace& f = structure_.faces[h / 3];
+    WindowFace& f = structure_.faces[h / 3];
     const Index k = h % 3;
     if (is_sliver(w) || least_value(w) > radius_ || is_dominated(f, k, w)) return;
     if (goes_in_lists(h)) return insert_into_list(h, w, origin);
@@ -362,11 +373,9 @@ class WindowEngine final : public Engine {
     const Index apex = f.vertex[previous3(k)];
     reach(apex, at_apex.value + w.slack);
     if (merges() && at_apex.detour <= kSeen * at_apex.value) expect(apex, at_apex.value, w.lift);
-    const double before = lists_.empty(h) ? kInfinity : lists_.key(h);
     // The key is the arrival at the far corner: by then everything that enters over the edge has come.
-    if (lists_.push(h, w, at_apex.value) && !(before < kInfinity && queue_.same_bucket(before, at_apex.value))) {
-      queue_.push_list(h, at_apex.value);
-    }
+    const std::int64_t turn = queue_.turn_of(at_apex.value);
+    if (lists_.push(f.waiting, h, w, turn)) queue_.push_list(h, at_apex.value, turn);
   }
   [[gnu::noinline]] void insert_into_list(Index h, const Window& w, Origin origin) {
     exact_->put(h, origin, w);
@@ -376,23 +385,16 @@ class WindowEngine final : public Engine {
 
   // The turn of a list: trimmed (L5), merged (L2), and on to the other two edges.
   void spread(Index h) {
-    const WindowFace& f = structure_.faces[h / 3];
+    WindowFace& f = structure_.faces[h / 3];
     const Index k = h % 3;
-    Window single;
-    if (lists_.take_single(h, single)) {
-      if (!(least_value(single) > radius_) && !is_dominated(f, k, single)) pass(h, frame_of(f, k), single);
-      return;
-    }
     taken_.clear();
-    lists_.take(h, taken_);
-    std::size_t count = 0;
-    for (const Window& w : taken_) {
-      if (!(least_value(w) > radius_) && !is_dominated(f, k, w)) taken_[count++] = w;
-    }
-    if (count == 0) return;
+    lists_.take(f.waiting, h, [&](const Window& w) {
+      if (!(least_value(w) > radius_) && !is_dominated(f, k, w)) taken_.push_back(w);
+    });
+    if (taken_.empty()) return;
     const Frame frame = frame_of(f, k);
-    std::span<Window> windows = std::span(taken_).first(count);
-    if (count > 1) windows = merges() ? merged(windows) : envelope_(windows);
+    std::span<Window> windows = taken_;
+    if (windows.size() > 1) windows = merges() ? merged(windows) : envelope_(windows);
     for (const Window& w : windows) pass(h, frame, w);
   }
 
@@ -633,16 +635,16 @@ class WindowEngine final : public Engine {
 
   // L6. Light goes on from v: into its shadow, or everywhere.
   void shine(Index v) {
-    VertexState& s = state_[v];
-    s.emitted = values_[v].lower;
-    if (s.emitted > radius_) return;
-    if (s.all_around || structure_.bend[v] == Bend::Full || s.ray.halfedge == kNoIndex) {
+    VertexLight& light = light_[v];
+    light.waiting = false;
+    if (values_[v].lower > radius_) return;
+    if (light.all_around || structure_.bend[v] == Bend::Full || light.from.halfedge == kNoIndex) {
       for (const Index corner : structure_.mesh.corners(structure_.outer_vertex(v))) {
         shine_through(v, structure_.inner_halfedge(corner));
       }
       return;
     }
-    for_each_shadow(structure_, v, s.ray, [&](const Sector& sector) { shine_into(v, sector); });
+    for_each_shadow(structure_, v, light.from, [&](const Sector& sector) { shine_into(v, sector); });
   }
 
   void shine_through(Index v, Index corner) {
@@ -703,12 +705,12 @@ class WindowEngine final : public Engine {
       const Index outer = structure_.outer_vertex(v);
       if (problem_->touched) problem_->touched->push_back(outer);
       const VertexValues& s = values_[v];
-      const Index label = state_[v].label;
       // Seen by no window yet, or not final when the run stopped.
       if (s.lower == kInfinity || (narrowed && s.lower > radius_)) {
         ++field_->beyond_radius;
         continue;
       }
+      const Index label = label_of(v);
       const Reading r = read(s.lower, s.upper, s.estimate, label);
       field_->distance[outer] = r.value - shift_;
       field_->source[outer] = label;
@@ -723,7 +725,7 @@ class WindowEngine final : public Engine {
       field_->target_source[i] = label_of(t.ray.root);
       field_->target_distance[i] = read(t.lower, t.upper, t.estimate, field_->target_source[i]).value - shift_;
     }
-    if (problem_->options->keep_paths || problem_->options->keep_windows) keep();
+    if (keeps_rays()) keep();
   }
 
   // The value that is given out for lower <= distance <= upper, how far it may be off, and that as a share of the
@@ -779,7 +781,7 @@ class WindowEngine final : public Engine {
     data->vertices.assign(mesh.vertex_count(), unknown);
     for (const Index v : touched_) {
       if (values_[v].lower > radius_) continue;
-      data->vertices[structure_.outer_vertex(v)] = {values_[v].lower, state_[v].label, outer(state_[v].ray)};
+      data->vertices[structure_.outer_vertex(v)] = {values_[v].lower, label_of(v), outer(rays_[v])};
     }
     data->targets.assign(problem_->targets.begin(), problem_->targets.end());
     for (const TargetState& t : targets_) {
@@ -822,12 +824,12 @@ class WindowEngine final : public Engine {
     for (const Index start : touched_) {
       chain_.clear();
       Index v = start;
-      while (v < n && !state_[v].all_around && state_[v].ray.root < n && chain_.size() <= touched_.size()) {
+      while (v < n && origins_[v].root < n && chain_.size() <= touched_.size()) {
         chain_.push_back(v);
-        v = state_[v].ray.root;
+        v = origins_[v].root;
       }
       if (v >= n) continue;
-      for (const Index u : chain_) state_[u].label = state_[v].label;
+      for (const Index u : chain_) origins_[u].label = origins_[v].label;
     }
   }
 
@@ -841,8 +843,10 @@ class WindowEngine final : public Engine {
   Sight sight_;
   std::vector<double> chosen_;
   std::vector<VertexValues> values_;  // [vertex_count]
-  std::vector<VertexState> state_;    // [vertex_count]
-  std::vector<Index> touched_;        // vertices whose entries have changed
+  std::vector<VertexLight> light_;    // [vertex_count]
+  std::vector<Origins> origins_;      // [vertex_count] in runs with several sources
+  std::vector<Ray> rays_;       // [vertex_count] in runs that keep them: what brought every vertex its least value
+  std::vector<Index> touched_;  // vertices whose entries have changed
   std::vector<Window> taken_;
   std::vector<KeptWindow> kept_;
   std::vector<TargetInFace> targets_in_faces_;  // by face
@@ -851,8 +855,9 @@ class WindowEngine final : public Engine {
   MergeBudget budget_;
   const Problem* problem_ = nullptr;
   DistanceField* field_ = nullptr;
-  double shift_ = 0;   // added to all values, so that none is negative
-  double radius_ = 0;  // nothing beyond is wanted
+  bool several_ = false;  // sources
+  double shift_ = 0;      // added to all values, so that none is negative
+  double radius_ = 0;     // nothing beyond is wanted
   std::uint64_t next_target_check_ = 0;
 };
 

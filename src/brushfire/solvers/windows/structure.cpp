@@ -50,6 +50,8 @@ WindowStructure::WindowStructure(const Mesh& m) : mesh(m), order(locality_order(
     const Index f = order.faces[inner];
     WindowFace& face = faces[inner];
     face.double_area = mesh.double_areas()[f];
+    face.waiting = kNoIndex;
+    face.has_target = false;
     face.usable = mesh.is_face_usable(f);
     const double base = std::max({lengths[3 * f], lengths[3 * f + 1], lengths[3 * f + 2]});
     face.thin = face.double_area <= kThin * base * base;
@@ -78,11 +80,6 @@ WindowStructure::WindowStructure(const Mesh& m) : mesh(m), order(locality_order(
     if (bend[v] == Bend::Full) continue;
     if (link == Link::Circle && total_angle[v] > 2 * kPi + kFlat) bend[v] = Bend::Saddle;
     if (link == Link::Arc && total_angle[v] > kPi + kFlat) bend[v] = Bend::Boundary;
-  }
-  for (WindowFace& face : faces) {
-    for (Index k = 0; k < 3; ++k) {
-      if (bend[face.vertex[k]] != Bend::None) face.bends = static_cast<std::uint8_t>(face.bends | (1u << k));
-    }
   }
   bucket_width = typical_bucket(mesh);
 }

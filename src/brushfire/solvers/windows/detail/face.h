@@ -19,20 +19,21 @@ enum class Beyond : std::uint8_t {
 };
 
 struct alignas(64) WindowFace {
-  double length[3];        // of halfedge k, mesh.unit()
-  double double_area;      // mesh.unit()^2
-  Index vertex[3];         // corner k, where halfedge k starts
-  Index opposite[3];       // of halfedge k
-  Beyond beyond[3];        // of halfedge k
-  std::uint8_t bends = 0;  // bit k: paths may bend at vertex[k]
-  bool usable = true;      // three distinct vertices
-  bool has_target = false;
-  bool thin = false;  // so low that light may go round through its neighbours for next to nothing: see WindowMemory
+  double length[3];    // of halfedge k, mesh.unit()
+  double double_area;  // mesh.unit()^2
+  Index vertex[3];     // corner k, where halfedge k starts
+  Index opposite[3];   // of halfedge k
+  Index waiting;       // the first of the windows that wait on the face's halfedges: see WindowLists
+  Beyond beyond[3];    // of halfedge k
+  bool usable : 1;     // three distinct vertices
+  bool has_target : 1;
+  bool thin : 1;  // so low that light may go round through its neighbours for next to nothing: see WindowMemory
 };
 static_assert(sizeof(WindowFace) == 64);
 
-constexpr Index next3(Index k) { return k == 2 ? 0 : k + 1; }
-constexpr Index previous3(Index k) { return k == 0 ? 2 : k - 1; }
+// From tables of two bits an entry: these are asked at random all the time, and a branch would be guessed wrong.
+constexpr Index next3(Index k) { return 0b00'10'01u >> 2 * k & 3; }
+constexpr Index previous3(Index k) { return 0b01'00'10u >> 2 * k & 3; }
 
 // A triangle over one of its edges a-b: a = (0,0), b = (length,0), apex above.
 struct Frame {
@@ -43,7 +44,7 @@ struct Frame {
 };
 
 // The frame of halfedge k of a face; its length is > 0.
-inline Frame frame_of(const WindowFace& f, Index k) {
+[[gnu::always_inline]] inline Frame frame_of(const WindowFace& f, Index k) {
   const double length = f.length[k], left = f.length[previous3(k)], right = f.length[next3(k)];
   return {length, left, right, apex_over_edge(length, left, right, f.double_area)};
 }

@@ -36,13 +36,17 @@ constexpr Vec2 turned_back(Vec2 z, Vec2 by) { return {dot(z, by), cross(by, z)};
 // it adds are real paths.
 inline constexpr double kShadowMargin = 1e-12;
 
-// The directions from the vertex above a ray's halfedge: to the ray's source, and to the halfedge's two ends.
-struct ArrivalDirections {
-  Vec2 source, first, second;
+// Where light came from: over a halfedge, at this place of its line (in the halfedge's frame).
+struct CrossedAt {
+  double place = 0;
+  Index halfedge = kNoIndex;
 };
-inline ArrivalDirections arrival_directions(const WindowStructure& mesh, const Ray& ray) {
-  const Frame frame = frame_of(mesh.faces[ray.halfedge / 3], ray.halfedge % 3);
-  return {ray.source - origin_weight(ray.kind) * frame.apex, Vec2{} - frame.apex, Vec2{frame.length, 0} - frame.apex};
+// Of a ray that reaches the vertex above its halfedge.
+inline CrossedAt crossed_at(const WindowStructure& mesh, const Ray& ray) {
+  if (ray.halfedge == kNoIndex) return {};
+  const Vec2 apex = frame_of(mesh.faces[ray.halfedge / 3], ray.halfedge % 3).apex;
+  const double along = origin_weight(ray.kind) * apex.y - ray.source.y;
+  return {(ray.source.x * apex.y - ray.source.y * apex.x) / along, ray.halfedge};
 }
 
 // A face around a vertex, come upon from a neighbour: over the edge that leaves the face's corner there (forwards:
@@ -98,12 +102,14 @@ inline StraightOn straight_on(const WindowStructure& mesh, Index vertex, Index s
 // the arrival on both sides (on a boundary, the side that there is). Any one of several shortest arrivals will do: a
 // path that goes on shortest from one of them goes on shortest from all.
 template <class Visit>
-void for_each_shadow(const WindowStructure& mesh, Index vertex, const Ray& arrival, Visit&& visit) {
+void for_each_shadow(const WindowStructure& mesh, Index vertex, const CrossedAt& arrival, Visit&& visit) {
   const Index start = arrival.halfedge / 3;
   const Index corner = previous3(arrival.halfedge % 3);  // the vertex' own, opposite of the halfedge
-  const ArrivalDirections to = arrival_directions(mesh, arrival);
-  const Vec2 to_second{dot(to.source, to.second), cross(to.source, to.second)};
-  const Vec2 to_first{dot(to.source, to.first), cross(to.first, to.source)};
+  const Frame frame = frame_of(mesh.faces[start], arrival.halfedge % 3);
+  // From the vertex: where the light came from, and the halfedge's two ends.
+  const Vec2 back = Vec2{arrival.place, 0} - frame.apex;
+  const Vec2 first = Vec2{} - frame.apex, second = Vec2{frame.length, 0} - frame.apex;
+  const Vec2 to_first{dot(back, first), cross(first, back)}, to_second{dot(back, second), cross(back, second)};
   const StraightOn one = straight_on(mesh, vertex, start, 3 * start + previous3(corner), to_second);
   const StraightOn other = straight_on(mesh, vertex, start, 3 * start + corner, to_first);
 

@@ -31,11 +31,14 @@ class EventQueue {
   bool empty() const { return near_count_ == 0 && far_.empty(); }
   // Whether the two keys fall into one bucket.
   bool same_bucket(double a, double b) const { return number(a) == number(b); }
+  // The bucket of a key.
+  std::int64_t turn_of(double key) const { return number(key); }
   // No event that is still to come was pushed with a key below this one (but for those that were late already).
   double current_key() const { return static_cast<double>(current_) / inverse_width_; }
 
-  void push_list(Index h, double key) { push({key, h, true}); }
-  void push_vertex(Index v, double key) { push({key, v, false}); }
+  void push_list(Index h, double key) { push({key, h, true}, number(key)); }
+  void push_list(Index h, double key, std::int64_t turn) { push({key, h, true}, turn); }
+  void push_vertex(Index v, double key) { push({key, v, false}, number(key)); }
 
   struct Event {
     double key;
@@ -80,8 +83,8 @@ class EventQueue {
     return static_cast<std::int64_t>(std::min(key * inverse_width_, kMost));
   }
 
-  void push(const Event& e) {
-    const std::int64_t n = std::max(number(e.key), current_);
+  [[gnu::always_inline]] void push(const Event& e, std::int64_t turn) {
+    const std::int64_t n = std::max(turn, current_);
     if (n - current_ >= kBuckets) {
       far_.push_back(e);
       return;
@@ -101,7 +104,7 @@ class EventQueue {
       current_ = std::max(current_, number(least));
     }
     moving_.swap(far_);
-    for (const Event& e : moving_) push(e);
+    for (const Event& e : moving_) push(e, number(e.key));
     moving_.clear();
   }
 

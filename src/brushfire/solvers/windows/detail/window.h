@@ -29,7 +29,6 @@ struct Window {
   double slack = 0;       // a real path of length <= value + slack leads to every point of the interval
   float lift = 0;  // by how much the distance is expected to exceed the value, in [0, slack]; no proof hangs on it
   Index root = kNoIndex;  // where the light comes from: vertex, or vertex count + position in the list of sources
-  Index next = kNoIndex;  // the window after this one in its list
   WindowKind kind = WindowKind::Circular;
 };
 
@@ -73,19 +72,14 @@ struct Arrival {
       kInfinity;      // length of the path: straight where p is seen, bent at the nearer end of the interval if not
   double detour = 0;  // by how much the bend makes it longer than the straight line; 0 where p is seen
 };
-inline Arrival arrival(const Window& w, Vec2 p) {
+[[gnu::always_inline]] inline Arrival arrival(const Window& w, Vec2 p) {
   const Crossing c = crossing(w, p);
   const double straight = straight_value(w, p);
   // A wrong decision about a ray that grazes an end is worth the detour, which is of second order in the miss.
-  if (c.across < w.b0 * c.along) {
-    const double bent = w.d0 + length_of(p.x - w.b0, p.y);
-    return {bent, bent - straight};
-  }
-  if (c.across > w.b1 * c.along) {
-    const double bent = w.d1 + length_of(p.x - w.b1, p.y);
-    return {bent, bent - straight};
-  }
-  return {straight, 0};
+  const bool before = c.across < w.b0 * c.along;
+  if (!before && !(c.across > w.b1 * c.along)) return {straight, 0};
+  const double bent = (before ? w.d0 : w.d1) + length_of(p.x - (before ? w.b0 : w.b1), p.y);
+  return {bent, bent - straight};
 }
 
 // The same window described from the other end of the edge, for a neighbour that runs the same way.
