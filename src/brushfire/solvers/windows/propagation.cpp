@@ -46,11 +46,10 @@ constexpr double kOffsetRounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr double kExactBound = 1e-12;
 
 // What every window that passes a vertex reads.
-struct alignas(32) VertexValues {
+struct VertexValues {
   double upper = kInfinity;     // length of the shortest real path known
   double lower = kInfinity;     // least value of the windows that see the vertex, after merging
-  double seen = kInfinity;      // the same before merging
-  double estimate = kInfinity;  // what the window that gave `seen` expects the distance to be
+  double estimate = kInfinity;  // the least distance that a window expected that saw it, before merging
 };
 
 // What a vertex where paths may bend needs to send light on.
@@ -284,15 +283,11 @@ class WindowEngine final : public Engine {
 
   // ---- values of vertices and targets
 
-  void touch(Index v) {
-    if (values_[v].upper == kInfinity) touched_.push_back(v);
-  }
-
   // A real path of this length leads to v.
-  void reach(Index v, double length) {
-    if (!(length < values_[v].upper)) return;
-    touch(v);
-    values_[v].upper = length;
+  [[gnu::always_inline]] void reach(Index v, double length) {
+    double& upper = values_[v].upper;
+    if (upper == kInfinity) touched_.push_back(v);
+    upper = std::min(upper, length);  // without a branch: nobody could guess it
   }
 
   Index label_of(Index root) const {
@@ -301,21 +296,19 @@ class WindowEngine final : public Engine {
   }
 
   // A window that is about to be merged with others sees v: what it expects the distance to be.
-  void expect(Index v, double value, double lift) {
-    VertexValues& s = values_[v];
-    if (!(value < s.seen)) return;
-    touch(v);
-    s.seen = value;
-    s.estimate = value + lift;
+  [[gnu::always_inline]] void expect(Index v, double value, double lift) {
+    double& estimate = values_[v].estimate;
+    estimate = std::min(estimate, value + lift);
   }
 
   // A window or a source sees v. Where paths may bend, light will go on from there.
-  void offer(Index v, double value, const Ray& ray, bool all_around) {
+  [[gnu::always_inline]] void offer(Index v, double value, const Ray& ray, bool all_around) {
+    if (!(value > values_[v].lower)) accept(v, value, ray, all_around);
+  }
+  [[gnu::noinline]] void accept(Index v, double value, const Ray& ray, bool all_around) {
     double& least = values_[v].lower;
-    if (value > least) return;
     const bool lower = value < least;
     if (!lower && (!several_ || label_of(ray.root) >= origins_[v].label)) return;
-    touch(v);
     least = value;
     if (several_) origins_[v] = {ray.root, label_of(ray.root)};
     if (!rays_.empty()) rays_[v] = ray;
@@ -342,7 +335,7 @@ class WindowEngine final : public Engine {
   EdgeBounds bounds_of(const WindowFace& f, Index k) const {
     return {f.length[k], values_[f.vertex[k]].upper, values_[f.vertex[next3(k)]].upper};
   }
-  bool is_dominated(const WindowFace& f, Index k, const Window& w) const {
+  [[gnu::always_inline]] bool is_dominated(const WindowFace& f, Index k, const Window& w) const {
     return detail::is_dominated(bounds_of(f, k), w.b0, w.b1, w.d0, w.d1);
   }
 
@@ -366,7 +359,7 @@ class WindowEngine final : public Engine {
   [[gnu::always_inline]] void insert(Index h, const Window& w, Origin origin = Origin::Anywhere) {
     WindowFace& f = structure_.faces[h / 3];
     const Index k = h % 3;
-    if (is_sliver(w) || least_value(w) > radius_ || is_dominated(f, k, w)) return;
+    if (is_sliver(w) | (least_value(w) > radius_) | is_dominated(f, k, w)) return;  // one branch to guess, not three
     if (goes_in_lists(h)) return insert_into_list(h, w, origin);
     if (f.thin && !learn(h, w)) return;
     const Arrival at_apex = arrival(w, frame_of(f, k).apex);
@@ -389,7 +382,7 @@ class WindowEngine final : public Engine {
     const Index k = h % 3;
     taken_.clear();
     lists_.take(f.waiting, h, [&](const Window& w) {
-      if (!(least_value(w) > radius_) && !is_dominated(f, k, w)) taken_.push_back(w);
+      if (!((least_value(w) > radius_) | is_dominated(f, k, w))) taken_.push_back(w);
     });
     if (taken_.empty()) return;
     const Frame frame = frame_of(f, k);

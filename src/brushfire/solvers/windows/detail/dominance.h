@@ -17,8 +17,8 @@ struct EdgeBounds {
 
 // Xin and Wang 2009: a path through either end of the edge is shorter at the far end of the window [b0,b1] with values
 // d0 and d1, hence (the path along the edge grows fastest) everywhere in it.
-inline bool is_dominated(const EdgeBounds& edge, double b0, double b1, double d0, double d1) {
-  return edge.start + b1 < d1 * kDominated || edge.end + (edge.length - b0) < d0 * kDominated;
+[[gnu::always_inline]] inline bool is_dominated(const EdgeBounds& edge, double b0, double b1, double d0, double d1) {
+  return (edge.start + b1 < d1 * kDominated) | (edge.end + (edge.length - b0) < d0 * kDominated);
 }
 
 }  // namespace brushfire::detail

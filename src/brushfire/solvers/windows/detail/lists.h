@@ -75,7 +75,7 @@ class WindowLists {
     Index next = kNoIndex;
   };
 
-  Index allocate() {
+  [[gnu::always_inline]] Index allocate() {
     if (free_ == kNoIndex) {
       pool_.emplace_back();
       return static_cast<Index>(pool_.size() - 1);

@@ -40,7 +40,7 @@ constexpr double origin_weight(WindowKind kind) { return kind == WindowKind::Cir
 inline double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
 // The value at a point p above the edge (p.y >= 0) along the straight ray from the source, wherever that ray crosses.
-inline double straight_value(const Window& w, Vec2 p) {
+[[gnu::always_inline]] inline double straight_value(const Window& w, Vec2 p) {
   if (w.kind == WindowKind::Circular) return w.sigma + length_of(p.x - w.source.x, p.y - w.source.y);
   return w.sigma - dot(p, w.source);
 }
@@ -95,7 +95,7 @@ inline Window mirrored(const Window& w, double length) {
 
 // Whether light comes through the interval at all: from a source below the edge, or from one on it, within the interval
 // (that is how the middle vertex of a face without area, or a source in one, shines).
-inline bool is_lit(const Window& w) {
+[[gnu::always_inline]] inline bool is_lit(const Window& w) {
   return w.source.y < 0 ||
          (w.source.y == 0 && w.kind == WindowKind::Circular && w.source.x > w.b0 && w.source.x < w.b1);
 }
@@ -103,7 +103,7 @@ inline bool is_lit(const Window& w) {
 // A window narrower than this share of its distance from the virtual source is dropped: what it alone lights is
 // reached past its neighbour's end with a detour of at most twice its width.
 inline constexpr double kSliver = 1e-14;
-inline bool is_sliver(const Window& w) {
+[[gnu::always_inline]] inline bool is_sliver(const Window& w) {
   const double scale = w.kind == WindowKind::Circular ? w.d0 - w.sigma : w.b1;
   return !(w.b1 - w.b0 > kSliver * scale);
 }
