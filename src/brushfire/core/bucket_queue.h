@@ -23,9 +23,12 @@ class BucketQueue {
 
   // Empties the queue and puts the cursor to bucket 0. Costs what is in the queue; keeps the memory.
   void reset() {
-    for (std::vector<Index>& bucket : ring_) bucket.clear();
+    for (Bucket b = cursor_; in_ring_ > 0 && b < cursor_ + kRing; ++b) {
+      std::vector<Index>& bucket = ring_[static_cast<std::size_t>(b % kRing)];
+      in_ring_ -= bucket.size();
+      bucket.clear();
+    }
     far_.clear();
-    in_ring_ = 0;
     cursor_ = 0;
     nearest_far_ = kNever;
   }

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/core/memory.h>
+#include <brushfire/mesh/locality_order.h>
 #include <brushfire/queries/detail/rows.h>
 
 #include <algorithm>
@@ -53,7 +54,7 @@ Rows::Rows(const Mesh& mesh, Places rows, Places columns, const MatrixOptions& o
       all_columns_(!columns),
       options_(options.distance),
       team_(static_cast<unsigned>(std::clamp<std::size_t>(row_count_, 1, thread_count(options.threads)))),
-      solvers_(team_.size()) {
+      workers_(team_.size()) {
   if (!options_.targets.empty()) {
     throw Error(ErrorCode::InvalidArgument, "the targets of a matrix are its columns: targets must be empty");
   }
@@ -73,26 +74,47 @@ std::optional<SurfacePoint> Rows::place(std::size_t i) const {
   return point_of(mesh_, rows_ ? (*rows_)[i] : Place(static_cast<Index>(i)));
 }
 
-SparseField Rows::row(unsigned worker, std::size_t i) {
-  SparseField field;
+void Rows::compute_row(Worker& worker, std::size_t i) {
   const std::optional<SurfacePoint> p = place(i);
   if (!p || (!all_columns_ && options_.targets.empty())) {
-    field.target_distance.assign(options_.targets.size(), kInfinity);
-    return field;
+    worker.field = {};
+    worker.field.target_distance.assign(options_.targets.size(), kInfinity);
+    return;
   }
-  if (!solvers_[worker]) solvers_[worker] = std::make_unique<DistanceSolver>(mesh_);
+  if (!worker.solver) worker.solver = std::make_unique<DistanceSolver>(mesh_);
   const Source source{*p, 0};
-  return solvers_[worker]->distance_sparse(std::span(&source, 1), options_);
+  worker.solver->distance_sparse(std::span(&source, 1), options_, worker.field);
 }
 
-void Rows::run_sparse(std::span<const std::size_t> numbers, const Progress& progress, const TakeSparse& take) {
+void Rows::run_sparse(std::span<const std::size_t> numbers, std::size_t block, const Progress& progress,
+                      const TakeSparse& take) {
   std::atomic<std::size_t> done{0};
-  const auto body = [&](unsigned worker, std::size_t k) {
-    take(worker, numbers[k], row(worker, numbers[k]));
-    const std::size_t finished = done.fetch_add(1, std::memory_order_relaxed) + 1;
+  const auto body = [&](unsigned worker, std::size_t b) {
+    Worker& w = workers_[worker];
+    const std::size_t end = std::min(numbers.size(), (b + 1) * block);
+    for (std::size_t k = b * block; k < end; ++k) {
+      if (options_.cancel && options_.cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
+      compute_row(w, numbers[k]);
+      take(worker, k, w.field);
+    }
+    const std::size_t finished = done.fetch_add(end - b * block, std::memory_order_relaxed) + end - b * block;
     if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(numbers.size()));
   };
-  team_.run(numbers.size(), body, options_.cancel);
+  team_.run((numbers.size() + block - 1) / block, body, options_.cancel);
+}
+
+std::vector<std::size_t> Rows::numbers_by_place() const {
+  constexpr std::size_t kMany = 1024;
+  std::vector<std::size_t> numbers = numbers_below(row_count_);
+  if (row_count_ < kMany) return numbers;
+  const LocalityOrder order = locality_order(mesh_);
+  if (!rows_) return {order.vertices.begin(), order.vertices.end()};
+  const auto rank = [&](std::size_t i) {
+    const SurfacePoint* p = std::get_if<SurfacePoint>(&(*rows_)[i]);
+    return order.vertex_rank[p ? mesh_.faces()[p->face][0] : std::get<Index>((*rows_)[i])];
+  };
+  std::stable_sort(numbers.begin(), numbers.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  return numbers;
 }
 
 void Rows::fill(const SparseField& field, std::span<double> values) const {
@@ -105,11 +127,11 @@ void Rows::fill(const SparseField& field, std::span<double> values) const {
 }
 
 void Rows::run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense& take) {
-  std::vector<std::vector<double>> values(team_.size());
-  run_sparse(numbers, progress, [&](unsigned worker, std::size_t i, const SparseField& field) {
-    values[worker].resize(column_count_);
-    fill(field, values[worker]);
-    take(worker, i, values[worker]);
+  run_sparse(numbers, 1, progress, [&](unsigned worker, std::size_t k, const SparseField& field) {
+    std::vector<double>& values = workers_[worker].values;
+    values.resize(column_count_);
+    fill(field, values);
+    take(worker, numbers[k], values);
   });
 }
 
@@ -171,8 +193,11 @@ namespace {
 // The sample of rows from which the size of a sparse result is expected.
 constexpr std::size_t kSampleRows = 32;
 
+// Short rows are computed and kept this many at a time.
+constexpr std::size_t kBlockRows = 32;
+
 template <class T>
-struct SparseRow {
+struct SparseBlock {
   std::vector<Index> column;
   std::vector<T> value;
 };
@@ -183,24 +208,21 @@ class SparseBudget {
  public:
   SparseBudget(std::size_t rows, std::uint64_t limit) : rows_(rows), limit_(limit == 0 ? available_memory() : limit) {}
 
+  bool fits(double entries) const { return bytes(entries) <= static_cast<double>(limit_); }
   void require(double entries) const {
-    const double bytes = 2 * entries * (sizeof(Index) + sizeof(T)) + static_cast<double>(rows_) * 64;
-    require_memory(static_cast<std::uint64_t>(std::min(bytes, 0x1p63)), limit_,
+    if (fits(entries)) return;
+    require_memory(static_cast<std::uint64_t>(std::min(bytes(entries), 0x1p63)), limit_,
                    "a sparse matrix of " + std::to_string(rows_) + " rows with " +
                        std::to_string(static_cast<std::uint64_t>(entries / static_cast<double>(rows_))) +
                        " entries each",
                    "take a smaller radius, or fewer rows at a time");
   }
-  bool fits(double entries) const {
-    try {
-      require(entries);
-      return true;
-    } catch (const Error&) {
-      return false;
-    }
-  }
 
  private:
+  double bytes(double entries) const {
+    return 2 * entries * (sizeof(Index) + sizeof(T)) + static_cast<double>(rows_) * 64;
+  }
+
   std::size_t rows_;
   std::uint64_t limit_;
 };
@@ -213,23 +235,32 @@ void check_expected_size(detail::Rows& all, const SparseBudget<T>& budget) {
   const std::size_t stride = std::max<std::size_t>(1, all.count() / kSampleRows);
   for (std::size_t i = 0; i < all.count(); i += stride) sample.push_back(i);
   std::atomic<std::uint64_t> entries{0};
-  all.run_sparse(sample, nullptr, [&](unsigned, std::size_t, const SparseField& f) { entries += f.vertex.size(); });
+  all.run_sparse(sample, 1, nullptr, [&](unsigned, std::size_t, const SparseField& f) { entries += f.vertex.size(); });
   budget.require(static_cast<double>(entries) / static_cast<double>(sample.size()) * rows);
 }
 
+// The rows in their order; `numbers`: whose rows the blocks hold, one after the other.
 template <class T>
-SparseMatrix<T> join(std::vector<SparseRow<T>>& rows, std::size_t columns) {
+SparseMatrix<T> join(std::vector<SparseBlock<T>>& blocks, std::span<const std::size_t> numbers,
+                     std::span<const Index> row_size, std::size_t columns) {
   SparseMatrix<T> m;
   m.columns = static_cast<Index>(columns);
-  m.row_start.reserve(rows.size() + 1);
+  m.row_start.reserve(row_size.size() + 1);
   m.row_start.push_back(0);
-  for (const SparseRow<T>& r : rows) m.row_start.push_back(m.row_start.back() + r.column.size());
-  m.column.reserve(m.row_start.back());
-  m.value.reserve(m.row_start.back());
-  for (SparseRow<T>& r : rows) {
-    m.column.insert(m.column.end(), r.column.begin(), r.column.end());
-    m.value.insert(m.value.end(), r.value.begin(), r.value.end());
-    r = {};
+  for (const Index size : row_size) m.row_start.push_back(m.row_start.back() + size);
+  m.column.resize(m.row_start.back());
+  m.value.resize(m.row_start.back());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    auto column = blocks[b].column.cbegin();
+    auto value = blocks[b].value.cbegin();
+    for (std::size_t k = b * kBlockRows; k < std::min(numbers.size(), (b + 1) * kBlockRows); ++k) {
+      const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(m.row_start[numbers[k]]), size = row_size[numbers[k]];
+      std::copy(column, column + size, m.column.begin() + start);
+      std::copy(value, value + size, m.value.begin() + start);
+      column += size;
+      value += size;
+    }
+    blocks[b] = {};
   }
   return m;
 }
@@ -247,16 +278,18 @@ SparseMatrix<T> distances_within(const Mesh& mesh, double radius, Places rows, c
   const SparseBudget<T> budget(all.count(), options.memory_limit);
   check_expected_size(all, budget);
 
-  std::vector<SparseRow<T>> collected(all.count());
+  const std::vector<std::size_t> numbers = all.numbers_by_place();
+  std::vector<SparseBlock<T>> blocks((numbers.size() + kBlockRows - 1) / kBlockRows);
+  std::vector<Index> row_size(numbers.size());
   std::atomic<std::uint64_t> entries{0};
-  all.run_sparse(detail::numbers_below(all.count()), options.distance.progress,
-                 [&](unsigned, std::size_t i, const SparseField& f) {
-                   budget.require(static_cast<double>(entries += f.vertex.size()));
-                   collected[i].column.assign(f.vertex.begin(), f.vertex.end());
-                   collected[i].value.reserve(f.distance.size());
-                   for (const double d : f.distance) collected[i].value.push_back(static_cast<T>(d));
-                 });
-  return join(collected, all.columns());
+  all.run_sparse(numbers, kBlockRows, options.distance.progress, [&](unsigned, std::size_t k, const SparseField& f) {
+    SparseBlock<T>& block = blocks[k / kBlockRows];
+    block.column.insert(block.column.end(), f.vertex.begin(), f.vertex.end());
+    block.value.insert(block.value.end(), f.distance.begin(), f.distance.end());
+    row_size[numbers[k]] = static_cast<Index>(f.vertex.size());
+    budget.require(static_cast<double>(entries += f.vertex.size()));
+  });
+  return join(blocks, numbers, row_size, all.columns());
 }
 
 template void distance_matrix(const Mesh&, Places, Places, std::span<float>, const MatrixOptions&);

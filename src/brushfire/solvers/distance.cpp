@@ -40,9 +40,9 @@ std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
   throw Error(ErrorCode::InvalidArgument, "no such method");
 }
 
-std::vector<detail::LocatedSource> locate_sources(const Mesh& mesh, std::span<const Source> sources) {
+void locate_sources(const Mesh& mesh, std::span<const Source> sources, std::vector<detail::LocatedSource>& located) {
   if (sources.empty()) throw Error(ErrorCode::InvalidArgument, "no source given: a distance needs at least one");
-  std::vector<detail::LocatedSource> located;
+  located.clear();
   located.reserve(sources.size());
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (!std::isfinite(sources[i].offset)) {
@@ -51,14 +51,12 @@ std::vector<detail::LocatedSource> locate_sources(const Mesh& mesh, std::span<co
     }
     located.push_back({locate(mesh, sources[i].point), sources[i].offset / mesh.unit(), static_cast<Index>(i)});
   }
-  return located;
 }
 
-std::vector<PointLocation> locate_targets(const Mesh& mesh, const DistanceOptions& options) {
-  std::vector<PointLocation> located;
+void locate_targets(const Mesh& mesh, const DistanceOptions& options, std::vector<PointLocation>& located) {
+  located.clear();
   located.reserve(options.targets.size());
   for (const SurfacePoint& t : options.targets) located.push_back(locate(mesh, t));
-  return located;
 }
 
 void check(const DistanceOptions& options) {
@@ -113,8 +111,8 @@ void finish(const Mesh& mesh, std::span<const PointLocation> targets, const Dist
 }
 
 // The touched vertices within the radius, ascending, in the mesh's units. `touched` is sorted on the way.
-SparseField collect(double unit, std::span<const PointLocation> targets, const DistanceOptions& options,
-                    DistanceField& field, std::vector<Index>& touched) {
+void collect(double unit, std::span<const PointLocation> targets, const DistanceOptions& options, DistanceField& field,
+             std::vector<Index>& touched, SparseField& result) {
   constexpr std::size_t kScanShare = 16;  // looking at this many vertices costs about as much as sorting in one
   if (touched.size() > field.distance.size() / kScanShare) {
     touched.clear();
@@ -124,21 +122,23 @@ SparseField collect(double unit, std::span<const PointLocation> targets, const D
   } else {
     std::sort(touched.begin(), touched.end());
   }
-  SparseField result;
-  result.vertex.reserve(touched.size());
-  result.distance.reserve(touched.size());
-  result.source.reserve(touched.size());
+  result.vertex.resize(touched.size());
+  result.distance.resize(touched.size());
+  result.source.resize(touched.size());
+  std::size_t count = 0;
   for (const Index v : touched) {
     const double d = field.distance[v] * unit;
     if (d == kInfinity || d > options.max_distance) continue;
-    result.vertex.push_back(v);
-    result.distance.push_back(d);
-    result.source.push_back(field.source[v]);
+    result.vertex[count] = v;
+    result.distance[count] = d;
+    result.source[count++] = field.source[v];
   }
+  result.vertex.resize(count);
+  result.distance.resize(count);
+  result.source.resize(count);
   finish_targets(unit, targets, options, field);
-  result.target_distance = std::move(field.target_distance);
-  result.target_source = std::move(field.target_source);
-  return result;
+  result.target_distance.swap(field.target_distance);
+  result.target_source.swap(field.target_source);
 }
 
 }  // namespace
@@ -175,8 +175,10 @@ std::span<const Method> all_methods() { return kMethods; }
 struct DistanceSolver::Workspace {
   Mesh mesh;
   std::map<Method, std::unique_ptr<detail::Engine>> engines;
-  DistanceField scratch;       // of distance_sparse(): +inf and kNoIndex everywhere between calls
-  std::vector<Index> touched;  // what a run has changed in it
+  DistanceField scratch;                       // of distance_sparse(): +inf and kNoIndex everywhere between calls
+  std::vector<Index> touched;                  // what a run has changed in it
+  std::vector<detail::LocatedSource> sources;  // of the run
+  std::vector<PointLocation> targets;
 
   detail::Engine& engine(Method method);
   void clean(bool everything);
@@ -211,43 +213,49 @@ const Mesh& DistanceSolver::mesh() const noexcept { return workspace_->mesh; }
 void DistanceSolver::set_up(const DistanceOptions& options) { workspace_->engine(options.method).set_up(options); }
 
 DistanceField DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options) {
-  const Mesh& mesh = workspace_->mesh;
+  Workspace& w = *workspace_;
   check(options);
-  const std::vector<detail::LocatedSource> located = locate_sources(mesh, sources);
-  const std::vector<PointLocation> targets = locate_targets(mesh, options);
+  locate_sources(w.mesh, sources, w.sources);
+  locate_targets(w.mesh, options, w.targets);
   DistanceField field;
-  field.distance.assign(mesh.vertex_count(), kInfinity);
-  field.source.assign(mesh.vertex_count(), kNoIndex);
-  field.target_distance.assign(targets.size(), kInfinity);
-  field.target_source.assign(targets.size(), kNoIndex);
-  workspace_->engine(options.method)
-      .solve({located, targets, options.max_distance / mesh.unit(), &options, nullptr}, field);
-  finish(mesh, targets, options, field);
+  field.distance.assign(w.mesh.vertex_count(), kInfinity);
+  field.source.assign(w.mesh.vertex_count(), kNoIndex);
+  field.target_distance.assign(w.targets.size(), kInfinity);
+  field.target_source.assign(w.targets.size(), kNoIndex);
+  w.engine(options.method)
+      .solve({w.sources, w.targets, options.max_distance / w.mesh.unit(), &options, nullptr}, field);
+  finish(w.mesh, w.targets, options, field);
   return field;
 }
 
-SparseField DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options) {
+void DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options,
+                                     SparseField& field) {
   Workspace& w = *workspace_;
   check(options);
-  const std::vector<detail::LocatedSource> located = locate_sources(w.mesh, sources);
-  const std::vector<PointLocation> targets = locate_targets(w.mesh, options);
+  locate_sources(w.mesh, sources, w.sources);
+  locate_targets(w.mesh, options, w.targets);
   detail::Engine& engine = w.engine(options.method);
   const bool listed = engine.lists_touched();
 
   w.clean(false);
-  w.scratch.target_distance.assign(targets.size(), kInfinity);
-  w.scratch.target_source.assign(targets.size(), kNoIndex);
+  w.scratch.target_distance.assign(w.targets.size(), kInfinity);
+  w.scratch.target_source.assign(w.targets.size(), kNoIndex);
   w.scratch.error_bound.clear();
   try {
-    engine.solve({located, targets, options.max_distance / w.mesh.unit(), &options, listed ? &w.touched : nullptr},
+    engine.solve({w.sources, w.targets, options.max_distance / w.mesh.unit(), &options, listed ? &w.touched : nullptr},
                  w.scratch);
   } catch (...) {
     w.clean(!listed);
     throw;
   }
   if (!listed) w.touched.resize(w.mesh.vertex_count());  // any of them
-  SparseField field = collect(w.mesh.unit(), targets, options, w.scratch, w.touched);
+  collect(w.mesh.unit(), w.targets, options, w.scratch, w.touched, field);
   w.clean(!listed);
+}
+
+SparseField DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options) {
+  SparseField field;
+  distance_sparse(sources, options, field);
   return field;
 }
 

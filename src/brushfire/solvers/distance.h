@@ -108,6 +108,8 @@ class DistanceSolver {
   // The same numbers, of the reached vertices only: costs what it reaches, whatever the size of the mesh (after the
   // first call; for methods that keep no list of what they touched, one look at every vertex more).
   SparseField distance_sparse(std::span<const Source> sources, const DistanceOptions& options = {});
+  // In place of what `field` held, whose memory is used again: for very many short runs.
+  void distance_sparse(std::span<const Source> sources, const DistanceOptions& options, SparseField& field);
 
  private:
   struct Workspace;

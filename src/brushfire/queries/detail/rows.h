@@ -19,18 +19,31 @@ class Rows {
   std::size_t count() const noexcept { return row_count_; }
   std::size_t columns() const noexcept { return column_count_; }
 
-  // Computes the rows with the given numbers and hands each to `take`, on the thread that computed it. `worker` numbers
-  // that thread; `progress` may be empty and is called from the calling thread.
-  using TakeSparse = std::function<void(unsigned worker, std::size_t i, const SparseField& field)>;
-  void run_sparse(std::span<const std::size_t> numbers, const Progress& progress, const TakeSparse& take);
+  // Computes the rows with the given numbers, `block` of them at a time on one thread, and hands each to `take`, on the
+  // thread that computed it, with its position in `numbers`; valid during the call. `worker` numbers that thread;
+  // `progress` may be empty and is called from the calling thread.
+  using TakeSparse = std::function<void(unsigned worker, std::size_t position, const SparseField& field)>;
+  void run_sparse(std::span<const std::size_t> numbers, std::size_t block, const Progress& progress,
+                  const TakeSparse& take);
 
-  // The same as a row of columns() values, +inf where nothing was reached; valid during the call.
+  // The same as a row of columns() values, +inf where nothing was reached; i: the row's number.
   using TakeDense = std::function<void(unsigned worker, std::size_t i, std::span<const double> values)>;
   void run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense& take);
 
+  // The numbers of all rows: those near each other on the surface one after the other where there are many, so that
+  // short rows find in the cache what they need.
+  std::vector<std::size_t> numbers_by_place() const;
+
  private:
+  // What a thread keeps; no two share a cache line.
+  struct alignas(128) Worker {
+    std::unique_ptr<DistanceSolver> solver;  // made for its first row
+    SparseField field;
+    std::vector<double> values;
+  };
+
   std::optional<SurfacePoint> place(std::size_t i) const;
-  SparseField row(unsigned worker, std::size_t i);
+  void compute_row(Worker& worker, std::size_t i);
   void fill(const SparseField& field, std::span<double> values) const;
 
   Mesh mesh_;
@@ -40,7 +53,7 @@ class Rows {
   std::vector<std::size_t> target_column_;  // which column each target is; columns in no face are not among them
   DistanceOptions options_;                 // of one row
   ThreadTeam team_;
-  std::vector<std::unique_ptr<DistanceSolver>> solvers_;  // one per thread, made when it gets its first row
+  std::vector<Worker> workers_;
 };
 
 // 0, 1, ..., count - 1.

@@ -9,6 +9,24 @@
 namespace brushfire::detail {
 namespace {
 
+// The mesh's arrays, asked for once.
+struct Net {
+  explicit Net(const Mesh& mesh)
+      : faces(mesh.faces()), opposite(mesh.opposite()), lengths(mesh.lengths()), double_areas(mesh.double_areas()) {}
+
+  Index from(Index h) const { return faces[h / 3][h % 3]; }
+  Vec2 apex_over(Index h, Index g) const {
+    const bool same_way = g == h || from(g) == from(h);
+    const double from_first = lengths[same_way ? Mesh::previous(g) : Mesh::next(g)];
+    const double from_second = lengths[same_way ? Mesh::next(g) : Mesh::previous(g)];
+    return apex_over_edge(lengths[h], from_first, from_second, double_areas[Mesh::face_of(g)]);
+  }
+
+  std::span<const Face> faces;
+  std::span<const Index> opposite;
+  std::span<const double> lengths, double_areas;
+};
+
 // What a point sees of an edge: the point lies at `start`, on or below the edge, in the frame of the edge from its
 // vertex `first` on; `left` and `right` are directions from the point that bound what it sees.
 struct Sight {
@@ -17,48 +35,50 @@ struct Sight {
   int crossed = 0;
 };
 
-Sight whole_edge(const Mesh& mesh, Index h, Vec2 start) {
-  return {h, mesh.from(h), start, Vec2{0, 0} - start, Vec2{mesh.lengths()[h], 0} - start, 0};
+Sight whole_edge(const Net& net, Index h, Vec2 start) {
+  return {h, net.from(h), start, Vec2{0, 0} - start, Vec2{net.lengths[h], 0} - start, 0};
 }
 
 // Into the frame of the edge from `origin` towards `end`.
 Vec2 turned(Vec2 along, Vec2 a) { return {dot(along, a), cross(along, a)}; }
 
 // The far sides of the face of halfedge g, where the point sees them through s, whose edge has `apex` above it.
-void look_through(const Mesh& mesh, const Sight& s, Index g, Vec2 apex, std::vector<Sight>& sights) {
+void look_through(const Net& net, const Sight& s, Index g, Vec2 apex, std::vector<Sight>& sights) {
   const Vec2 to_apex = apex - s.start;
   const bool apex_is_left = cross(s.left, to_apex) > 0, apex_is_right = cross(to_apex, s.right) > 0;
-  const bool same_way = mesh.from(g) == s.first;
+  const bool same_way = net.from(g) == s.first;
   const Index left_edge = same_way ? Mesh::previous(g) : Mesh::next(g);
   const Index right_edge = same_way ? Mesh::next(g) : Mesh::previous(g);
-  if (!apex_is_left && mesh.lengths()[left_edge] > 0) {
-    const Vec2 along = (1 / mesh.lengths()[left_edge]) * apex;
+  if (!apex_is_left && net.lengths[left_edge] > 0) {
+    const Vec2 along = (1 / net.lengths[left_edge]) * apex;
     sights.push_back({left_edge, s.first, turned(along, s.start), turned(along, s.left),
                       turned(along, apex_is_right ? s.right : to_apex), s.crossed + 1});
   }
-  if (!apex_is_right && mesh.lengths()[right_edge] > 0) {
-    const Vec2 along = (1 / mesh.lengths()[right_edge]) * (Vec2{mesh.lengths()[s.edge], 0} - apex);
-    sights.push_back({right_edge, mesh.from(Mesh::previous(g)), turned(along, s.start - apex),
+  if (!apex_is_right && net.lengths[right_edge] > 0) {
+    const Vec2 along = (1 / net.lengths[right_edge]) * (Vec2{net.lengths[s.edge], 0} - apex);
+    sights.push_back({right_edge, net.from(Mesh::previous(g)), turned(along, s.start - apex),
                       turned(along, apex_is_left ? s.left : to_apex), turned(along, s.right), s.crossed + 1});
   }
 }
 
 // The edges that a point sees first: all of its face, the others of the faces of its edge, or those opposite to it.
-std::vector<Sight> first_sights(const Mesh& mesh, const PointLocation& at) {
+std::vector<Sight> first_sights(const Mesh& mesh, const Net& net, const PointLocation& at) {
+  constexpr std::size_t kUsual = 64;
   std::vector<Sight> sights;
+  sights.reserve(kUsual);
   if (at.on == PointLocation::On::Vertex) {
     for (const Index corner : mesh.corners(at.vertex)) {
       const Index h = Mesh::next(corner);
-      if (!mesh.is_face_usable(Mesh::face_of(h)) || mesh.lengths()[h] == 0) continue;
-      const Vec2 own = apex_over(mesh, h, h);
-      sights.push_back(whole_edge(mesh, h, {own.x, -own.y}));
+      if (!mesh.is_face_usable(Mesh::face_of(h)) || net.lengths[h] == 0) continue;
+      const Vec2 own = net.apex_over(h, h);
+      sights.push_back(whole_edge(net, h, {own.x, -own.y}));
     }
     return sights;
   }
   const auto add = [&](Index h, double ahead, double third) {
-    if (mesh.lengths()[h] == 0) return;
-    const Vec2 own = apex_over(mesh, h, h);
-    sights.push_back(whole_edge(mesh, h, {ahead * mesh.lengths()[h] + third * own.x, -third * own.y}));
+    if (net.lengths[h] == 0) return;
+    const Vec2 own = net.apex_over(h, h);
+    sights.push_back(whole_edge(net, h, {ahead * net.lengths[h] + third * own.x, -third * own.y}));
   };
   if (at.on == PointLocation::On::Interior) {
     for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
@@ -69,11 +89,11 @@ std::vector<Sight> first_sights(const Mesh& mesh, const PointLocation& at) {
   const double at_first = at.weights[at.halfedge % 3], at_second = at.weights[Mesh::next(at.halfedge) % 3];
   Index g = at.halfedge;
   do {
-    const bool same_way = mesh.from(g) == mesh.from(at.halfedge);
+    const bool same_way = net.from(g) == net.from(at.halfedge);
     const double at_from = same_way ? at_first : at_second, at_to = same_way ? at_second : at_first;
     add(Mesh::next(g), 0, at_from);  // from to(g) to the apex; from(g) is its third corner
     add(Mesh::previous(g), at_from, at_to);
-    g = mesh.opposite()[g];
+    g = net.opposite[g];
   } while (g != at.halfedge);
   return sights;
 }
@@ -142,14 +162,7 @@ double distance_across_edge(const Mesh& mesh, const PointLocation& a, const Poin
 
 }  // namespace
 
-Vec2 apex_over(const Mesh& mesh, Index h, Index g) {
-  const auto lengths = mesh.lengths();
-  const bool mirrored = g != h && mesh.from(g) == mesh.from(h);
-  const bool same_way = g == h || mirrored;
-  const double from_first = lengths[same_way ? Mesh::previous(g) : Mesh::next(g)];
-  const double from_second = lengths[same_way ? Mesh::next(g) : Mesh::previous(g)];
-  return apex_over_edge(lengths[h], from_first, from_second, mesh.double_areas()[Mesh::face_of(g)]);
-}
+Vec2 apex_over(const Mesh& mesh, Index h, Index g) { return Net(mesh).apex_over(h, g); }
 
 std::vector<Seed> seeds_in_own_faces(const Mesh& mesh, const PointLocation& at) {
   if (at.on == PointLocation::On::Vertex) return {{at.vertex, 0.0}};
@@ -170,21 +183,22 @@ std::vector<Seed> seeds_in_own_faces(const Mesh& mesh, const PointLocation& at) 
 std::vector<Seed> seeds_in_sight(const Mesh& mesh, const PointLocation& at, int crossings, double limit) {
   std::vector<Seed> seeds = seeds_in_own_faces(mesh, at);
   if (!mesh.is_face_usable(at.face) && at.on != PointLocation::On::Vertex) return seeds;
-  std::vector<Sight> sights = first_sights(mesh, at);
+  const Net net(mesh);
+  std::vector<Sight> sights = first_sights(mesh, net, at);
   for (std::size_t i = 0; i < sights.size() && i < kMaxSights; ++i) {
     const Sight s = sights[i];
     if (s.crossed >= crossings) break;
-    const double length = mesh.lengths()[s.edge];
-    for (Index g = mesh.opposite()[s.edge]; g != s.edge; g = mesh.opposite()[g]) {
-      Vec2 apex = apex_over(mesh, s.edge, g);
-      if (mesh.from(s.edge) != s.first) apex.x = length - apex.x;
+    const double length = net.lengths[s.edge];
+    for (Index g = net.opposite[s.edge]; g != s.edge; g = net.opposite[g]) {
+      Vec2 apex = net.apex_over(s.edge, g);
+      if (net.from(s.edge) != s.first) apex.x = length - apex.x;
       const Vec2 to_apex = apex - s.start;
-      const double distance = std::hypot(to_apex.x, to_apex.y);
+      const double distance = norm(to_apex);  // in mesh.unit(): squares neither vanish nor overflow
       if (!(to_apex.y > 0) || distance > limit) continue;
       if (cross(s.left, to_apex) <= 0 && cross(to_apex, s.right) <= 0) {
-        seeds.push_back({mesh.from(Mesh::previous(g)), distance});
+        seeds.push_back({net.from(Mesh::previous(g)), distance});
       }
-      look_through(mesh, s, g, apex, sights);
+      look_through(net, s, g, apex, sights);
     }
   }
   return seeds;
