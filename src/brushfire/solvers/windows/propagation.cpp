@@ -33,6 +33,8 @@ namespace {
 constexpr unsigned kTrimEvery = 8;
 // Exact runs are quicker with narrower buckets.
 constexpr double kExactBucket = 0.2;
+// In buckets: exact runs not farther than this take windows one by one, lists of them would stay short.
+constexpr double kShort = 8;
 // A vertex this little (relative) off a window's limit ray counts as seen, with the length of the path that bends.
 constexpr double kSeen = 1e-10;
 // A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
@@ -100,8 +102,9 @@ class WindowEngine final : public Engine {
     if (several_) origins_.resize(values_.size());
     if (keeps_rays()) rays_.resize(values_.size());
     budget_ = budget_of(*problem.options);
-    queue_.reset(merges() ? structure_.bucket_width : kExactBucket * structure_.bucket_width);
-    if (!merges() && !exact_) exact_.emplace(static_cast<Index>(3 * structure_.faces.size()));
+    in_lists_ = !merges() && radius_ > kShort * structure_.bucket_width;
+    queue_.reset(in_lists_ ? kExactBucket * structure_.bucket_width : structure_.bucket_width);
+    if (in_lists_ && !exact_) exact_.emplace(static_cast<Index>(3 * structure_.faces.size()));
     place_targets();
     for (const LocatedSource& s : problem.sources) start(s);
     drain();
@@ -365,6 +368,7 @@ class WindowEngine final : public Engine {
     const Arrival at_apex = arrival(w, frame_of(f, k).apex);
     const Index apex = f.vertex[previous3(k)];
     reach(apex, at_apex.value + w.slack);
+    if (at_apex.value > radius_ && ends_here(f, k, w)) return;
     if (merges() && at_apex.detour <= kSeen * at_apex.value) expect(apex, at_apex.value, w.lift);
     // The key is the arrival at the far corner: by then everything that enters over the edge has come.
     const std::int64_t turn = queue_.turn_of(at_apex.value);
@@ -373,6 +377,11 @@ class WindowEngine final : public Engine {
   [[gnu::noinline]] void insert_into_list(Index h, const Window& w, Origin origin) {
     exact_->put(h, origin, w);
     queue_list(h, std::min({w.d0, w.d1, nearer_end(h)}));
+  }
+  // Whether a window whose apex is beyond the radius has nothing to tell anyone behind the face.
+  [[gnu::noinline]] bool ends_here(const WindowFace& f, Index k, const Window& w) const {
+    if (minimum_of(w) > radius_) return true;
+    return !f.has_target && !problem_->options->keep_windows && ends_in_face(w, frame_of(f, k), radius_);
   }
   [[gnu::noinline]] bool learn(Index h, Window w) { return memory_.learn(h, w); }
 
@@ -410,7 +419,7 @@ class WindowEngine final : public Engine {
   // ---- lists of exact runs
 
   // Faces so thin that windows may come back for ever take them one by one (WindowMemory).
-  bool goes_in_lists(Index h) const { return !merges() && !structure_.faces[h / 3].thin; }
+  bool goes_in_lists(Index h) const { return in_lists_ && !structure_.faces[h / 3].thin; }
 
   // The key of lists is what is known of the nearer end of the edge: nearly all that enters over the edge has come by
   // then.
@@ -848,9 +857,10 @@ class WindowEngine final : public Engine {
   MergeBudget budget_;
   const Problem* problem_ = nullptr;
   DistanceField* field_ = nullptr;
-  bool several_ = false;  // sources
-  double shift_ = 0;      // added to all values, so that none is negative
-  double radius_ = 0;     // nothing beyond is wanted
+  bool several_ = false;   // sources
+  double shift_ = 0;       // added to all values, so that none is negative
+  double radius_ = 0;      // nothing beyond is wanted
+  bool in_lists_ = false;  // windows travel in lists
   std::uint64_t next_target_check_ = 0;
 };
 
