@@ -7,7 +7,7 @@ class BrushfireError(ValueError):
     """Something that the library refuses, with the reason in one line and a code for programs.
 
     ``code`` is one of ``invalid_argument``, ``index_out_of_range``, ``invalid_mesh``, ``file_not_readable``,
-    ``file_malformed``, ``file_not_writable``, ``unknown_format``, ``cancelled``, ``too_large``.
+    ``file_malformed``, ``file_not_writable``, ``unknown_format``, ``cancelled``, ``too_large``, ``internal``.
 
     >>> import brushfire as bf
     >>> try:

@@ -72,5 +72,40 @@ TEST(FlatFaces, SoupsOnALatticeEqualTheOracle) {
   }
 }
 
+// Rows of faces without altitude, or next to none, between ordinary ones: a vertex of one side of a row lies on the
+// edges of the other, so its light leaves through one point of an interval, beside light that ties with it there.
+TEST(FlatFaces, RowsOfHardlyAnyAltitudeEqualTheOracle) {
+  for (const double altitude : {0.0, 1e-17, 1e-16, 1e-14, 1e-13, 1e-12, 1e-9, 1e-7}) {
+    for (std::uint32_t grid = 1; grid <= 16; ++grid) {
+      const Mesh mesh = needle_grid(grid, 8, altitude);
+      for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        SCOPED_TRACE("altitude " + std::to_string(altitude) + ", grid " + std::to_string(grid));
+        expect_exact_from_everywhere(mesh, seed, "rows");
+      }
+    }
+  }
+}
+
+TEST(FlatFaces, TolerancesAreKeptOnRowsOfHardlyAnyAltitude) {
+  for (const double altitude : {0.0, 1e-16, 1e-13, 1e-9}) {
+    for (std::uint32_t grid = 1; grid <= 16; ++grid) {
+      const Mesh mesh = needle_grid(grid, 8, altitude);
+      std::mt19937 random(grid);
+      for (const double tolerance : {1e-2, 1e-4}) {
+        const Source source{random_face_point(mesh, random)};
+        DistanceOptions options;
+        options.tolerance = tolerance;
+        const DistanceField field = distance(mesh, std::span(&source, 1), options);
+        const Truth truth = polyhedral_distance(mesh, std::span(&source, 1));
+        for (Index v = 0; v < mesh.vertex_count(); ++v) {
+          const double d = static_cast<double>(truth.distance[v]);
+          EXPECT_LE(std::abs(field.distance[v] - d), field.error_bound[v]) << altitude << ", grid " << grid;
+          EXPECT_LE(field.error_bound[v], tolerance * d) << altitude << ", grid " << grid << ", vertex " << v;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace brushfire::oracle

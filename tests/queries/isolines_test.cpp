@@ -81,8 +81,8 @@ TEST(Isolines, LengthAndAreaConvergeToTheCircleOnThePlaneWithSecondOrder) {
   EXPECT_LT(fine.area, coarse.area / 12);
 }
 
-TEST(Isolines, LengthConvergesToTheCircleOnTheConeWithSecondOrder) {
-  const auto error = [](Index n) {
+TEST(Isolines, LengthAndAreaConvergeToTheCircleOnTheConeWithSecondOrder) {
+  const auto errors = [](Index n) {
     const Mesh mesh = shapes::cone(n, 4 * n).mesh();
     double total_angle = 0;
     for (const Index h : mesh.corners(0)) total_angle += mesh.corner_angle(h);
@@ -94,11 +94,20 @@ TEST(Isolines, LengthConvergesToTheCircleOnTheConeWithSecondOrder) {
     EXPECT_EQ(lines.size(), 1u);
     EXPECT_TRUE(lines[0].line.closed);
     expect_well_formed(mesh, values, lines);
-    return std::abs(lines[0].line.length - total_angle * r);
+    // Faces between two generators lie in one plane with the apex: the sector of each piece is a flat triangle.
+    const auto& points = lines[0].line.points;
+    double area = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3 a = position(mesh, points[i]) - apex, b = position(mesh, points[(i + 1) % points.size()]) - apex;
+      area += 0.5 * norm(cross(a, b));
+    }
+    return Errors{std::abs(lines[0].line.length - total_angle * r), std::abs(area - 0.5 * total_angle * r * r)};
   };
-  const double coarse = error(8), fine = error(32);
-  EXPECT_LT(coarse, 0.01);
-  EXPECT_LT(fine, coarse / 12);
+  const Errors coarse = errors(8), fine = errors(32);
+  EXPECT_LT(coarse.length, 0.01);
+  EXPECT_LT(coarse.area, 0.01);
+  EXPECT_LT(fine.length, coarse.length / 12);
+  EXPECT_LT(fine.area, coarse.area / 12);
 }
 
 TEST(Isolines, LoopsOfAHeightFunctionAreThoseOfMorseTheory) {

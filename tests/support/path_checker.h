@@ -40,7 +40,7 @@ inline std::vector<Index> faces_holding(const Mesh& mesh, const Support& a, cons
   std::vector<Index> out;
   for (const Index h : mesh.corners(a.begin()->first)) {
     const Index f = Mesh::face_of(h);
-    if (holds(mesh.faces()[f], a) && holds(mesh.faces()[f], b) && mesh.is_face_usable(f)) out.push_back(f);
+    if (holds(mesh.faces()[f], a) && holds(mesh.faces()[f], b)) out.push_back(f);
   }
   return out;
 }
@@ -54,7 +54,6 @@ inline double angle_around(const Mesh& mesh, Index v, const std::vector<Index>& 
   const Vec3 x = mesh.positions()[v];
   std::map<Index, std::size_t> node;  // by the other end of the edge
   for (const Index h : mesh.corners(v)) {
-    if (!mesh.is_face_usable(Mesh::face_of(h))) continue;
     for (const Index w : mesh.faces()[Mesh::face_of(h)]) {
       if (w != v) node.emplace(w, node.size() + 2);
     }
@@ -91,6 +90,15 @@ inline double angle_around(const Mesh& mesh, Index v, const std::vector<Index>& 
   return d[1];
 }
 
+inline bool has_edge_without_length(const Mesh& mesh, Index v) {
+  const auto corners = mesh.corners(v);
+  return std::any_of(corners.begin(), corners.end(), [&](Index h) {
+    const Face& t = mesh.faces()[Mesh::face_of(h)];
+    return std::any_of(t.begin(), t.end(),
+                       [&](Index w) { return w != v && mesh.positions()[w] == mesh.positions()[v]; });
+  });
+}
+
 // What is wrong with a path that claims to be locally shortest; empty where nothing is. `angle_tolerance` is what an
 // angle may miss pi by; positions of nodes are rounded, so angles at pieces that are short against the mesh's
 // coordinates get more room.
@@ -124,6 +132,7 @@ inline std::string judge(const Mesh& mesh, const SurfacePath& path, double angle
       continue;
     }
     const Index v = s.begin()->first;
+    if (has_edge_without_length(mesh, v)) continue;  // no directions, no angles
     const double angle = angle_around(mesh, v, faces_holding(mesh, s, support_of(mesh, before)), a,
                                       faces_holding(mesh, s, support_of(mesh, after)), b);
     if (angle < kPi - room) {

@@ -23,6 +23,8 @@ std::string_view name_of(ErrorCode code) {
       return "cancelled";
     case ErrorCode::TooLarge:
       return "too_large";
+    case ErrorCode::Internal:
+      return "internal";
   }
   return "unknown";
 }

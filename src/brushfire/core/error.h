@@ -17,6 +17,7 @@ enum class ErrorCode {
   UnknownFormat,    // neither the name nor the content of the file names a format that is known
   Cancelled,        // the caller's CancelToken was set
   TooLarge,         // the result would not fit into memory or into 32-bit indices
+  Internal,         // a fault of this library, found by itself: please report it
 };
 
 // A short stable name of the code, as it appears in `--json` and in Python: "invalid_argument", ...

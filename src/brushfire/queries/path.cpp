@@ -32,6 +32,12 @@ void join(const Mesh& mesh, SurfacePath& a, const SurfacePath& b) {
   a.length += b.length;
 }
 
+// Rays lead back to where they came from: this is a fault of ours, not of the caller's.
+Error lost(double length) {
+  return Error(ErrorCode::Internal, "the path was lost after a length of " + std::to_string(length) +
+                                        ": please report the mesh and the points");
+}
+
 bool is_edge_tight(const DistanceField& field, Index from, Index to, double length) {
   return field.source[from] == field.source[to] && field.distance[from] + length == field.distance[to];
 }
@@ -41,9 +47,13 @@ bool is_edge_tight(const DistanceField& field, Index from, Index to, double leng
 SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
   SurfacePath path;
   WindowField::Leg leg = field.last_leg(target);
-  if (leg.points.empty()) return path;
+  if (leg.points.empty()) {
+    if (field.value(target).distance < kInfinity) throw lost(0);
+    return path;
+  }
   path.length = 0;
   path.points.push_back(leg.points.front());
+  Index legs = 0;
   while (true) {
     path.length += leg.length;
     for (std::size_t i = 1; i < leg.points.size(); ++i) {
@@ -52,6 +62,7 @@ SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
     }
     if (leg.vertex == kNoIndex) break;
     leg = field.last_leg(leg.vertex);
+    if (leg.points.empty() || ++legs > field.mesh().vertex_count()) throw lost(path.length);
   }
   std::reverse(path.points.begin(), path.points.end());
   return path;

@@ -13,6 +13,7 @@ namespace brushfire {
 // vertices and targets, keep_windows for all points; see WindowField). Straight within every strip of faces laid flat,
 // bending at saddle and boundary vertices only; no two consecutive points are the same; its length is the field's value
 // there minus the source's offset, to rounding. No points and length +inf where no source reaches. O(edges crossed).
+// Throws Error(Internal) rather than return part of a path.
 SurfacePath path_to(const WindowField& field, const SurfacePoint& target);
 
 // The path along edges that a run of Method::Dijkstra means: from the nearest source's vertex to vertex `target`.

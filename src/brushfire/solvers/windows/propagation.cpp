@@ -17,6 +17,7 @@
 #include <brushfire/solvers/windows/detail/propagate.h>
 #include <brushfire/solvers/windows/detail/queue.h>
 #include <brushfire/solvers/windows/detail/record.h>
+#include <brushfire/solvers/windows/detail/ridge.h>
 #include <brushfire/solvers/windows/detail/structure.h>
 #include <brushfire/solvers/windows/detail/sweep.h>
 
@@ -324,9 +325,11 @@ class WindowEngine final : public Engine {
     queue_.push_vertex(v, value);
   }
 
-  void offer_target(Index i, double value, double slack, double lift, const Ray& ray) {
+  // Along a ray or, where it is not `straight`, by a detour: a real path, but not one to follow back.
+  void offer_target(Index i, double value, double slack, double lift, const Ray& ray, bool straight = true) {
     TargetState& t = targets_[i];
     t.upper = std::min(t.upper, value + slack);
+    if (!straight) return;
     if (value > t.lower || (value == t.lower && label_of(ray.root) >= label_of(t.ray.root))) return;
     t.lower = value;
     t.estimate = value + lift;
@@ -363,7 +366,7 @@ class WindowEngine final : public Engine {
     WindowFace& f = structure_.faces[h / 3];
     const Index k = h % 3;
     if (is_sliver(w) | (least_value(w) > radius_) | is_dominated(f, k, w)) return;  // one branch to guess, not three
-    if (goes_in_lists(h)) return insert_into_list(h, w, origin);
+    if (goes_in_lists(h)) return is_on_edge(w) ? pass_at_once(h, w) : insert_into_list(h, w, origin);
     if (f.thin && !learn(h, w)) return;
     const Arrival at_apex = arrival(w, frame_of(f, k).apex);
     const Index apex = f.vertex[previous3(k)];
@@ -383,6 +386,10 @@ class WindowEngine final : public Engine {
     if (minimum_of(w) > radius_) return true;
     return !f.has_target && !problem_->options->keep_windows && ends_in_face(w, frame_of(f, k), radius_);
   }
+  // Where the source lies on the edge: lists are for windows that can be trimmed (see set_apart()).
+  [[gnu::noinline]] void pass_at_once(Index h, const Window& w) {
+    pass(h, frame_of(structure_.faces[h / 3], h % 3), w);
+  }
   [[gnu::noinline]] bool learn(Index h, Window w) { return memory_.learn(h, w); }
 
   // The turn of a list: trimmed (L5), merged (L2), and on to the other two edges.
@@ -396,8 +403,26 @@ class WindowEngine final : public Engine {
     if (taken_.empty()) return;
     const Frame frame = frame_of(f, k);
     std::span<Window> windows = taken_;
+    if (windows.size() > 1 && std::any_of(windows.begin(), windows.end(), is_on_edge)) windows = set_apart(windows);
     if (windows.size() > 1) windows = merges() ? merged(windows) : envelope_(windows);
     for (const Window& w : windows) pass(h, frame, w);
+    for (const Window& w : on_edge_) pass(h, frame, w);
+    on_edge_.clear();
+  }
+
+  // L5. Windows with their source on the edge are not trimmed (all their light passes through that one point, where
+  // others may tie with them): they go on whole unless another path to the source itself is shorter. Returns the
+  // others.
+  std::span<Window> set_apart(std::span<Window> windows) {
+    const auto others = std::stable_partition(windows.begin(), windows.end(), is_on_edge);
+    for (auto w = windows.begin(); w != others; ++w) {
+      const double x = w->source.x;
+      const bool beaten = std::any_of(windows.begin(), windows.end(), [&](const Window& o) {
+        return o.b0 <= x && x <= o.b1 && value_at(o, x) - w->source.y < w->sigma - tie(w->sigma);
+      });
+      if (!beaten) on_edge_.push_back(*w);
+    }
+    return {others, windows.end()};
   }
 
   // L2, L5, L8: what is left of the windows of an edge.
@@ -525,8 +550,9 @@ class WindowEngine final : public Engine {
     for_each_target_in(h / 3, [&](const TargetInFace& t) {
       const Vec2 p = in_frame(frame, h % 3, t.weights);
       for (Index i = 0; i < count; ++i) {
-        offer_target(t.target, arrival(w.window(i), p).value, 0, 0,
-                     {{w.x[i], w.y[i]}, h, w.root[i], WindowKind::Circular});
+        const Arrival there = arrival(w.window(i), p);
+        offer_target(t.target, there.value, 0, 0, {{w.x[i], w.y[i]}, h, w.root[i], WindowKind::Circular},
+                     there.detour <= kSeen * there.value);
       }
     });
   }
@@ -599,7 +625,7 @@ class WindowEngine final : public Engine {
     if (f.has_target) {
       for_each_target_in(h / 3, [&](const TargetInFace& t) {
         const Arrival there = arrival(w, in_frame(frame, h % 3, t.weights));
-        offer_target(t.target, there.value, w.slack, w.lift, ray);
+        offer_target(t.target, there.value, w.slack, w.lift, ray, there.detour <= kSeen * there.value);
       });
     }
     if (problem_->options->keep_windows) kept_.push_back({structure_.outer_halfedge(h), w});
@@ -669,9 +695,11 @@ class WindowEngine final : public Engine {
   double lift_of(Index v) const { return std::clamp(values_[v].estimate - values_[v].lower, 0.0, slack_of(v)); }
 
   // Along the sector's edges to their ends, and through its face.
-  void shine_into(Index v, const Sector& sector) {
+  void shine_into(Index v, Sector sector) {
     const WindowFace& f = structure_.faces[sector.face];
     const Index i = sector.corner, near = next3(i), far = previous3(i);
+    // Where the corner lies on the opposite edge, an interval there cannot tell directions: all are lit.
+    if (f.double_area <= kOnEdge * f.length[near] * f.length[near]) sector = whole_sector(f, sector.face, i);
     if (sector.from_edge()) shine_along(v, sector.face, near, f.length[i]);
     if (sector.to_edge()) shine_along(v, sector.face, far, f.length[far]);
     if (!(f.length[near] > 0)) return;
@@ -850,6 +878,7 @@ class WindowEngine final : public Engine {
   std::vector<Ray> rays_;       // [vertex_count] in runs that keep them: what brought every vertex its least value
   std::vector<Index> touched_;  // vertices whose entries have changed
   std::vector<Window> taken_;
+  std::vector<Window> on_edge_;  // of those, with their source on the edge
   std::vector<KeptWindow> kept_;
   std::vector<TargetInFace> targets_in_faces_;  // by face
   std::vector<TargetState> targets_;

@@ -65,7 +65,7 @@ WindowStructure::WindowStructure(const Mesh& m) : mesh(m), order(locality_order(
     for (Index k = 0; k < 3; ++k) {
       const Index v = face.vertex[k];
       // No area, no angle: light goes everywhere from there.
-      if (!face.usable || !(face.double_area > 0)) {
+      if (!face.usable || face.double_area <= kNoArea * base * base) {
         bend[v] = Bend::Full;
         continue;
       }

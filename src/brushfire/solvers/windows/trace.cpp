@@ -1,10 +1,13 @@
 // A ray is followed backwards from face to face, each laid flat over the edge just crossed, until its root is found.
 #include <brushfire/solvers/windows/detail/trace.h>
 
+#include <brushfire/mesh/flat_face.h>
 #include <brushfire/solvers/windows/detail/face.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace brushfire::detail {
 namespace {
@@ -29,9 +32,9 @@ struct Position {
 
 class Tracer {
  public:
-  Tracer(const WindowFieldData& data, const Ray& ray, double value) : data_(data), mesh_(data.mesh), ray_(ray) {
-    value_ = value;
-  }
+  // Vertices are on the way only where their values are `below`. (One at the same place has the same value.)
+  Tracer(const WindowFieldData& data, const Ray& ray, double value, double below)
+      : data_(data), mesh_(data.mesh), ray_(ray), value_(value), below_(below) {}
 
   bool run(const FaceWeights& at, WindowField::Leg& leg) {
     const Frame frame = frame_at(ray_.halfedge);
@@ -66,37 +69,57 @@ class Tracer {
     const Index h = at.halfedge;
     const double length = mesh_.lengths()[h];
     const double across = at.source.x * at.point.y - at.source.y * at.point.x, along = at.point.y - at.source.y;
-    if (!(along > 0) || !(length > 0)) return false;
-    const double x = std::clamp(across / along, 0.0, length);
+    if (!(along >= 0) || !(length > 0)) return false;
+    // Past its root: this was not the sheet.
+    if (at.source.y > kAtRoot * value_) return false;
+    // A root on the edge itself is where the ray crosses: in a face without area all may lie on one line.
+    const bool root_is_here = std::abs(at.source.y) <= kSamePlace * value_;
+    const double straight = root_is_here || along == 0 ? at.source.x : across / along;
+    const double x = std::clamp(straight, 0.0, length);
     const double so_far = at.length + length_of(at.point.x - x, at.point.y);
     if (x <= kThroughVertex * length && ends_at_vertex(mesh_.from(h), h % 3, h, at.length, so_far, leg)) return true;
     if (x >= (1 - kThroughVertex) * length && ends_at_vertex(mesh_.to(h), next3(h % 3), h, at.length, so_far, leg))
       return true;
+    if (std::abs(straight - x) > kAtRoot * value_) return false;
     // On a shortest path the value here is what is left of it, which bounds the values at the edge's ends: this tells
     // the right sheet over a non-manifold edge from the others within a few faces.
     const double left = value_ - so_far + kAgreement * value_;
     if (is_above(mesh_.from(h), left + x) || is_above(mesh_.to(h), left + length - x)) return false;
+    if (so_far - at.length <= kSamePlace * value_ && has_passed(h, so_far)) return false;
     SurfacePoint crossing{Mesh::face_of(h), {0, 0, 0}};
     crossing.weights[next3(h % 3)] = x / length;
     crossing.weights[h % 3] = 1 - x / length;
     // Also where the ray leaves a face at the place where it came in (near a corner, or through a face without area):
     // the next point shares a face with this one only.
     leg.points.push_back(crossing);
+    // A root on the edge itself is kept there: faces without area beyond need to know.
+    const double above = root_is_here ? 0 : -at.source.y;
     const auto opposite = mesh_.opposite();
     for (Index g = opposite[h]; g != h; g = opposite[g]) {
       const bool turned = mesh_.from(g) == mesh_.to(h);
-      Position next{
-          g, {turned ? length - at.source.x : at.source.x, -at.source.y}, {turned ? length - x : x, 0}, so_far};
+      Position next{g, {turned ? length - at.source.x : at.source.x, above}, {turned ? length - x : x, 0}, so_far};
       if (ends_in_face(next, leg)) return true;
-      open_.push_back({leave(next), leg.points.size()});
+      const Frame frame = frame_at(g);
+      const double side = cross(frame.apex - next.point, next.source - next.point);
+      // Along a line that holds the apex as well either may be the edge.
+      if (side >= 0) open_.push_back({leave(next, frame, true), leg.points.size()});
+      if (side <= 0) open_.push_back({leave(next, frame, false), leg.points.size()});
     }
     return false;
   }
 
-  // From a position on an edge of a face (the ray's root above, beyond the face) to the edge through which it leaves.
-  Position leave(const Position& at) const {
-    const Frame frame = frame_at(at.halfedge);
-    const bool left = cross(frame.apex - at.point, at.source - at.point) > 0;
+  // Through faces without area a ray may come round to where it was without any progress.
+  bool has_passed(Index h, double so_far) {
+    const bool passed = std::any_of(passed_.begin(), passed_.end(), [&](const auto& p) {
+      return p.first == h && std::abs(p.second - so_far) <= kSamePlace * value_;
+    });
+    if (!passed) passed_.push_back({h, so_far});
+    return passed;
+  }
+
+  // From a position on an edge of a face (the ray's root above, beyond the face) to the edge through which it leaves:
+  // the one to the left of the apex or the other.
+  static Position leave(const Position& at, const Frame& frame, bool left) {
     const Index h = left ? Mesh::previous(at.halfedge) : Mesh::next(at.halfedge);
     const double side = left ? frame.left : frame.right;
     const Vec2 origin = left ? frame.apex : Vec2{frame.length, 0};
@@ -110,15 +133,23 @@ class Tracer {
   bool ends_at_vertex(Index v, Index corner, Index h, double so_far, double length, WindowField::Leg& leg) const {
     // The root too must be as far as the value says: over non-manifold edges another sheet may lead there, by a detour.
     const bool unknown = std::isnan(value_of(v));
-    const bool consistent = std::abs(value_of(v) + length - value_) <= kAgreement * value_ && value_of(v) < value_;
+    const bool consistent = std::abs(value_of(v) + length - value_) <= kAgreement * value_ && value_of(v) < below_;
     if (unknown ? v != ray_.root : !consistent) return false;
     SurfacePoint p{Mesh::face_of(h), {0, 0, 0}};
     p.weights[corner] = 1;
-    if (length - so_far <= kSamePlace * value_ && leg.points.size() > 1) leg.points.pop_back();
-    leg.points.push_back(p);
+    add_last(p, length - so_far, leg);
     leg.length = length;
     leg.vertex = v;
     return true;
+  }
+
+  // The root, in place of the crossing before it where both are at one place and the point before that can do without.
+  void add_last(const SurfacePoint& p, double step, WindowField::Leg& leg) const {
+    const std::size_t n = leg.points.size();
+    const bool replaces = step <= kSamePlace * value_ && n > 1 &&
+                          common_face(mesh_, locate(mesh_, leg.points[n - 2]), locate(mesh_, p)) != kNoIndex;
+    if (replaces) leg.points.pop_back();
+    leg.points.push_back(p);
   }
 
   // Whether the root is in the face of the position's halfedge, where the ray says.
@@ -131,11 +162,7 @@ class Tracer {
       return length_of(p.x - at.source.x, p.y - at.source.y) <= within;
     };
     const auto finish = [&](const std::array<double, 3>& weights) {
-      if (rest <= kSamePlace * value_ || rest == 0) {
-        if (leg.points.size() > 1) leg.points.back() = {face, weights};
-      } else {
-        leg.points.push_back({face, weights});
-      }
+      add_last({face, weights}, rest, leg);
       leg.length = at.length + rest;
       return true;
     };
@@ -162,39 +189,52 @@ class Tracer {
   const WindowFieldData& data_;
   const Mesh& mesh_;
   const Ray& ray_;
-  double value_ = 0;
+  const double value_, below_;
   struct Open {
     Position position;
     std::size_t points;
   };
-  std::vector<Open> open_;  // sheets of non-manifold edges that are still to be tried
+  std::vector<std::pair<Index, double>> passed_;  // halfedges crossed without progress, and where on the ray
+  std::vector<Open> open_;                        // sheets of non-manifold edges that are still to be tried
 };
+
+// Straight to a corner of the face or to a source in it, if the value says that this may be; else no points.
+WindowField::Leg leg_within_face(const WindowFieldData& data, const FaceWeights& at, double value) {
+  PointLocation here;
+  here.face = at.face;
+  here.weights = at.weights;
+  WindowField::Leg best;
+  double best_value = value + kAtRoot * value;
+  const auto offer = [&](const std::array<double, 3>& weights, double before, double length, Index vertex,
+                         Index source) {
+    if (!(before + length < best_value)) return;
+    best_value = before + length;
+    best = {{{at.face, at.weights}, {at.face, weights}}, length, vertex, source};
+  };
+  const std::array<double, 3> d = corner_distances(data.mesh, here);
+  for (Index i = 0; i < 3; ++i) {
+    std::array<double, 3> weights{0, 0, 0};
+    weights[i] = 1;
+    const Index v = data.mesh.faces()[at.face][i];
+    if (data.vertices[v].value < value) offer(weights, data.vertices[v].value, d[i], v, kNoIndex);
+  }
+  for (Index s = 0; s < data.sources.size(); ++s) {
+    const auto weights = weights_in(data.mesh, data.sources[s].at, at.face);
+    if (!weights) continue;
+    const double length = distance_within(data.mesh, at.face, here, data.sources[s].at);
+    offer(*weights, data.sources[s].offset + data.shift, length, kNoIndex, s);
+  }
+  return best;
+}
 
 }  // namespace
 
 WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, double value) {
   WindowField::Leg leg;
-  if (Tracer(data, ray, value).run(at, leg)) return leg;
-  leg = {};
-  PointLocation here;
-  here.face = at.face;
-  here.weights = at.weights;
-  const std::array<double, 3> d = corner_distances(data.mesh, here);
-  Index best = 0;
-  double best_value = kInfinity;
-  for (Index i = 0; i < 3; ++i) {
-    const double via = data.vertices[data.mesh.faces()[at.face][i]].value;
-    if (via < value && via + d[i] < best_value) {
-      best = i;
-      best_value = via + d[i];
-    }
-  }
-  if (best_value == kInfinity) return leg;
-  SurfacePoint corner{at.face, {0, 0, 0}};
-  corner.weights[best] = 1;
-  leg.points = {{at.face, at.weights}, corner};
-  leg.length = d[best];
-  leg.vertex = data.mesh.faces()[at.face][best];
+  if (Tracer(data, ray, value, value).run(at, leg)) return leg;
+  leg = leg_within_face(data, at, value);
+  // Over an edge without length there may be another vertex in the way.
+  if (leg.points.empty() && !Tracer(data, ray, value, kInfinity).run(at, leg)) leg = {};
   return leg;
 }
 

@@ -42,6 +42,9 @@ double angle_at(const WindowFace& f, Index i);
 // A corner whose edges differ by more than this factor: rounding of the lengths turns directions there by up to
 // kUnevenEdges epsilons, too much to tell what is in a shadow.
 inline constexpr double kUnevenEdges = 1e3;
+// A face whose altitude is less than this share of its longest edge: what it is made of is rounding of the lengths, and
+// so are its angles.
+inline constexpr double kNoArea = 1e-13;
 // Angle sums beyond 2 pi (pi on a boundary) by less than this are rounding; a shadow so narrow hides nothing for longer
 // than that share of the distance.
 inline constexpr double kFlat = 1e-13;

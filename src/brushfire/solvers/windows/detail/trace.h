@@ -7,7 +7,7 @@
 namespace brushfire::detail {
 
 // The leg that ends at the point `at` of the face of ray.halfedge and came along `ray`; value: of the point. Falls back
-// on the straight line to a corner of the face where rounding has led the ray astray.
+// on a straight line within the face where rounding has led the ray astray; no points where there is none either.
 WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, double value);
 
 }  // namespace brushfire::detail

@@ -100,6 +100,16 @@ inline Window mirrored(const Window& w, double length) {
          (w.source.y == 0 && w.kind == WindowKind::Circular && w.source.x > w.b0 && w.source.x < w.b1);
 }
 
+// Whether the source lies on the edge, within the interval, or as good as: its light then leaves through one point, and
+// parts of the interval do not stand for parts of the light. A cut beside a source that is kOnEdge of the interval away
+// turns the limit ray by up to epsilon / kOnEdge = 2e-8; who is missed by that is reached round the cut with a detour
+// of half its square, 2e-16. Nearer than that, cuts cannot be afforded.
+inline constexpr double kOnEdge = 1e-8;
+inline bool is_on_edge(const Window& w) {
+  return -w.source.y <= kOnEdge * (w.b1 - w.b0) && w.kind == WindowKind::Circular && w.source.x > w.b0 &&
+         w.source.x < w.b1;
+}
+
 // A window narrower than this share of its distance from the virtual source is dropped: what it alone lights is
 // reached past its neighbour's end with a detour of at most twice its width.
 inline constexpr double kSliver = 1e-14;
