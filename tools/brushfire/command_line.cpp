@@ -36,6 +36,7 @@ int exit_code(ErrorCode code) {
       return kInterrupted;
     case ErrorCode::FileNotWritable:
     case ErrorCode::TooLarge:
+    case ErrorCode::Internal:
       return kInternal;
   }
   return kInternal;
