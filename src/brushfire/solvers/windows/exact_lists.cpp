@@ -119,6 +119,19 @@ WindowList ExactLists::take(Index h) {
   return result;
 }
 
+void ExactLists::prefetch_windows(Index h) const {
+  constexpr std::size_t kLine = 64, kMost = 16;  // lines
+  if (first_[h] == kNoIndex) return;
+  const WindowList& list = parts_[first_[h]].list;
+  const std::size_t column = list.block.capacity() * sizeof(double), used = list.size * sizeof(double);
+  std::size_t lines = 0;
+  for (std::size_t c = 0; c < 5; ++c) {
+    for (std::size_t at = 0; at < used && lines < kMost; at += kLine, ++lines) {
+      prefetch(list.block.data + c * column + at);
+    }
+  }
+}
+
 void ExactLists::clear() {
   std::fill(first_.begin(), first_.end(), kNoIndex);
   parts_.clear();

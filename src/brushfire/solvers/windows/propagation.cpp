@@ -242,7 +242,11 @@ class WindowEngine final : public Engine {
       }
       if (field_->updates >= next_target_check_) narrow_radius();
       const EventQueue::Event event = queue_.pop();
-      prefetch_next();
+      if (merges()) {
+        prefetch_next();
+      } else {
+        prefetch_next_list();
+      }
       if (event.is_list) {
         if (goes_in_lists(event.index)) {
           if (!exact_->empty(event.index)) spread_list(event.index);
@@ -271,6 +275,27 @@ class WindowEngine final : public Engine {
         prefetch(&values_[structure_.faces[g / 3].vertex[previous3(g % 3)]]);
       }
     }
+  }
+
+  // The same for lists of exact runs.
+  void prefetch_next_list() const {
+    const Index third = queue_.peek_list(6), second = queue_.peek_list(3), first = queue_.peek_list(1);
+    if (third != kNoIndex) {
+      prefetch(&structure_.faces[third / 3]);
+      exact_->prefetch_head(third);
+    }
+    if (second != kNoIndex) {
+      const WindowFace& f = structure_.faces[second / 3];
+      const Index apex = f.vertex[previous3(second % 3)];
+      exact_->prefetch_list(second);
+      prefetch(&values_[apex]);
+      prefetch(&state_[apex]);
+      for (const Index k : {next3(second % 3), previous3(second % 3)}) {
+        prefetch(&structure_.faces[f.opposite[k] / 3]);
+        exact_->prefetch_head(f.opposite[k]);
+      }
+    }
+    if (first != kNoIndex) exact_->prefetch_windows(first);
   }
 
   // Nothing beyond the farthest target matters once all have been reached.

@@ -114,8 +114,9 @@ class ExactLists {
 
   void prefetch_head(Index h) const { prefetch(&first_[h]); }
   void prefetch_list(Index h) const {
-    if (first_[h] != kNoIndex) prefetch(parts_[first_[h]].list.block.data);
+    if (first_[h] != kNoIndex) prefetch(&parts_[first_[h]]);
   }
+  void prefetch_windows(Index h) const;
   void clear();
 
  private:
