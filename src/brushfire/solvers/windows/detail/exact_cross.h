@@ -28,8 +28,8 @@ Index least_of(const double* numbers, Index count);
 // or its limit ray on the right crosses the best one's: there the path along the best one's is shorter. So each window
 // normally goes on to one edge, the best one to both.
 //
-// True where the first `left_end` windows have to go left, those from right_begin on right, and no others; false where
-// the windows' order is not that simple, and choose_sides() must be asked.
+// True where it is enough that the first `left_end` windows go left and those from right_begin on right; false where the
+// windows' order is not that simple, and choose_sides() must be asked for each.
 struct Sides {
   Index left_end = 0, right_begin = 0;
 };
