@@ -24,9 +24,9 @@ constexpr double kNearMiss = 1e-6;
 Index without_slivers(const WindowColumns& w, Index count) {
   Index kept = 0;
   for (Index i = 0; i < count; ++i) {
-    const double scale = length_of(w.x[i] - w.b0[i], w.y[i]);
+    const double width = w.b1[i] - w.b0[i];
     const bool lit = w.y[i] < 0 || (w.y[i] == 0 && w.x[i] > w.b0[i] && w.x[i] < w.b1[i]);
-    if (!lit || !(w.b1[i] - w.b0[i] > kSliver * scale)) continue;
+    if (!lit || !(width > 0) || !(width > kSliver * length_of(w.x[i] - w.b0[i], w.y[i]))) continue;
     if (kept != i) w.move(kept, i);
     ++kept;
   }
@@ -53,9 +53,9 @@ BRUSHFIRE_WIDE void look(const double* __restrict b0, const double* __restrict b
 // b q / (cx q - cy (b - x)) of its length. Returns how many of the results may be slivers.
 BRUSHFIRE_WIDE std::int64_t to_left(const double* __restrict b0, const double* __restrict b1,
                                     const double* __restrict x, const double* __restrict y,
-                                    const double* __restrict passes, std::ptrdiff_t count, Vec2 apex, double length,
-                                    double* __restrict to_b0, double* __restrict to_b1, double* __restrict to_x,
-                                    double* __restrict to_y) {
+                                    const double* __restrict goes, const double* __restrict passes,
+                                    std::ptrdiff_t count, Vec2 apex, double length, double* __restrict to_b0,
+                                    double* __restrict to_b1, double* __restrict to_x, double* __restrict to_y) {
   const double ux = apex.x / length, uy = apex.y / length;
   std::int64_t dim = 0;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -66,10 +66,11 @@ BRUSHFIRE_WIDE std::int64_t to_left(const double* __restrict b0, const double* _
     const double end = passes[i] > 0 ? length : (at1 < length ? at1 : length);
     const double sx = x[i] * ux + y[i] * uy, sy = y[i] * ux - x[i] * uy;
     to_b0[i] = begin;
-    to_b1[i] = end;
+    to_b1[i] = goes[i] > 0 ? end : begin;
     to_x[i] = sx;
     to_y[i] = sy;
-    dim += end - begin > kSliver * (std::abs(sx) + length - sy) && sy < 0 ? 0 : 1;
+    const std::int64_t wide = end - begin > kSliver * (std::abs(sx) + length - sy), lit = sy < 0, asked = goes[i] > 0;
+    dim += 1 - (wide & lit & asked);
   }
   return dim;
 }
@@ -77,9 +78,10 @@ BRUSHFIRE_WIDE std::int64_t to_left(const double* __restrict b0, const double* _
 // The same on the right; places are measured from the end of the edge.
 BRUSHFIRE_WIDE std::int64_t to_right(const double* __restrict b0, const double* __restrict b1,
                                      const double* __restrict x, const double* __restrict y,
-                                     const double* __restrict passes, std::ptrdiff_t count, Vec2 apex, double base,
-                                     double length, double* __restrict to_b0, double* __restrict to_b1,
-                                     double* __restrict to_x, double* __restrict to_y) {
+                                     const double* __restrict goes, const double* __restrict passes,
+                                     std::ptrdiff_t count, Vec2 apex, double base, double length,
+                                     double* __restrict to_b0, double* __restrict to_b1, double* __restrict to_x,
+                                     double* __restrict to_y) {
   const double ux = (base - apex.x) / length, uy = -apex.y / length;
   std::int64_t dim = 0;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -91,10 +93,11 @@ BRUSHFIRE_WIDE std::int64_t to_right(const double* __restrict b0, const double* 
     const double tx = x[i] - apex.x, ty = y[i] - apex.y;
     const double sx = tx * ux + ty * uy, sy = ty * ux - tx * uy;
     to_b0[i] = begin;
-    to_b1[i] = end;
+    to_b1[i] = goes[i] > 0 ? end : begin;
     to_x[i] = sx;
     to_y[i] = sy;
-    dim += end - begin > kSliver * (std::abs(sx) + length - sy) && sy < 0 ? 0 : 1;
+    const std::int64_t wide = end - begin > kSliver * (std::abs(sx) + length - sy), lit = sy < 0, asked = goes[i] > 0;
+    dim += 1 - (wide & lit & asked);
   }
   return dim;
 }
@@ -115,7 +118,9 @@ BRUSHFIRE_WIDE std::int64_t positive(const double* __restrict numbers, std::ptrd
   return found;
 }
 
-// How many windows left of the best one do not go on to the left alone, for a reason that the numbers show at once.
+// How many windows left of the apex (sign 1, limit: their right ends) or right of it (-1, left ends) do not obviously
+// go on to their own side alone: they do if they pass the apex there and not on the other side, or if they end before
+// the place where the best one's ray to the apex crosses the edge.
 BRUSHFIRE_WIDE std::int64_t doubtful(const double* __restrict own, const double* __restrict other,
                                      const double* __restrict limit, double sign, double at, std::ptrdiff_t count) {
   std::int64_t found = 0;
@@ -156,80 +161,90 @@ double place_of_apex(const WindowColumns& w, const Frame& frame, Index i) {
   return (w.x[i] * frame.apex.y - w.y[i] * frame.apex.x) / (frame.apex.y - w.y[i]);
 }
 
-}  // namespace
-
-bool sides_in_order(const WindowColumns& w, Index count, const Frame& frame, const Sight& sight, Index best,
-                    Sides& sides) {
-  const double *left = sight.left.data(), *right = sight.right.data(), *b0 = w.b0, *b1 = w.b1;
-  if (best == kNoIndex) {
-    // Nobody sees the apex: those that pass it on the left come first.
-    const auto n = static_cast<Index>(positive(left, count));
-    sides = {n, n};
-    return doubtful(left, right, b1, 1, -kInfinity, n) +
-               doubtful(right + n, left + n, b0 + n, -1, kInfinity, static_cast<std::ptrdiff_t>(count) - n) ==
-           0;
-  }
-  const double at = place_of_apex(w, frame, best);
-  sides = {best + 1, best};
-  if (doubtful(left, right, b1, 1, at, best) + doubtful(right + best + 1, left + best + 1, b0 + best + 1, -1, at,
-                                                        static_cast<std::ptrdiff_t>(count) - best - 1) ==
-      0) {
-    return true;
-  }
-  // Neighbours of the best one that may have something to give on its other side go to both sides, and what lies
-  // between with them, as long as that is geometrically possible.
-  for (Index i = best; i-- > 0;) {
-    if (left[i] <= 0) return false;
-    if (right[i] > 0 && b1[i] > at && choose_sides(w, frame, sight, best, i).right) sides.right_begin = i;
-  }
-  for (Index i = best + 1; i < count; ++i) {
-    if (right[i] <= 0) return false;
-    if (left[i] > 0 && b0[i] < at && choose_sides(w, frame, sight, best, i).left) sides.left_end = i + 1;
-  }
-  for (Index i = sides.right_begin; i < best; ++i) {
-    if (right[i] <= 0) return false;
-  }
-  for (Index i = best + 1; i < sides.left_end; ++i) {
-    if (left[i] <= 0) return false;
-  }
-  return true;
-}
-
-Way choose_sides(const WindowColumns& w, const Frame& frame, const Sight& sight, Index best, Index i) {
-  Way way{sight.left[i] > 0, sight.right[i] > 0};
-  if (!way.left || !way.right || best == kNoIndex || i == best) return way;
+// Whether a window that sees the apex, and loses to the best one there, has to go on to the left, to the right.
+struct Way {
+  bool left = true, right = true;
+};
+Way way_of_loser(const WindowColumns& w, const Frame& frame, Index best, double best_place, Index i) {
   const Vec2 s{w.x[i], w.y[i]}, b{w.x[best], w.y[best]};
-  const double at = place_of_apex(w, frame, best);
   const double side = cross(frame.apex - b, s - b);  // > 0: the source lies left of the best one's ray to the apex
-  if (place_of_apex(w, frame, i) <= at) {
+  Way way;
+  if (place_of_apex(w, frame, i) <= best_place) {
     const auto limit_ray_crosses_behind = [&] {
       return w.b1[i] <= w.b1[best] && side >= 0 && cross(Vec2{w.b1[i], 0} - s, b - s) <= 0;
     };
-    if (w.b1[i] <= at || limit_ray_crosses_behind()) way.right = false;
+    way.right = !(w.b1[i] <= best_place || limit_ray_crosses_behind());
   } else {
     const auto limit_ray_crosses_behind = [&] {
       return w.b0[i] >= w.b0[best] && side <= 0 && cross(Vec2{w.b0[i], 0} - s, b - s) >= 0;
     };
-    if (w.b0[i] >= at || limit_ray_crosses_behind()) way.left = false;
+    way.left = !(w.b0[i] >= best_place || limit_ray_crosses_behind());
   }
   return way;
 }
 
-Index cross_to_left(const WindowColumns& w, Index count, const Frame& frame, const double* sight_right,
+// Lists out of order: every window for itself.
+void find_routes_one_by_one(const WindowColumns& w, Index count, const Frame& frame, const Sight& sight, Index best,
+                            Routes& routes) {
+  if (routes.some_left.size() < count) {
+    routes.some_left.resize(2 * count);
+    routes.some_right.resize(2 * count);
+  }
+  routes.goes_left = routes.some_left.data();
+  routes.goes_right = routes.some_right.data();
+  routes.left_end = 0;
+  routes.right_begin = count;
+  const double best_place = best == kNoIndex ? 0 : place_of_apex(w, frame, best);
+  for (Index i = 0; i < count; ++i) {
+    Way way{sight.left[i] > 0, sight.right[i] > 0};
+    if (way.left && way.right && best != kNoIndex && i != best) way = way_of_loser(w, frame, best, best_place, i);
+    routes.some_left[i] = way.left ? 1 : 0;
+    routes.some_right[i] = way.right ? 1 : 0;
+    if (way.left) routes.left_end = i + 1;
+    if (way.right) routes.right_begin = std::min(routes.right_begin, i);
+  }
+}
+
+}  // namespace
+
+void find_routes(const WindowColumns& w, Index count, const Frame& frame, const Sight& sight, Index best,
+                 Routes& routes) {
+  const double *left = sight.left.data(), *right = sight.right.data();
+  // Those that pass the apex on the left come first; the best one is where both meet.
+  const Index first = best == kNoIndex ? static_cast<Index>(positive(left, count)) : best;
+  const Index second = best == kNoIndex ? first : best + 1;
+  const double place = best == kNoIndex ? 0 : place_of_apex(w, frame, best);
+  const double left_place = best == kNoIndex ? -kInfinity : place, right_place = best == kNoIndex ? kInfinity : place;
+  routes.left_end = second;
+  routes.right_begin = first;
+  routes.goes_left = left;
+  routes.goes_right = right;
+  if (doubtful(left, right, w.b1, 1, left_place, first) +
+          doubtful(right + second, left + second, w.b0 + second, -1, right_place, std::ptrdiff_t{count} - second) >
+      0) {
+    find_routes_one_by_one(w, count, frame, sight, best, routes);
+  }
+}
+
+Index cross_to_left(const WindowColumns& w, const Routes& routes, const Sight& sight, const Frame& frame,
                     const WindowColumns& out) {
+  const Index count = routes.left_end;
   if (!(frame.left > 0)) return 0;
-  const bool dim =
-      to_left(w.b0, w.b1, w.x, w.y, sight_right, count, frame.apex, frame.left, out.b0, out.b1, out.x, out.y) > 0;
+  const bool dim = to_left(w.b0, w.b1, w.x, w.y, routes.goes_left, sight.right.data(), count, frame.apex, frame.left,
+                           out.b0, out.b1, out.x, out.y) > 0;
   std::copy_n(w.sigma, count, out.sigma);
   std::copy_n(w.root, count, out.root);
   return dim ? without_slivers(out, count) : count;
 }
 
-Index cross_to_right(const WindowColumns& w, Index count, const Frame& frame, const double* sight_left,
-                     const WindowColumns& out) {
+Index cross_to_right(const WindowColumns& all, Index count, const Routes& routes, const Sight& sight,
+                     const Frame& frame, const WindowColumns& out) {
+  const Index begin = routes.right_begin;
+  const WindowColumns w = all.from(begin);
+  count -= begin;
   if (!(frame.right > 0)) return 0;
-  const bool dim = to_right(w.b0, w.b1, w.x, w.y, sight_left, count, frame.apex, frame.length, frame.right, out.b0,
-                            out.b1, out.x, out.y) > 0;
+  const bool dim = to_right(w.b0, w.b1, w.x, w.y, routes.goes_right + begin, sight.left.data() + begin, count,
+                            frame.apex, frame.length, frame.right, out.b0, out.b1, out.x, out.y) > 0;
   std::copy_n(w.sigma, count, out.sigma);
   std::copy_n(w.root, count, out.root);
   return dim ? without_slivers(out, count) : count;

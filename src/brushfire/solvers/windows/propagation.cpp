@@ -509,33 +509,20 @@ class WindowEngine final : public Engine {
     // A list that comes late is on its way out: it is worth trimming.
     const bool late = best != kNoIndex && sight_.value[best] > values_[apex].upper / kDominated;
     const unsigned age = late ? kTrimEvery : list.age + 1;
-    const Index left_edge = 3 * (h / 3) + previous3(h % 3), right_edge = 3 * (h / 3) + next3(h % 3);
-    Sides sides;
-    if (sides_in_order(w, list.size, frame, sight_, best, sides)) {
-      send_left(left_edge, frame, w, sides.left_end, sight_.right.data(), age);
-      send_right(right_edge, frame, w.from(sides.right_begin), list.size - sides.right_begin,
-                 sight_.left.data() + sides.right_begin, age);
-      return;
+    find_routes(w, list.size, frame, sight_, best, routes_);
+    const Index left = 3 * (h / 3) + previous3(h % 3), right = 3 * (h / 3) + next3(h % 3);
+    if (routes_.left_end > 0 && leads_on(left)) {
+      WindowList out{exact_->blocks().allocate(routes_.left_end), 0, age, true};
+      out.size = cross_to_left(w, routes_, sight_, frame, out.block.columns());
+      hand_over(left, out, Origin::Start);
     }
-    const WindowBlock copy = exact_->blocks().allocate(list.size);
-    const WindowColumns some = copy.columns();
-    Index count = 0;
-    chosen_.resize(list.size);
-    for (Index i = 0; i < list.size; ++i) {
-      if (!choose_sides(w, frame, sight_, best, i).left) continue;
-      some.copy_from(count, w, i);
-      chosen_[count++] = sight_.right[i];
+    if (routes_.right_begin < list.size && leads_on(right)) {
+      WindowList out{exact_->blocks().allocate(list.size - routes_.right_begin), 0, age, true};
+      out.size = cross_to_right(w, list.size, routes_, sight_, frame, out.block.columns());
+      hand_over(right, out, Origin::End);
     }
-    send_left(left_edge, frame, some, count, chosen_.data(), age);
-    count = 0;
-    for (Index i = 0; i < list.size; ++i) {
-      if (!choose_sides(w, frame, sight_, best, i).right) continue;
-      some.copy_from(count, w, i);
-      chosen_[count++] = sight_.left[i];
-    }
-    send_right(right_edge, frame, some, count, chosen_.data(), age);
-    exact_->blocks().release(copy);
   }
+  bool leads_on(Index h) const { return structure_.faces[h / 3].beyond[h % 3] != Beyond::Nothing; }
 
   // What the list is to the apex. Returns the window that is best there among those that see it, if any.
   Index reach_apex(Index h, const Frame& frame, const WindowColumns& w, Index count) {
@@ -580,22 +567,6 @@ class WindowEngine final : public Engine {
                      there.detour <= kSeen * there.value);
       }
     });
-  }
-
-  // Windows on to the edge on the left of the apex, the edge on the right; `passes`: their Sight::right, left.
-  void send_left(Index edge, const Frame& frame, const WindowColumns& w, Index count, const double* passes,
-                 unsigned age) {
-    if (count == 0 || structure_.faces[edge / 3].beyond[edge % 3] == Beyond::Nothing) return;
-    WindowList list{exact_->blocks().allocate(count), 0, age, true};
-    list.size = cross_to_left(w, count, frame, passes, list.block.columns());
-    hand_over(edge, list, Origin::Start);
-  }
-  void send_right(Index edge, const Frame& frame, const WindowColumns& w, Index count, const double* passes,
-                  unsigned age) {
-    if (count == 0 || structure_.faces[edge / 3].beyond[edge % 3] == Beyond::Nothing) return;
-    WindowList list{exact_->blocks().allocate(count), 0, age, true};
-    list.size = cross_to_right(w, count, frame, passes, list.block.columns());
-    hand_over(edge, list, Origin::End);
   }
 
   // A list leaves a face over its halfedge h.
@@ -896,7 +867,7 @@ class WindowEngine final : public Engine {
   std::optional<ExactLists> exact_;  // made by the first exact run
   ListTrimmer trim_;
   Sight sight_;
-  std::vector<double> chosen_;
+  Routes routes_;
   std::vector<VertexValues> values_;  // [vertex_count]
   std::vector<VertexLight> light_;    // [vertex_count]
   std::vector<Origins> origins_;      // [vertex_count] in runs with several sources

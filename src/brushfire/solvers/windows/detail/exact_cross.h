@@ -23,32 +23,27 @@ void look_at_apex(const WindowColumns& windows, Index count, const Frame& frame,
 // The place of the least number; `count` > 0.
 Index least_of(const double* numbers, Index count);
 
-// One angle, two sides. Of the windows that see the apex, one is the best there: `best` (kNoIndex: none is known). A
-// window whose ray to the apex crosses the edge left of the best one's has nothing to give on the right where that ray
-// or its limit ray on the right crosses the best one's: there the path along the best one's is shorter. So each window
-// normally goes on to one edge, the best one to both.
-//
-// True where it is enough that the first `left_end` windows go left and those from right_begin on right; false where the
-// windows' order is not that simple, and choose_sides() must be asked for each.
-struct Sides {
+// Which windows go on to the left: those in [0, left_end) with goes_left > 0; to the right: those in
+// [right_begin, count) with goes_right > 0.
+struct Routes {
   Index left_end = 0, right_begin = 0;
+  const double *goes_left = nullptr, *goes_right = nullptr;  // Sight's own or the two below
+  std::vector<double> some_left, some_right;
 };
-bool sides_in_order(const WindowColumns& windows, Index count, const Frame& frame, const Sight& sight, Index best,
-                    Sides& sides);
 
-// Whether window i has to go on to the left, to the right.
-struct Way {
-  bool left, right;
-};
-Way choose_sides(const WindowColumns& windows, const Frame& frame, const Sight& sight, Index best, Index i);
+// One angle, two sides. Of the windows that see the apex, one is the best there: `best` (kNoIndex: none is known). A
+// window whose ray to the apex crosses the edge left of the best one's has nothing to give on the right where its limit
+// ray on the right crosses the best one's ray to the apex: there the path along the best one's is shorter. So each
+// window normally goes on to one side, the best one to both, and the windows' order says which.
+void find_routes(const WindowColumns& windows, Index count, const Frame& frame, const Sight& sight, Index best,
+                 Routes& routes);
 
 // The windows' parts left of the apex on the edge from the start to the apex, the parts right of it on the edge from
-// the apex to the end (as in propagate()); sight_right / sight_left: the windows' own Sight::right, left. Returns how
-// many there are: what is not lit and slivers are left out.
-Index cross_to_left(const WindowColumns& windows, Index count, const Frame& frame, const double* sight_right,
+// the apex to the end (as in propagate()). Return how many there are: what is not lit and slivers are left out.
+Index cross_to_left(const WindowColumns& windows, const Routes& routes, const Sight& sight, const Frame& frame,
                     const WindowColumns& out);
-Index cross_to_right(const WindowColumns& windows, Index count, const Frame& frame, const double* sight_left,
-                     const WindowColumns& out);
+Index cross_to_right(const WindowColumns& windows, Index count, const Routes& routes, const Sight& sight,
+                     const Frame& frame, const WindowColumns& out);
 
 // The values at both ends.
 void end_values(const WindowColumns& windows, Index count, double* d0, double* d1);
