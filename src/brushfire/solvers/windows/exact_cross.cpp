@@ -1,18 +1,11 @@
 // The loops over lists: straight-line arithmetic without branches, which compilers turn into vector instructions.
 #include <brushfire/solvers/windows/detail/exact_cross.h>
 
+#include <brushfire/solvers/windows/detail/wide.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-
-// Compiled for wider vectors as well, where the loader can choose at run time. The results are the same: no sum is
-// reordered, no product fused.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define BRUSHFIRE_WIDE __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
-#else
-#define BRUSHFIRE_WIDE
-#endif
 
 namespace brushfire::detail {
 namespace {

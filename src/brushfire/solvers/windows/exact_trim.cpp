@@ -3,141 +3,195 @@
 
 #include <brushfire/solvers/windows/detail/exact_cross.h>
 #include <brushfire/solvers/windows/detail/ridge.h>
+#include <brushfire/solvers/windows/detail/wide.h>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace brushfire::detail {
 namespace {
 
 double value_of(const WindowColumns& w, Index i, double at) { return w.sigma[i] + length_of(at - w.x[i], w.y[i]); }
 
+// The usual case for a whole list at once: window i reaches into the next one, j = i + 1, and is the lower one where
+// their overlap begins, the next one where it ends, so that both end at the ridge. ridge_in_closed_form() says how that
+// is found. plain: 1 where all that holds.
+BRUSHFIRE_WIDE void ridges(const double* __restrict b0, const double* __restrict b1, const double* __restrict x,
+                           const double* __restrict y, const double* __restrict sigma, const double* __restrict d0,
+                           const double* __restrict d1, std::ptrdiff_t pairs, double* __restrict ridge,
+                           double* __restrict value_i, double* __restrict value_j, double* __restrict plain) {
+  for (std::ptrdiff_t i = 0; i < pairs; ++i) {
+    const std::ptrdiff_t j = i + 1;
+    const double p = b0[j], q = b1[i];
+    const double ax = x[i] - p, bx = x[j] - p, ay = y[i], by = y[j], bqx = x[j] - q;
+    const double ip = sigma[i] + std::sqrt(ax * ax + ay * ay), jq = sigma[j] + std::sqrt(bqx * bqx + by * by);
+    const double within = tie(ip > d1[i] ? ip : d1[i]);
+    const double d = sigma[j] - sigma[i];
+    const double slope = 2 * (bx - ax);
+    const double rest = (ax - bx) * (ax + bx) + (ay - by) * (ay + by) - d * d;
+    const double qa = slope * slope - 4 * d * d, qb = slope * rest + 4 * d * d * bx;
+    const double qc = rest * rest - 4 * d * d * (bx * bx + by * by);
+    const double discriminant = qb * qb - qa * qc;
+    const double root = std::sqrt(discriminant > 0 ? discriminant : 0.0);
+    const double sum = qb > 0 ? -(qb + root) : root - qb;
+    const double x1 = sum / qa, x2 = qc / sum, x0 = -rest / slope, length = q - p;
+    const bool fits1 = (x1 >= 0) & (x1 <= length) & ((slope * x1 + rest) * d >= 0);
+    const double z = p + (d == 0 ? x0 : (fits1 ? x1 : x2));
+    const double azx = z - x[i], bzx = z - x[j];
+    const double iz = sigma[i] + std::sqrt(azx * azx + ay * ay), jz = sigma[j] + std::sqrt(bzx * bzx + by * by);
+    const double off = iz > jz ? iz - jz : jz - iz;
+    ridge[i] = z;
+    value_i[i] = iz;
+    value_j[i] = jz;
+    plain[i] = (b0[i] <= p) & (q <= b1[j]) & (d0[j] - ip > within) & (d1[i] - jq > within) & (z >= p) & (z <= q) &
+                       (off <= within)
+                   ? 1.0
+                   : 0.0;
+  }
+}
+
+// How many of the windows another path makes superfluous (is_dominated()) or lie beyond the radius.
+BRUSHFIRE_WIDE std::int64_t useless(const double* __restrict b0, const double* __restrict b1,
+                                    const double* __restrict d0, const double* __restrict d1, std::ptrdiff_t count,
+                                    EdgeBounds edge, double radius) {
+  std::int64_t found = 0;
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const std::int64_t by_start = edge.start + b1[i] < d1[i] * kDominated;
+    const std::int64_t by_end = edge.end + (edge.length - b0[i]) < d0[i] * kDominated;
+    const std::int64_t beyond = 0.5 * (d0[i] + d1[i] - (b1[i] - b0[i])) > radius;
+    found += by_start | by_end | beyond;
+  }
+  return found;
+}
+
 }  // namespace
 
 void ListTrimmer::operator()(WindowList& list, const EdgeBounds& edge, double radius, BlockPool& blocks) {
-  load(list, edge, radius);
   list.age = 0;
+  drop_dominated(list, edge, radius);
   if (!list.ordered) return replace_by_envelope(list, blocks);
-  sweep(list.block.columns());
-  store(list);
+  const WindowColumns w = list.block.columns();
+  sweep(w, list.size);
+  Index count = 0;
+  for (const Index i : kept_) {
+    if (count != i) w.move(count, i);
+    ++count;
+  }
+  list.size = count;
 }
 
-// The windows that no path through an end of the edge makes superfluous.
-void ListTrimmer::load(const WindowList& list, const EdgeBounds& edge, double radius) {
+// Leaves the values at the ends in d0_ and d1_.
+void ListTrimmer::drop_dominated(WindowList& list, const EdgeBounds& edge, double radius) {
   const WindowColumns w = list.block.columns();
   if (d0_.size() < list.size) {
-    d0_.resize(2 * list.size);
-    d1_.resize(2 * list.size);
+    for (std::vector<double>* column : {&d0_, &d1_, &ridge_, &ridge_a_, &ridge_b_, &plain_}) {
+      column->resize(2 * list.size);
+    }
   }
   end_values(w, list.size, d0_.data(), d1_.data());
-  parts_.clear();
+  if (useless(w.b0, w.b1, d0_.data(), d1_.data(), list.size, edge, radius) == 0) return;
+  Index count = 0;
   for (Index i = 0; i < list.size; ++i) {
     const double b0 = w.b0[i], b1 = w.b1[i], d0 = d0_[i], d1 = d1_[i];
     if (is_dominated(edge, b0, b1, d0, d1) || 0.5 * (d0 + d1 - (b1 - b0)) > radius) continue;
-    parts_.push_back({i, b0, b1, d0, d1});
+    if (count != i) w.move(count, i);
+    d0_[count] = d0;
+    d1_[count] = d1;
+    ++count;
   }
+  list.size = count;
 }
 
-void ListTrimmer::sweep(const WindowColumns& w) {
+void ListTrimmer::sweep(const WindowColumns& w, Index count) {
   constexpr std::size_t kDepth = 6;  // how many windows back are looked at
-  const auto gone = [&](const Part& p) { return !(p.b1 - p.b0 > kSliver * (p.d0 - w.sigma[p.window])); };
-  std::size_t kept = 0;
-  for (std::size_t next = 0; next < parts_.size(); ++next) {
-    Part part = parts_[next];
-    if (gone(part)) continue;
-    const std::size_t last = kept > kDepth ? kept - kDepth : 0;
-    bool alive = true;
-    for (std::size_t k = kept; k-- > last && alive;) {
-      Part& before = parts_[k];
-      if (part.b0 >= before.b1) break;
-      if (before.b0 >= part.b1) continue;
-      settle(w, before, part);
-      alive = !gone(part);
-      if (gone(before)) {
-        std::copy(parts_.begin() + static_cast<std::ptrdiff_t>(k) + 1,
-                  parts_.begin() + static_cast<std::ptrdiff_t>(kept), parts_.begin() + static_cast<std::ptrdiff_t>(k));
-        --kept;
-      }
-    }
-    if (alive) parts_[kept++] = part;
+  const auto gone = [&](Index i) { return !(w.b1[i] - w.b0[i] > kSliver * (d0_[i] - w.sigma[i])); };
+  if (count > 1) {
+    ridges(w.b0, w.b1, w.x, w.y, w.sigma, d0_.data(), d1_.data(), std::ptrdiff_t{count} - 1, ridge_.data(),
+           ridge_a_.data(), ridge_b_.data(), plain_.data());
   }
-  parts_.resize(kept);
+  kept_.clear();
+  for (Index i = 0; i < count; ++i) {
+    // Plain, if the one before is still there and what it lost on its left does not reach into this one.
+    if (i > 0 && !kept_.empty() && kept_.back() == i - 1 && plain_[i - 1] > 0 && w.b0[i - 1] <= w.b0[i]) {
+      w.b1[i - 1] = w.b0[i] = ridge_[i - 1];
+      d1_[i - 1] = ridge_a_[i - 1];
+      d0_[i] = ridge_b_[i - 1];
+      if (!gone(i - 1) && !gone(i)) {
+        kept_.push_back(i);
+        continue;
+      }
+      if (gone(i - 1)) kept_.pop_back();
+    }
+    if (gone(i)) continue;
+    const std::size_t last = kept_.size() > kDepth ? kept_.size() - kDepth : 0;
+    bool alive = true;
+    for (std::size_t k = kept_.size(); k-- > last && alive;) {
+      const Index before = kept_[k];
+      if (w.b0[i] >= w.b1[before]) break;
+      if (w.b0[before] >= w.b1[i]) continue;
+      settle(w, before, i);
+      alive = !gone(i);
+      if (gone(before)) kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+    if (alive) kept_.push_back(i);
+  }
 }
 
-// Two windows that overlap.
-void ListTrimmer::settle(const WindowColumns& w, Part& a, Part& b) {
-  const double p = std::max(a.b0, b.b0), q = std::min(a.b1, b.b1);
-  const Index i = a.window, j = b.window;
-  const double ap = p == a.b0 ? a.d0 : value_of(w, i, p), bp = p == b.b0 ? b.d0 : value_of(w, j, p);
-  const double aq = q == a.b1 ? a.d1 : value_of(w, i, q), bq = q == b.b1 ? b.d1 : value_of(w, j, q);
+// Two windows that overlap: each loses what it was shown to lose, if that is at one of its ends.
+void ListTrimmer::settle(const WindowColumns& w, Index a, Index b) {
+  const double p = std::max(w.b0[a], w.b0[b]), q = std::min(w.b1[a], w.b1[b]);
+  const double ap = p == w.b0[a] ? d0_[a] : value_of(w, a, p), bp = p == w.b0[b] ? d0_[b] : value_of(w, b, p);
+  const double aq = q == w.b1[a] ? d1_[a] : value_of(w, a, q), bq = q == w.b1[b] ? d1_[b] : value_of(w, b, q);
   const double within = tie(std::max(ap, aq));
   const auto settled = [&](double f) { return std::abs(f) <= within ? 0.0 : f; };
   const double fp = settled(ap - bp), fq = settled(aq - bq);
-  // What a window loses goes if it is at an end of it.
-  const auto cut_left = [](Part& part, double to, double value) {
-    part.b0 = to;
-    part.d0 = value;
+  const auto cut_left = [&](Index i, double to, double value) {
+    w.b0[i] = to;
+    d0_[i] = value;
   };
-  const auto cut_right = [](Part& part, double to, double value) {
-    part.b1 = to;
-    part.d1 = value;
-  };
-  const auto lose = [&](Part& loser, double at_p, double at_q) {
-    if (q == loser.b1) {
-      cut_right(loser, p, at_p);
-    } else if (p == loser.b0) {
-      cut_left(loser, q, at_q);
-    }
+  const auto cut_right = [&](Index i, double to, double value) {
+    w.b1[i] = to;
+    d1_[i] = value;
   };
   if (fp * fq < 0) {
-    const Vec2 s{w.x[i], w.y[i]}, t{w.x[j], w.y[j]};
-    double z = p + ridge_in_closed_form(s, t, w.sigma[j] - w.sigma[i], p, q - p);
-    double az = value_of(w, i, z), bz = value_of(w, j, z);
+    const Vec2 s{w.x[a], w.y[a]}, t{w.x[b], w.y[b]};
+    double z = p + ridge_in_closed_form(s, t, w.sigma[b] - w.sigma[a], p, q - p);
+    double az = value_of(w, a, z), bz = value_of(w, b, z);
     if (!(z >= p && z <= q && std::abs(az - bz) <= within)) {
-      z = ridge(w.window(i), w.window(j), p, q, fp, fq);
-      az = value_of(w, i, z);
-      bz = value_of(w, j, z);
+      z = ridge(w.window(a), w.window(b), p, q, fp, fq);
+      az = value_of(w, a, z);
+      bz = value_of(w, b, z);
     }
-    Part &first = fp < 0 ? a : b, &second = fp < 0 ? b : a;
-    if (first.b1 == q) cut_right(first, z, fp < 0 ? az : bz);
-    if (second.b0 == p) cut_left(second, z, fp < 0 ? bz : az);
+    const bool a_first = fp < 0;
+    const Index first = a_first ? a : b, second = a_first ? b : a;
+    if (w.b1[first] == q) cut_right(first, z, a_first ? az : bz);
+    if (w.b0[second] == p) cut_left(second, z, a_first ? bz : az);
     return;
   }
   // One is lower at both ends; the other may win between them, where the slopes are equal, if its source is the nearer.
   bool a_wins = fp < 0 || fq < 0;
   const bool draw = fp == 0 && fq == 0;
-  if (draw || (a_wins ? w.sigma[j] > w.sigma[i] : w.sigma[i] > w.sigma[j])) {
-    const double along = w.y[j] - w.y[i];
-    const double x = along == 0 ? kInfinity : (w.x[i] * w.y[j] - w.y[i] * w.x[j]) / along;
-    const double fx = x > p && x < q ? settled(value_of(w, i, x) - value_of(w, j, x)) : 0;
+  if (draw || (a_wins ? w.sigma[b] > w.sigma[a] : w.sigma[a] > w.sigma[b])) {
+    const double along = w.y[b] - w.y[a];
+    const double x = along == 0 ? kInfinity : (w.x[a] * w.y[b] - w.y[a] * w.x[b]) / along;
+    const double fx = x > p && x < q ? settled(value_of(w, a, x) - value_of(w, b, x)) : 0;
     if (draw) {
-      a_wins = fx < 0 || (fx == 0 && w.root[i] <= w.root[j]);
+      a_wins = fx < 0 || (fx == 0 && w.root[a] <= w.root[b]);
     } else if (a_wins ? fx > 0 : fx < 0) {
       return;
     }
   }
-  if (a_wins) {
-    lose(b, bp, bq);
-  } else {
-    lose(a, ap, aq);
+  const Index loser = a_wins ? b : a;
+  if (q == w.b1[loser]) {
+    cut_right(loser, p, a_wins ? bp : ap);
+  } else if (p == w.b0[loser]) {
+    cut_left(loser, q, a_wins ? bq : aq);
   }
-}
-
-void ListTrimmer::store(WindowList& list) const {
-  const WindowColumns w = list.block.columns();
-  Index kept = 0;
-  for (const Part& part : parts_) {
-    if (kept != part.window) w.move(kept, part.window);
-    w.b0[kept] = part.b0;
-    w.b1[kept] = part.b1;
-    ++kept;
-  }
-  list.size = kept;
 }
 
 void ListTrimmer::replace_by_envelope(WindowList& list, BlockPool& blocks) {
-  const WindowColumns w = list.block.columns();
   windows_.clear();
-  for (const Part& part : parts_) windows_.push_back(w.window(part.window));
+  for (Index i = 0; i < list.size; ++i) windows_.push_back(list.block.columns().window(i));
   const std::span<Window> result = envelope_(windows_);
   list.size = static_cast<Index>(result.size());
   list.ordered = true;

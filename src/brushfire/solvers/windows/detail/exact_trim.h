@@ -19,20 +19,15 @@ class ListTrimmer {
   void operator()(WindowList& list, const EdgeBounds& edge, double radius, BlockPool& blocks);
 
  private:
-  // A window's index in the list, and what of it is left.
-  struct Part {
-    Index window;
-    double b0, b1, d0, d1;
-  };
-
-  void load(const WindowList& list, const EdgeBounds& edge, double radius);
-  void sweep(const WindowColumns& w);
-  static void settle(const WindowColumns& w, Part& left, Part& right);
-  void store(WindowList& list) const;
+  void drop_dominated(WindowList& list, const EdgeBounds& edge, double radius);
+  void sweep(const WindowColumns& w, Index count);
+  void settle(const WindowColumns& w, Index a, Index b);
   void replace_by_envelope(WindowList& list, BlockPool& blocks);
 
-  std::vector<double> d0_, d1_;
-  std::vector<Part> parts_;
+  std::vector<double> d0_, d1_;  // values at the ends
+  // Of each window and the next one: where they cross, their values there; whether that is all there is to it.
+  std::vector<double> ridge_, ridge_a_, ridge_b_, plain_;
+  std::vector<Index> kept_;
   std::vector<Window> windows_;
   Envelope envelope_;
 };
