@@ -52,7 +52,6 @@ void BlockPool::clear() {
 Index ExactLists::allocate_part() {
   if (free_part_ == kNoIndex) {
     parts_.emplace_back();
-    keys_.push_back(kInfinity);
     return static_cast<Index>(parts_.size() - 1);
   }
   const Index part = free_part_;
@@ -60,27 +59,30 @@ Index ExactLists::allocate_part() {
   return part;
 }
 
-void ExactLists::put(Index h, Origin origin, const WindowList& list) {
+void ExactLists::put(Index& first, Index h, Origin origin, const WindowList& list) {
   const Index added = allocate_part();
-  Part& part = parts_[added];
-  part.list = list;
-  part.origin = origin;
-  const Index head = first_[h];
-  if (head == kNoIndex || origin < parts_[head].origin) {
-    part.next = head;
-    keys_[added] = head == kNoIndex ? kInfinity : keys_[head];
-    first_[h] = added;
-    return;
+  Index before = kNoIndex, after = first;
+  while (after != kNoIndex &&
+         (parts_[after].halfedge < h || (parts_[after].halfedge == h && parts_[after].origin <= origin))) {
+    before = after;
+    after = parts_[after].next;
   }
-  Index before = head;
-  while (parts_[before].next != kNoIndex && parts_[parts_[before].next].origin <= origin) before = parts_[before].next;
-  if (parts_[before].origin == origin) part.list.ordered = false;
-  part.next = parts_[before].next;
-  parts_[before].next = added;
+  Part& part = parts_[added];
+  part = {list, kInfinity, h, after, origin};
+  if (before == kNoIndex) {
+    first = added;
+  } else {
+    parts_[before].next = added;
+  }
+  if (before != kNoIndex && parts_[before].halfedge == h) {
+    if (parts_[before].origin == origin) part.list.ordered = false;
+  } else if (after != kNoIndex && parts_[after].halfedge == h) {
+    part.key = parts_[after].key;
+  }
 }
 
-void ExactLists::put(Index h, Origin origin, const Window& w) {
-  for (Index p = first_[h]; p != kNoIndex; p = parts_[p].next) {
+void ExactLists::put(Index& first, Index h, Origin origin, const Window& w) {
+  for (Index p = find(first, h); p != kNoIndex && parts_[p].halfedge == h; p = parts_[p].next) {
     WindowList& list = parts_[p].list;
     if (parts_[p].origin != origin || list.size == list.block.capacity()) continue;
     list.block.columns().set(list.size++, w);
@@ -91,27 +93,31 @@ void ExactLists::put(Index h, Origin origin, const Window& w) {
   list.block = blocks_.allocate(1);
   list.block.columns().set(0, w);
   list.size = 1;
-  put(h, origin, list);
+  put(first, h, origin, list);
 }
 
-WindowList ExactLists::take(Index h) {
-  const Index head = first_[h];
-  first_[h] = kNoIndex;
+WindowList ExactLists::take(Index& first, Index h) {
+  Index* link = &first;
+  while (parts_[*link].halfedge != h) link = &parts_[*link].next;
+  const Index head = *link;
+  Index last = head, total = parts_[head].list.size;
+  for (Index p = parts_[head].next; p != kNoIndex && parts_[p].halfedge == h; p = parts_[p].next) {
+    total += parts_[p].list.size;
+    last = p;
+  }
+  const Index end = parts_[last].next;
+  *link = end;
   WindowList result = parts_[head].list;
-  Index last = head;
-  if (parts_[head].next != kNoIndex) {
-    Index total = 0;
-    for (Index p = head; p != kNoIndex; p = parts_[p].next) total += parts_[p].list.size;
+  if (last != head) {
     result = {blocks_.allocate(total), 0, 0, true};
     const WindowColumns all = result.block.columns();
-    for (Index p = head; p != kNoIndex; p = parts_[p].next) {
+    for (Index p = head; p != end; p = parts_[p].next) {
       const WindowList& part = parts_[p].list;
       copy_windows(part.block.columns(), all.from(result.size), part.size);
       result.size += part.size;
       result.age = std::max(result.age, part.age);
       result.ordered = result.ordered && part.ordered && parts_[p].origin != Origin::Anywhere;
       blocks_.release(part.block);
-      last = p;
     }
   }
   parts_[last].next = free_part_;
@@ -119,10 +125,10 @@ WindowList ExactLists::take(Index h) {
   return result;
 }
 
-void ExactLists::prefetch_windows(Index h) const {
+void ExactLists::prefetch_windows(Index first) const {
   constexpr std::size_t kLine = 64, kMost = 16;  // lines
-  if (first_[h] == kNoIndex) return;
-  const WindowList& list = parts_[first_[h]].list;
+  if (first == kNoIndex) return;
+  const WindowList& list = parts_[first].list;
   const std::size_t column = list.block.capacity() * sizeof(double), used = list.size * sizeof(double);
   std::size_t lines = 0;
   for (std::size_t c = 0; c < 5; ++c) {
@@ -133,9 +139,7 @@ void ExactLists::prefetch_windows(Index h) const {
 }
 
 void ExactLists::clear() {
-  std::fill(first_.begin(), first_.end(), kNoIndex);
   parts_.clear();
-  keys_.clear();
   free_part_ = kNoIndex;
   blocks_.clear();
 }

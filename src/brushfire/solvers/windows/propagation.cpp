@@ -24,7 +24,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 
 namespace brushfire::detail {
@@ -105,7 +104,6 @@ class WindowEngine final : public Engine {
     budget_ = budget_of(*problem.options);
     in_lists_ = !merges() && radius_ > kShort * structure_.bucket_width;
     queue_.reset(in_lists_ ? kExactBucket * structure_.bucket_width : structure_.bucket_width);
-    if (in_lists_ && !exact_) exact_.emplace(static_cast<Index>(3 * structure_.faces.size()));
     place_targets();
     for (const LocatedSource& s : problem.sources) start(s);
     drain();
@@ -134,7 +132,7 @@ class WindowEngine final : public Engine {
     if (!queue_.empty()) {  // left over from a run that was stopped
       lists_.clear();
       for (WindowFace& f : structure_.faces) f.waiting = kNoIndex;
-      if (exact_) exact_->clear();
+      exact_.clear();
     }
     for (const TargetInFace& t : targets_in_faces_) structure_.faces[t.face].has_target = false;
     targets_in_faces_.clear();
@@ -242,14 +240,14 @@ class WindowEngine final : public Engine {
       }
       if (field_->updates >= next_target_check_) narrow_radius();
       const EventQueue::Event event = queue_.pop();
-      if (merges()) {
-        prefetch_next();
-      } else {
+      if (in_lists_) {
         prefetch_next_list();
+      } else {
+        prefetch_next();
       }
       if (event.is_list) {
         if (goes_in_lists(event.index)) {
-          if (!exact_->empty(event.index)) spread_list(event.index);
+          spread_list(event.index);
         } else {
           spread(event.index);
         }
@@ -280,22 +278,18 @@ class WindowEngine final : public Engine {
   // The same for lists of exact runs.
   void prefetch_next_list() const {
     const Index third = queue_.peek_list(6), second = queue_.peek_list(3), first = queue_.peek_list(1);
-    if (third != kNoIndex) {
-      prefetch(&structure_.faces[third / 3]);
-      exact_->prefetch_head(third);
-    }
+    if (third != kNoIndex) prefetch(&structure_.faces[third / 3]);
     if (second != kNoIndex) {
       const WindowFace& f = structure_.faces[second / 3];
       const Index apex = f.vertex[previous3(second % 3)];
-      exact_->prefetch_list(second);
+      if (!f.thin) exact_.prefetch_list(f.waiting);
       prefetch(&values_[apex]);
-      prefetch(&state_[apex]);
-      for (const Index k : {next3(second % 3), previous3(second % 3)}) {
-        prefetch(&structure_.faces[f.opposite[k] / 3]);
-        exact_->prefetch_head(f.opposite[k]);
-      }
+      prefetch(&light_[apex]);
+      for (const Index k : {next3(second % 3), previous3(second % 3)}) prefetch(&structure_.faces[f.opposite[k] / 3]);
     }
-    if (first != kNoIndex) exact_->prefetch_windows(first);
+    if (first != kNoIndex && !structure_.faces[first / 3].thin) {
+      exact_.prefetch_windows(structure_.faces[first / 3].waiting);
+    }
   }
 
   // Nothing beyond the farthest target matters once all have been reached.
@@ -403,7 +397,7 @@ class WindowEngine final : public Engine {
     if (lists_.push(f.waiting, h, w, turn)) queue_.push_list(h, at_apex.value, turn);
   }
   [[gnu::noinline]] void insert_into_list(Index h, const Window& w, Origin origin) {
-    exact_->put(h, origin, w);
+    exact_.put(structure_.faces[h / 3].waiting, h, origin, w);
     queue_list(h, std::min({w.d0, w.d1, nearer_end(h)}));
   }
   // Whether a window whose apex is beyond the radius has nothing to tell anyone behind the face.
@@ -478,21 +472,22 @@ class WindowEngine final : public Engine {
     return std::min(values_[f.vertex[h % 3]].upper, values_[f.vertex[next3(h % 3)]].upper);
   }
   void queue_list(Index h, double key) {
-    double& queued = exact_->key(h);
+    double& queued = exact_.key(structure_.faces[h / 3].waiting, h);
     if (key < queued && !(queued < kInfinity && queue_.same_bucket(key, queued))) queue_.push_list(h, key);
     queued = std::min(queued, key);
   }
 
   // The turn of a list: trimmed now and then, and on to the other two edges as a whole.
   void spread_list(Index h) {
-    const WindowFace& f = structure_.faces[h / 3];
+    WindowFace& f = structure_.faces[h / 3];
     const Index k = h % 3;
-    WindowList list = exact_->take(h);
+    if (exact_.empty(f.waiting, h)) return;
+    WindowList list = exact_.take(f.waiting, h);
     if (list.age >= kTrimEvery || !list.ordered || radius_ < kInfinity || problem_->options->keep_windows) {
-      trim_(list, bounds_of(f, k), radius_, exact_->blocks());
+      trim_(list, bounds_of(f, k), radius_, exact_.blocks());
     }
     if (list.size > 0) cross_face(h, list);
-    exact_->blocks().release(list.block);
+    exact_.blocks().release(list.block);
   }
 
   void cross_face(Index h, const WindowList& list) {
@@ -512,12 +507,12 @@ class WindowEngine final : public Engine {
     find_routes(w, list.size, frame, sight_, best, routes_);
     const Index left = 3 * (h / 3) + previous3(h % 3), right = 3 * (h / 3) + next3(h % 3);
     if (routes_.left_end > 0 && leads_on(left)) {
-      WindowList out{exact_->blocks().allocate(routes_.left_end), 0, age, true};
+      WindowList out{exact_.blocks().allocate(routes_.left_end), 0, age, true};
       out.size = cross_to_left(w, routes_, sight_, frame, out.block.columns());
       hand_over(left, out, Origin::Start);
     }
     if (routes_.right_begin < list.size && leads_on(right)) {
-      WindowList out{exact_->blocks().allocate(list.size - routes_.right_begin), 0, age, true};
+      WindowList out{exact_.blocks().allocate(list.size - routes_.right_begin), 0, age, true};
       out.size = cross_to_right(w, list.size, routes_, sight_, frame, out.block.columns());
       hand_over(right, out, Origin::End);
     }
@@ -574,12 +569,12 @@ class WindowEngine final : public Engine {
     const WindowFace& f = structure_.faces[h / 3];
     const Index beyond = f.opposite[h % 3];
     if (list.size > 0 && f.beyond[h % 3] == Beyond::Face && goes_in_lists(beyond)) {
-      exact_->put(beyond, origin, list);
+      exact_.put(structure_.faces[beyond / 3].waiting, beyond, origin, list);
       return queue_list(beyond, nearer_end(beyond));
     }
     const WindowColumns w = list.block.columns();
     for (Index i = 0; i < list.size; ++i) cross_edge(h, w.window(i));
-    exact_->blocks().release(list.block);
+    exact_.blocks().release(list.block);
   }
 
   // ---- merging
@@ -864,7 +859,7 @@ class WindowEngine final : public Engine {
   EventQueue queue_;
   Envelope envelope_;
   WindowMemory memory_;
-  std::optional<ExactLists> exact_;  // made by the first exact run
+  ExactLists exact_;
   ListTrimmer trim_;
   Sight sight_;
   Routes routes_;

@@ -96,41 +96,46 @@ struct WindowList {
   bool ordered = true;  // from left to right, as far as is known
 };
 
-// What waits at each halfedge: up to one list of each origin. More than that, and the list is known to be out of order.
+// What waits on the halfedges of faces: up to one list of each origin, more only where a list is known to be out of
+// order. The lists of one face are linked, by halfedge and origin; the head is in the face's record
+// (WindowFace::waiting).
 class ExactLists {
  public:
-  explicit ExactLists(Index halfedge_count) : first_(halfedge_count, kNoIndex) {}
-
-  bool empty(Index h) const { return first_[h] == kNoIndex; }
-  // The key under which h's lists were queued last.
-  double& key(Index h) { return keys_[first_[h]]; }
-
   BlockPool& blocks() { return blocks_; }
-  // The list waits at h from now on; its block is the caller's no longer.
-  void put(Index h, Origin origin, const WindowList& list);
-  void put(Index h, Origin origin, const Window& w);
-  // All that waits at h as one list, from origin to origin; the caller releases its block.
-  WindowList take(Index h);
 
-  void prefetch_head(Index h) const { prefetch(&first_[h]); }
-  void prefetch_list(Index h) const {
-    if (first_[h] != kNoIndex) prefetch(&parts_[first_[h]]);
+  bool empty(Index first, Index h) const { return find(first, h) == kNoIndex; }
+  // The key under which h's lists were queued last; infinity before that. Something must wait at h.
+  double& key(Index first, Index h) { return parts_[find(first, h)].key; }
+
+  // The list waits at h from now on; its block is the caller's no longer.
+  void put(Index& first, Index h, Origin origin, const WindowList& list);
+  void put(Index& first, Index h, Origin origin, const Window& w);
+  // All that waits at h as one list, from origin to origin; something must. The caller releases the block.
+  WindowList take(Index& first, Index h);
+
+  void prefetch_list(Index first) const {
+    if (first != kNoIndex) prefetch(&parts_[first]);
   }
-  void prefetch_windows(Index h) const;
+  void prefetch_windows(Index first) const;
+  // The caller sees to the heads.
   void clear();
 
  private:
   struct Part {
     WindowList list;
-    Index next = kNoIndex;  // by origin
+    double key = kInfinity;  // of a halfedge's first part
+    Index halfedge = kNoIndex;
+    Index next = kNoIndex;
     Origin origin = Origin::Start;
   };
+  Index find(Index first, Index h) const {
+    while (first != kNoIndex && parts_[first].halfedge != h) first = parts_[first].next;
+    return first;
+  }
   Index allocate_part();
 
-  std::vector<Index> first_;  // [halfedge_count]
   std::vector<Part> parts_;
-  std::vector<double> keys_;  // [part], of a halfedge's first part
-  Index free_part_ = kNoIndex;
+  Index free_part_ = kNoIndex;  // freed ones, linked by next
   BlockPool blocks_;
 };
 
