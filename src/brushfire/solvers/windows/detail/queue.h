@@ -57,7 +57,8 @@ class EventQueue {
         --near_count_;
         return {0, b.vertices[vertex_position_++], false};
       }
-      b.clear();
+      spare_.give(b.lists);
+      spare_.give(b.vertices);
       list_position_ = vertex_position_ = 0;
       advance();
     }
@@ -78,6 +79,25 @@ class EventQueue {
     }
   };
 
+  // Memory of emptied buckets, for the next ones to be filled: few buckets hold events at a time.
+  class Spare {
+   public:
+    void give(std::vector<Index>& events) {
+      events.clear();
+      if (events.capacity() == 0) return;
+      free_.emplace_back();
+      free_.back().swap(events);
+    }
+    void take(std::vector<Index>& events) {
+      if (free_.empty()) return;
+      events.swap(free_.back());
+      free_.pop_back();
+    }
+
+   private:
+    std::vector<std::vector<Index>> free_;
+  };
+
   std::int64_t number(double key) const {
     constexpr double kMost = 4e18;  // keys beyond what 64 bits count share the last bucket
     return static_cast<std::int64_t>(std::min(key * inverse_width_, kMost));
@@ -90,7 +110,9 @@ class EventQueue {
       return;
     }
     Bucket& b = buckets_[n % kBuckets];
-    (e.is_list ? b.lists : b.vertices).push_back(e.index);
+    std::vector<Index>& events = e.is_list ? b.lists : b.vertices;
+    if (events.capacity() == 0) spare_.take(events);
+    events.push_back(e.index);
     ++near_count_;
   }
 
@@ -109,6 +131,7 @@ class EventQueue {
   }
 
   std::vector<Bucket> buckets_;
+  Spare spare_;
   std::vector<Event> far_, moving_;
   std::int64_t current_ = 0;
   std::int64_t near_count_ = 0;
