@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 namespace brushfire::detail {
 namespace {
@@ -48,6 +49,21 @@ BRUSHFIRE_WIDE void ridges(const double* __restrict b0, const double* __restrict
                    ? 1.0
                    : 0.0;
   }
+}
+
+// All light of a source on the edge, or as good as, leaves through one point, and parts of the interval do not stand
+// for parts of the light: such windows are neither cut nor do they cut others. Beside a source that is kTooNear of the
+// interval away, a cut turns the limit ray by up to epsilon / kTooNear = 2e-8; who is missed by that is reached with a
+// detour of half its square.
+constexpr double kTooNear = 1e-8;
+bool is_too_near(const WindowColumns& w, Index i) {
+  return -w.y[i] <= kTooNear * (w.b1[i] - w.b0[i]) && w.x[i] > w.b0[i] && w.x[i] < w.b1[i];
+}
+BRUSHFIRE_WIDE std::int64_t nearly_on_edge(const double* __restrict b0, const double* __restrict b1,
+                                           const double* __restrict y, std::ptrdiff_t count) {
+  std::int64_t found = 0;
+  for (std::ptrdiff_t i = 0; i < count; ++i) found += -y[i] <= kTooNear * (b1[i] - b0[i]) ? 1 : 0;
+  return found;
 }
 
 // How many of the windows another path makes superfluous (is_dominated()) or lie beyond the radius.
@@ -109,10 +125,11 @@ void ListTrimmer::sweep(const WindowColumns& w, Index count) {
     ridges(w.b0, w.b1, w.x, w.y, w.sigma, d0_.data(), d1_.data(), std::ptrdiff_t{count} - 1, ridge_.data(),
            ridge_a_.data(), ridge_b_.data(), plain_.data());
   }
+  const bool all_may_be_cut = nearly_on_edge(w.b0, w.b1, w.y, count) == 0;
   kept_.clear();
   for (Index i = 0; i < count; ++i) {
     // Plain, if the one before is still there and what it lost on its left does not reach into this one.
-    if (i > 0 && !kept_.empty() && kept_.back() == i - 1 && plain_[i - 1] > 0 && w.b0[i - 1] <= w.b0[i]) {
+    if (all_may_be_cut && !kept_.empty() && kept_.back() == i - 1 && plain_[i - 1] > 0 && w.b0[i - 1] <= w.b0[i]) {
       w.b1[i - 1] = w.b0[i] = ridge_[i - 1];
       d1_[i - 1] = ridge_a_[i - 1];
       d0_[i] = ridge_b_[i - 1];
@@ -129,6 +146,7 @@ void ListTrimmer::sweep(const WindowColumns& w, Index count) {
       const Index before = kept_[k];
       if (w.b0[i] >= w.b1[before]) break;
       if (w.b0[before] >= w.b1[i]) continue;
+      if (!all_may_be_cut && (is_too_near(w, before) || is_too_near(w, i))) continue;
       settle(w, before, i);
       alive = !gone(i);
       if (gone(before)) kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(k));
@@ -191,16 +209,20 @@ void ListTrimmer::settle(const WindowColumns& w, Index a, Index b) {
 
 void ListTrimmer::replace_by_envelope(WindowList& list, BlockPool& blocks) {
   windows_.clear();
-  for (Index i = 0; i < list.size; ++i) windows_.push_back(list.block.columns().window(i));
+  uncut_.clear();
+  const WindowColumns w = list.block.columns();
+  for (Index i = 0; i < list.size; ++i) (is_too_near(w, i) ? uncut_ : windows_).push_back(w.window(i));
   const std::span<Window> result = envelope_(windows_);
-  list.size = static_cast<Index>(result.size());
+  list.size = static_cast<Index>(result.size() + uncut_.size());
   list.ordered = true;
   if (list.size > list.block.capacity()) {
     blocks.release(list.block);
     list.block = blocks.allocate(list.size);
   }
   const WindowColumns out = list.block.columns();
-  for (Index i = 0; i < list.size; ++i) out.set(i, result[i]);
+  Index count = 0;
+  for (const Window& window : result) out.set(count++, window);
+  for (const Window& window : uncut_) out.set(count++, window);
 }
 
 }  // namespace brushfire::detail

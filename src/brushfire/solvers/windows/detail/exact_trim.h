@@ -28,7 +28,7 @@ class ListTrimmer {
   // Of each window and the next one: where they cross, their values there; whether that is all there is to it.
   std::vector<double> ridge_, ridge_a_, ridge_b_, plain_;
   std::vector<Index> kept_;
-  std::vector<Window> windows_;
+  std::vector<Window> windows_, uncut_;
   Envelope envelope_;
 };
 
