@@ -51,18 +51,14 @@ BRUSHFIRE_WIDE void ridges(const double* __restrict b0, const double* __restrict
   }
 }
 
-// All light of a source on the edge, or as good as, leaves through one point, and parts of the interval do not stand
-// for parts of the light: such windows are neither cut nor do they cut others. Beside a source that is kTooNear of the
-// interval away, a cut turns the limit ray by up to epsilon / kTooNear = 2e-8; who is missed by that is reached with a
-// detour of half its square.
-constexpr double kTooNear = 1e-8;
-bool is_too_near(const WindowColumns& w, Index i) {
-  return -w.y[i] <= kTooNear * (w.b1[i] - w.b0[i]) && w.x[i] > w.b0[i] && w.x[i] < w.b1[i];
+// Windows with their source on the edge (is_on_edge()) are neither cut nor do they cut others.
+bool on_edge(const WindowColumns& w, Index i) {
+  return -w.y[i] <= kOnEdge * (w.b1[i] - w.b0[i]) && w.x[i] > w.b0[i] && w.x[i] < w.b1[i];
 }
 BRUSHFIRE_WIDE std::int64_t nearly_on_edge(const double* __restrict b0, const double* __restrict b1,
                                            const double* __restrict y, std::ptrdiff_t count) {
   std::int64_t found = 0;
-  for (std::ptrdiff_t i = 0; i < count; ++i) found += -y[i] <= kTooNear * (b1[i] - b0[i]) ? 1 : 0;
+  for (std::ptrdiff_t i = 0; i < count; ++i) found += -y[i] <= kOnEdge * (b1[i] - b0[i]) ? 1 : 0;
   return found;
 }
 
@@ -146,7 +142,7 @@ void ListTrimmer::sweep(const WindowColumns& w, Index count) {
       const Index before = kept_[k];
       if (w.b0[i] >= w.b1[before]) break;
       if (w.b0[before] >= w.b1[i]) continue;
-      if (!all_may_be_cut && (is_too_near(w, before) || is_too_near(w, i))) continue;
+      if (!all_may_be_cut && (on_edge(w, before) || on_edge(w, i))) continue;
       settle(w, before, i);
       alive = !gone(i);
       if (gone(before)) kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(k));
@@ -211,7 +207,7 @@ void ListTrimmer::replace_by_envelope(WindowList& list, BlockPool& blocks) {
   windows_.clear();
   uncut_.clear();
   const WindowColumns w = list.block.columns();
-  for (Index i = 0; i < list.size; ++i) (is_too_near(w, i) ? uncut_ : windows_).push_back(w.window(i));
+  for (Index i = 0; i < list.size; ++i) (on_edge(w, i) ? uncut_ : windows_).push_back(w.window(i));
   const std::span<Window> result = envelope_(windows_);
   list.size = static_cast<Index>(result.size() + uncut_.size());
   list.ordered = true;
