@@ -15,3 +15,7 @@ while len(points) < 20:
     nearest = np.minimum(nearest, solver.distance(points[-1], max_distance=nearest.max()))
 print("sample:", points)
 print(f"every vertex lies within {nearest.max():.3f} of a sample")
+
+# The library has this as one call, which also says how far apart the samples are.
+samples = mesh.farthest_points(20)
+print(f"farthest_points() takes {samples.vertices[:4].tolist()} ..., covering radius {samples.covering_radius:.3f}")

@@ -13,3 +13,6 @@ print(f"sum of its pieces {steps.sum():.6f}, distance field {mesh.distance(0, me
 
 walk, end = mesh.trace(0, [0, 1, 0.5], 10.0)
 print(f"ten units straight on end ({end}) at {walk.positions[-1].round(3).tolist()}")
+
+loose, tight = mesh.path(0, 400, 915), mesh.path(0, 400, 915, tighten=True)
+print(f"by way of vertex 400 it is {loose.length:.4f}, pulled straight {tight.length:.4f}")

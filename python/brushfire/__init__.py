@@ -16,25 +16,37 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 """
 
 from brushfire._core import version as __version__
+from brushfire._curves import LogMap, Path
 from brushfire._errors import BrushfireError, BrushfireIndexError
+from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._io import FileInfo, from_any, read
-from brushfire._mesh import LogMap, Mesh, MeshReport, Path, Solver, methods
+from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._places import At, Point, Points, at
+from brushfire._regions import Border, Cut, Samples, Voronoi
 
 __all__ = [
     "At",
+    "Border",
     "BrushfireError",
     "BrushfireIndexError",
+    "Comparison",
+    "Cut",
+    "Descent",
+    "Errors",
     "FileInfo",
+    "Isoline",
     "LogMap",
     "Mesh",
     "MeshReport",
     "Path",
     "Point",
     "Points",
+    "Samples",
     "Solver",
+    "Voronoi",
     "__version__",
     "at",
+    "compare",
     "from_any",
     "methods",
     "read",

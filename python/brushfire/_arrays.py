@@ -13,7 +13,8 @@ Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
 
 
-def _array(values: npt.ArrayLike, what: str) -> npt.NDArray[Any]:
+def any_array(values: npt.ArrayLike, what: str) -> npt.NDArray[Any]:
+    """As numpy understands it."""
     try:
         return np.asarray(values)
     except ValueError:  # rows of different lengths
@@ -22,7 +23,7 @@ def _array(values: npt.ArrayLike, what: str) -> npt.NDArray[Any]:
 
 def floats(values: npt.ArrayLike, what: str) -> Floats:
     """C-contiguous float64: the array itself where it is one already, else a converted copy of any real numbers."""
-    array = _array(values, what)
+    array = any_array(values, what)
     if array.size == 0:
         return np.zeros(array.shape)
     if array.dtype.kind not in "fiu":
@@ -32,7 +33,7 @@ def floats(values: npt.ArrayLike, what: str) -> Floats:
 
 def integers(values: npt.ArrayLike, what: str) -> Ints:
     """C-contiguous int64 of any integers. Floats are refused, whole numbers too: they are usually positions."""
-    array = _array(values, what)
+    array = any_array(values, what)
     if array.size == 0:
         return np.zeros(array.shape, dtype=np.int64)
     if array.dtype.kind not in "iu":
@@ -66,7 +67,7 @@ def vertices(values: npt.ArrayLike) -> Floats:
 
 def faces(values: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     """(m, 3) uint32: int32 and uint32 in C order are used as they are, other integers converted."""
-    array = _array(values, "faces")
+    array = any_array(values, "faces")
     if array.size == 0:
         return np.zeros((0, 3), dtype=np.uint32)
     if array.dtype.kind not in "iu":
@@ -98,3 +99,12 @@ def number(value: Any, what: str) -> float:
         return float(value)
     except (TypeError, ValueError):
         raise TypeError(f"{what}: a number is needed, not {value!r}") from None
+
+
+def whole(value: Any, what: str, most: int) -> int:
+    """An integer from 0 to ``most``."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise TypeError(f"{what}: an integer is needed, not {value!r}")
+    if not 0 <= value <= most:
+        raise BrushfireError(f"{what}: a number from 0 to {most} is needed, not {value}")
+    return int(value)

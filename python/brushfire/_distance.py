@@ -35,6 +35,7 @@ class Distances:
         method: str | None = ...,
         tolerance: float | None = ...,
         bound: str | None = ...,
+        precision: str | None = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: Places | None = ...,
@@ -50,6 +51,7 @@ class Distances:
         method: str | None = ...,
         tolerance: float | None = ...,
         bound: str | None = ...,
+        precision: str | None = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: Places | None = ...,
@@ -65,6 +67,7 @@ class Distances:
         method: str | None = ...,
         tolerance: float | None = ...,
         bound: str | None = ...,
+        precision: str | None = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: None = ...,
@@ -80,6 +83,7 @@ class Distances:
         method: str | None = ...,
         tolerance: float | None = ...,
         bound: str | None = ...,
+        precision: str | None = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: None = ...,
@@ -94,6 +98,7 @@ class Distances:
         method: str | None = None,
         tolerance: float | None = None,
         bound: str | None = None,
+        precision: str | None = None,
         offset: npt.ArrayLike = 0.0,
         max_distance: float = np.inf,
         targets: Places | None = None,
@@ -110,6 +115,8 @@ class Distances:
             vertex is at most this; in [0, 0.1], 0 is exact.
         :param bound: for method ``"windows"``: ``"lower"`` gives values never above the distance, ``"upper"`` never below
             it, ``"estimate"`` (the default) values in between.
+        :param precision: ``"float32"`` lets the marching methods compute in single precision, which is faster and good for
+            about 6 digits; ``"float64"`` is the default. Other methods ignore it.
         :param offset: the value that the front starts with, one number or one per source; finite, may be negative.
         :param max_distance: what is farther reads +inf; the run costs what it reaches.
         :param targets: where only some distances are needed; the solver may stop as soon as it has them.
@@ -120,7 +127,7 @@ class Distances:
             reached. With ``return_source`` and ``return_bound`` a tuple: distances, int32 sources, float64 bounds.
         :raises BrushfireIndexError: for a vertex or face that does not exist.
         :raises BrushfireError: for no sources, a source in no face, bad weights, offsets or max_distance, an unknown
-            method, or ``return_bound`` with a method that has none.
+            method or precision, or ``return_bound`` with a method that has none.
         :raises TypeError: for what are no vertex numbers or points.
 
         >>> import brushfire as bf
@@ -144,7 +151,7 @@ class Distances:
             offsets(offset, len(start.index)),
             end.index if end else None,
             end.weights if end else None,
-            options(method, tolerance, max_distance, bound),
+            options(method, tolerance, max_distance, bound, precision),
             progress,
         )
         if return_bound and error is None:

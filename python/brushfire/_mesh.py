@@ -11,10 +11,14 @@ import numpy.typing as npt
 
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats, number
+from brushfire._curves import Curves
 from brushfire._distance import Distances, Progress
 from brushfire._errors import BrushfireError
+from brushfire._fields import Fields
 from brushfire._options import options
+from brushfire._picture import Pictures
 from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
+from brushfire._regions import Regions
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -62,33 +66,7 @@ class MeshReport:
         return "\n".join([head, *self.remarks])
 
 
-@dataclass(frozen=True)
-class Path:
-    """A polyline on the surface; straight between consecutive points, which share a face.
-
-    ``points``: its nodes as :class:`Points`; none where there is no path. ``positions``: the same in coordinates, (k, 3);
-    (0, 3) for a mesh from lengths. ``length``: +inf where there is no path.
-    """
-
-    points: Points
-    positions: Floats
-    length: float
-
-
-@dataclass(frozen=True)
-class LogMap:
-    """Polar coordinates of every vertex around a source.
-
-    ``radius`` (vertex_count,): the exact distance. ``angle`` (vertex_count,): the direction in which the shortest path
-    leaves the source, NaN where there is none. ``total_angle``: the full turn at the source.
-    """
-
-    radius: Floats
-    angle: Floats
-    total_angle: float
-
-
-class Mesh(Distances):
+class Mesh(Distances, Curves, Fields, Regions, Pictures):
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
     :param vertices: (n, 3) positions, or (n, 2) for a flat mesh. Kept as float64.
@@ -220,66 +198,6 @@ class Mesh(Distances):
             return type(self)(self.vertices, self.faces[chosen])
         return type(self).from_lengths(self.faces[chosen], self._mesh.lengths()[chosen], self.vertex_count)
 
-    def path(self, *places: Places, closed: bool = False) -> Path:
-        """The shortest path from a place to the next, exactly: ``path(a, b)``, or through all that are given.
-
-        :param places: vertices, points, or lists of them, in order.
-        :param closed: also from the last back to the first.
-        :return: a :class:`Path`, from the first place to the last; without points and of length +inf where there is none.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> path = mesh.path(1, 3)
-        >>> path.length, path.positions.round(6).tolist()
-        (5.0, [[3.0, 0.0, 0.0], [1.5, 2.0, 0.0], [0.0, 4.0, 0.0]])
-        """
-        arrays = [self._arrays(place, "places") for place in places]
-        if not arrays:
-            raise BrushfireError("path: at least one place is needed")
-        index = np.concatenate([a.index for a in arrays])
-        weights = np.concatenate([np.zeros((len(a.index), 3)) if a.weights is None else a.weights for a in arrays])
-        return self._path(*_core.path(self._mesh, index, weights, bool(closed)))
-
-    def trace(self, start: Places, direction: npt.ArrayLike, length: float) -> tuple[Path, str]:
-        """Straight on from a point, for a length.
-
-        :param direction: an angle (radians, counter-clockwise from the face's first edge, or at a vertex from the edge of
-            its first face), or a vector in space, (3,), which is projected onto the surface.
-        :return: the path, and how it ended: ``"length"``, ``"boundary"`` or ``"non-manifold"``.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> path, end = mesh.trace(0, [1, 1, 0], 2.0)
-        >>> path.positions[-1].round(6).tolist(), end
-        ([1.414214, 1.414214, 0.0], 'length')
-        """
-        arrays = self._arrays(start, "start")
-        vector = _arrays.floats(direction, "direction")
-        angle, along = (float(vector), None) if vector.ndim == 0 else (0.0, vector)
-        if along is not None and along.shape != (3,):
-            raise BrushfireError(f"direction: an angle or shape (3,) is needed, not {along.shape}")
-        face, weights, walked, end = _core.trace(
-            self._mesh, arrays.index, arrays.weights, angle, along, number(length, "length")
-        )
-        return self._path(face, weights, walked), end
-
-    def log_map(self, source: Places, max_radius: float = np.inf) -> LogMap:
-        """Polar coordinates around a source: exact distance, and the direction of the shortest path.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
-        >>> polar = mesh.log_map(0)
-        >>> polar.radius.round(3).tolist(), (polar.angle / polar.total_angle).round(3).tolist()
-        ([0.0, 1.0, 1.414, 1.0], [0.0, 0.0, 0.5, 1.0])
-        """
-        arrays = self._arrays(source, "source")
-        limit = number(max_radius, "max_radius")
-        return LogMap(*_core.log_map(self._mesh, arrays.index, arrays.weights, limit))
-
-    def _path(self, face: npt.NDArray[np.int32], weights: Floats, length: float) -> Path:
-        points = Points(face, weights)
-        return Path(points, self.position(points) if self._mesh.has_positions else np.zeros((0, 3)), length)
-
     def solver(self) -> Solver:
         """A solver for many calls on this mesh: see :class:`Solver`."""
         return Solver(self)
@@ -292,6 +210,7 @@ class Mesh(Distances):
         method: str | None = None,
         tolerance: float | None = None,
         max_distance: float = np.inf,
+        precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         out: npt.NDArray[Any] | None = None,
         threads: int = 0,
@@ -301,7 +220,7 @@ class Mesh(Distances):
 
         :param rows: vertices, points or a mask; all vertices if none are given.
         :param columns: likewise.
-        :param method, tolerance: as for :meth:`distance`.
+        :param method, tolerance, precision: as for :meth:`distance`.
         :param max_distance: what is farther reads +inf.
         :param dtype: float32 (rounded from float64, 7 digits) or float64.
         :param out: a C-contiguous, writable array of shape (rows, columns) of the dtype that is wanted, a
@@ -318,7 +237,7 @@ class Mesh(Distances):
         row, row_count = self._optional(rows, "rows")
         column, column_count = self._optional(columns, "columns")
         shape = (row_count, column_count)
-        chosen = options(method, tolerance, max_distance)
+        chosen = options(method, tolerance, max_distance, precision=precision)
         if out is None:
             single = _is_float32(dtype)
             _core.require_dense_memory(*shape, single, 0)
@@ -336,6 +255,7 @@ class Mesh(Distances):
         *,
         method: str | None = None,
         tolerance: float | None = None,
+        precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         threads: int = 0,
         memory_limit: int = 0,
@@ -348,6 +268,7 @@ class Mesh(Distances):
 
         :param radius: finite, >= 0.
         :param rows: vertices, points or a mask; all vertices if none are given.
+        :param method, tolerance, precision: as for :meth:`distance`.
         :param memory_limit: bytes that the result may take; 0 means what the machine has left.
         :raises BrushfireError: code ``too_large`` where the result will not fit.
         :raises ImportError: where scipy is not installed.
@@ -370,7 +291,7 @@ class Mesh(Distances):
             self._mesh,
             number(radius, "radius"),
             *row,
-            options(method, tolerance, np.inf),
+            options(method, tolerance, np.inf, precision=precision),
             _threads(threads),
             memory_limit,
             progress,
@@ -393,6 +314,7 @@ class Mesh(Distances):
         method: str | None = None,
         tolerance: float | None = None,
         max_distance: float = np.inf,
+        precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         threads: int = 0,
         progress: Progress = None,
@@ -413,13 +335,16 @@ class Mesh(Distances):
         """
         row, _ = self._optional(rows, "rows")
         column, _ = self._optional(columns, "columns")
-        chosen = options(method, tolerance, max_distance)
+        chosen = options(method, tolerance, max_distance, precision=precision)
         _core.write_matrix(
             self._mesh, os.fspath(path), _is_float32(dtype), *row, *column, chosen, _threads(threads), progress
         )
 
     def _run(self) -> _core.Solver:
         return _core.Solver(self._mesh)
+
+    def _whole(self) -> Mesh:
+        return self
 
     def _arrays(self, places: Any, what: str) -> PlaceArrays:
         if isinstance(places, At):

@@ -12,7 +12,7 @@ Options = dict[str, "str | float"]
 TOLERANT = "windows"
 
 
-def options(method: Any, tolerance: Any, max_distance: Any, bound: Any = None) -> Options:
+def options(method: Any, tolerance: Any, max_distance: Any, bound: Any = None, precision: Any = None) -> Options:
     """Those that were given, checked; a tolerance without a method means the one that keeps it."""
     chosen: Options = {"max_distance": number(max_distance, "max_distance")}
     if tolerance is not None or bound is not None:
@@ -21,7 +21,7 @@ def options(method: Any, tolerance: Any, max_distance: Any, bound: Any = None) -
         method = TOLERANT
     if tolerance is not None:
         chosen["tolerance"] = number(tolerance, "tolerance")
-    for name, value in (("method", method), ("bound", bound)):
+    for name, value in (("method", method), ("bound", bound), ("precision", precision)):
         if value is None:
             continue
         if not isinstance(value, str):

@@ -4,6 +4,7 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/queries/distance_matrix.h>
+#include <brushfire/queries/surface_path.h>
 #include <brushfire/solvers/distance.h>
 
 #include <nanobind/nanobind.h>
@@ -13,6 +14,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +28,9 @@ void bind_mesh(nb::module_& m);
 void bind_distance(nb::module_& m);
 void bind_matrix(nb::module_& m);
 void bind_curves(nb::module_& m);
+void bind_fields(nb::module_& m);
+void bind_regions(nb::module_& m);
+void bind_figure(nb::module_& m);
 
 // Arrays as the Python files hand them over: converted already, C order, exactly these types.
 template <class T>
@@ -58,5 +63,14 @@ struct PlaceArrays {
 };
 std::vector<Place> places_from(const PlaceArrays& arrays);
 std::vector<SurfacePoint> points_from(const Mesh& mesh, const PlaceArrays& arrays);
+// Throws Error(InvalidArgument) unless there is exactly one.
+SurfacePoint single_point_from(const Mesh& mesh, const PlaceArrays& arrays);
+// Throws Error(InvalidArgument) unless there is one offset per source.
+std::vector<Source> sources_from(const Mesh& mesh, const PlaceArrays& places, const Vector<double>& offsets);
+
+// (face, weights): int32 [points], float64 [points, 3].
+nb::tuple points_to_numpy(std::span<const SurfacePoint> points);
+// (face, weights, length, closed).
+nb::tuple path_to_numpy(const SurfacePath& path);
 
 }  // namespace brushfire::python

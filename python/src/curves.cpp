@@ -1,27 +1,17 @@
-// Nearest points, shortest paths, straightest geodesics, logarithmic map.
+// Nearest points, shortest and shortened paths, straightest geodesics, logarithmic map.
 #include "bind.h"
 #include "interrupt.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/nearest_point.h>
 #include <brushfire/queries/path.h>
+#include <brushfire/queries/shorten.h>
 #include <brushfire/queries/straightest.h>
 
 #include <span>
 
 namespace brushfire::python {
 namespace {
-
-// (face, weights): int32 [points], float64 [points, 3].
-nb::tuple points_to_numpy(std::span<const SurfacePoint> points) {
-  std::vector<Index> faces;
-  std::vector<double> weights;
-  for (const SurfacePoint& p : points) {
-    faces.push_back(p.face);
-    weights.insert(weights.end(), p.weights.begin(), p.weights.end());
-  }
-  return nb::make_tuple(to_numpy_signed(std::move(faces)), to_numpy(std::move(weights), {points.size(), 3}));
-}
 
 nb::tuple nearest(const NearestPointFinder& finder, const Triples<double>& xyz) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
@@ -40,27 +30,76 @@ nb::tuple nearest(const NearestPointFinder& finder, const Triples<double>& xyz) 
   return nb::make_tuple(arrays[0], arrays[1], to_numpy(std::move(distances)));
 }
 
-SurfacePoint single(const Mesh& mesh, const PlaceArrays& place) {
-  const std::vector<SurfacePoint> points = points_from(mesh, place);
-  if (points.size() != 1) throw Error(ErrorCode::InvalidArgument, "a single point is needed");
-  return points.front();
-}
+using OptionalWeights = std::optional<Triples<double>>;
 
-// (face, weights, length); no points and +inf where there is no path.
-nb::tuple path(const Mesh& mesh, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
-               bool closed) {
+// No points and +inf where there is no path. `tighten`: pulled straight where it bends at waypoints.
+nb::tuple path(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed,
+               bool tighten) {
   Computation computation{nb::none()};
-  const SurfacePath found = computation.run(false, [&] {
-    return PathFinder(mesh).through(points_from(mesh, {index, weights}), closed, computation.cancel());
-  });
-  const nb::tuple arrays = points_to_numpy(found.points);
-  return nb::make_tuple(arrays[0], arrays[1], found.length);
+  return path_to_numpy(computation.run(false, [&] {
+    SurfacePath found = PathFinder(mesh).through(points_from(mesh, {index, weights}), closed, computation.cancel());
+    if (tighten && !found.points.empty()) found = shorten(mesh, found.points, closed);
+    return found;
+  }));
 }
 
-// (face, weights, length, end); the direction is an angle, or a vector where it is given.
-nb::tuple trace(const Mesh& mesh, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
-                double angle, const std::optional<Vector<double>>& direction, double length) {
-  const SurfacePoint from = single(mesh, {index, weights});
+nb::tuple shortened(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed) {
+  const std::vector<SurfacePoint> points = points_from(mesh, {index, weights});
+  SurfacePath path;
+  {
+    const nb::gil_scoped_release release;
+    path = shorten(mesh, points, closed);
+  }
+  return path_to_numpy(path);
+}
+
+double length(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed) {
+  return length_of(mesh, points_from(mesh, {index, weights}), closed);
+}
+
+// From the nearest source to every target, off one field: (source, paths).
+nb::tuple paths(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+                const Vector<double>& offsets, const Vector<std::int64_t>& target_index,
+                const OptionalWeights& target_weights) {
+  Computation computation{nb::none()};
+  DistanceField field;
+  const std::vector<SurfacePath> found = computation.run(false, [&] {
+    DistanceOptions options;
+    options.method = Method::Exact;
+    options.keep_paths = true;
+    options.targets = points_from(mesh, {target_index, target_weights});
+    options.cancel = computation.cancel();
+    field = distance(mesh, sources_from(mesh, {index, weights}, offsets), options);
+    std::vector<SurfacePath> all;
+    for (const SurfacePoint& target : options.targets) all.push_back(path_to(*field.windows, target));
+    return all;
+  });
+  nb::list list;
+  for (const SurfacePath& p : found) list.append(path_to_numpy(p));
+  return nb::make_tuple(to_numpy_signed(std::move(field.target_source)), list);
+}
+
+// Along edges, from the nearest source's vertex.
+nb::tuple edge_path(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+                    const Vector<double>& offsets, std::int64_t target) {
+  if (target < 0 || target >= std::int64_t{mesh.vertex_count()}) {
+    throw Error(ErrorCode::IndexOutOfRange, "vertex " + std::to_string(target) + " does not exist: the mesh has " +
+                                                std::to_string(mesh.vertex_count()) + " vertices");
+  }
+  Computation computation{nb::none()};
+  return path_to_numpy(computation.run(false, [&] {
+    DistanceOptions options;
+    options.method = Method::Dijkstra;
+    options.cancel = computation.cancel();
+    const DistanceField field = distance(mesh, sources_from(mesh, {index, weights}, offsets), options);
+    return edge_path_to(mesh, field, static_cast<Index>(target));
+  }));
+}
+
+// (path, end); the direction is an angle, or a vector where it is given.
+nb::tuple trace(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, double angle,
+                const std::optional<Vector<double>>& direction, double length) {
+  const SurfacePoint from = single_point_from(mesh, {index, weights});
   if (direction) {
     if (direction->shape(0) != 3) throw Error(ErrorCode::InvalidArgument, "a direction has three components");
     const double* d = direction->data();
@@ -71,17 +110,25 @@ nb::tuple trace(const Mesh& mesh, const Vector<std::int64_t>& index, const std::
     const nb::gil_scoped_release release;
     walked = straightest(mesh, from, angle, length);
   }
-  const nb::tuple arrays = points_to_numpy(walked.path.points);
   const char* end = walked.end == TraceEnd::Length     ? "length"
                     : walked.end == TraceEnd::Boundary ? "boundary"
                                                        : "non-manifold";
-  return nb::make_tuple(arrays[0], arrays[1], walked.path.length, end);
+  return nb::make_tuple(path_to_numpy(walked.path), end);
+}
+
+// (angle, full turn) of a direction at a point.
+nb::tuple angle_at(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+                   const Triples<double>& direction) {
+  const SurfacePoint at = single_point_from(mesh, {index, weights});
+  if (direction.shape(0) != 1) throw Error(ErrorCode::InvalidArgument, "a direction has three components");
+  const double* d = direction.data();
+  return nb::make_tuple(angle_of(mesh, at, {d[0], d[1], d[2]}), total_angle(mesh, at));
 }
 
 // (radius, angle, total angle).
-nb::tuple logarithmic(const Mesh& mesh, const Vector<std::int64_t>& index,
-                      const std::optional<Triples<double>>& weights, double max_radius) {
-  const SurfacePoint source = single(mesh, {index, weights});
+nb::tuple logarithmic(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+                      double max_radius) {
+  const SurfacePoint source = single_point_from(mesh, {index, weights});
   Computation computation{nb::none()};
   LogMap map = computation.run(false, [&] { return log_map(mesh, source, max_radius, computation.cancel()); });
   return nb::make_tuple(to_numpy(std::move(map.radius)), to_numpy(std::move(map.angle)), map.total_angle);
@@ -94,7 +141,18 @@ void bind_curves(nb::module_& m) {
       .def(nb::init<const Mesh&>(), nb::arg("mesh"), nb::call_guard<nb::gil_scoped_release>())
       .def("nearest", nearest, nb::arg("xyz").noconvert());
   m.def("path", path, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+        nb::arg("closed"), nb::arg("tighten"));
+  m.def("shorten", shortened, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"));
+  m.def("length_of", length, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+        nb::arg("closed"));
+  m.def("paths", paths, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+        nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert(),
+        nb::arg("target_weights").noconvert().none());
+  m.def("edge_path", edge_path, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+        nb::arg("offsets").noconvert(), nb::arg("target"));
+  m.def("angle_of", angle_at, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+        nb::arg("direction").noconvert());
   m.def("trace", trace, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("angle"), nb::arg("direction").noconvert().none(), nb::arg("length"));
   m.def("log_map", logarithmic, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),

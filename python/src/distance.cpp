@@ -26,18 +26,6 @@ class Solver {
   std::mutex mutex_;
 };
 
-std::vector<Source> sources_from(const Mesh& mesh, const PlaceArrays& places, const Vector<double>& offsets) {
-  std::vector<Source> sources;
-  for (const SurfacePoint& p : points_from(mesh, places)) sources.push_back({p, 0});
-  if (offsets.shape(0) != sources.size()) {
-    throw Error(ErrorCode::InvalidArgument, std::to_string(sources.size()) + " sources, but " +
-                                                std::to_string(offsets.shape(0)) +
-                                                " offsets: one per source is needed");
-  }
-  for (std::size_t k = 0; k < sources.size(); ++k) sources[k].offset = offsets.data()[k];
-  return sources;
-}
-
 // (distance, source, error bound): of the targets where there are any, of all vertices otherwise. The bound is None for
 // methods that have none.
 nb::tuple solve(Solver& solver, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
@@ -75,6 +63,12 @@ Bound bound_named(std::string_view name) {
   throw Error(ErrorCode::InvalidArgument, "unknown bound '" + std::string(name) + "': it is estimate, lower or upper");
 }
 
+Precision precision_named(std::string_view name) {
+  if (name == "float64") return Precision::Double;
+  if (name == "float32") return Precision::Float;
+  throw Error(ErrorCode::InvalidArgument, "unknown precision '" + std::string(name) + "': it is float32 or float64");
+}
+
 }  // namespace
 
 DistanceOptions options_from(const nb::dict& given, Computation& computation) {
@@ -83,6 +77,7 @@ DistanceOptions options_from(const nb::dict& given, Computation& computation) {
     const auto name = nb::cast<std::string>(key);
     if (name == "method") options.method = method_named(nb::cast<std::string>(value));
     if (name == "bound") options.bound = bound_named(nb::cast<std::string>(value));
+    if (name == "precision") options.precision = precision_named(nb::cast<std::string>(value));
     if (name == "tolerance") options.tolerance = nb::cast<double>(value);
     if (name == "max_distance") options.max_distance = nb::cast<double>(value);
   }

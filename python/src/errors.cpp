@@ -1,5 +1,5 @@
-// brushfire::Error becomes brushfire.BrushfireError, with its code; places from arrays, which is where most errors
-// start.
+// brushfire::Error becomes brushfire.BrushfireError, with its code; places and
+// sources from arrays, which is where most errors start, and points back into arrays.
 #include "bind.h"
 
 #include <brushfire/core/error.h>
@@ -64,6 +64,41 @@ std::vector<SurfacePoint> points_from(const Mesh& mesh, const PlaceArrays& array
     points.push_back(p ? *p : vertex_point(mesh, std::get<Index>(place)));
   }
   return points;
+}
+
+SurfacePoint single_point_from(const Mesh& mesh, const PlaceArrays& arrays) {
+  const std::vector<SurfacePoint> points = points_from(mesh, arrays);
+  if (points.size() != 1) throw Error(ErrorCode::InvalidArgument, "a single point is needed");
+  return points.front();
+}
+
+std::vector<Source> sources_from(const Mesh& mesh, const PlaceArrays& places, const Vector<double>& offsets) {
+  std::vector<Source> sources;
+  for (const SurfacePoint& p : points_from(mesh, places)) sources.push_back({p, 0});
+  if (offsets.shape(0) != sources.size()) {
+    throw Error(ErrorCode::InvalidArgument, std::to_string(sources.size()) + " sources, but " +
+                                                std::to_string(offsets.shape(0)) +
+                                                " offsets: one per source is needed");
+  }
+  for (std::size_t k = 0; k < sources.size(); ++k) sources[k].offset = offsets.data()[k];
+  return sources;
+}
+
+nb::tuple points_to_numpy(std::span<const SurfacePoint> points) {
+  std::vector<Index> faces;
+  std::vector<double> weights;
+  faces.reserve(points.size());
+  weights.reserve(3 * points.size());
+  for (const SurfacePoint& p : points) {
+    faces.push_back(p.face);
+    weights.insert(weights.end(), p.weights.begin(), p.weights.end());
+  }
+  return nb::make_tuple(to_numpy_signed(std::move(faces)), to_numpy(std::move(weights), {points.size(), 3}));
+}
+
+nb::tuple path_to_numpy(const SurfacePath& path) {
+  const nb::tuple arrays = points_to_numpy(path.points);
+  return nb::make_tuple(arrays[0], arrays[1], path.length, path.closed);
 }
 
 void bind_errors(nb::module_&) { nb::register_exception_translator(translate); }

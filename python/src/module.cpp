@@ -10,4 +10,7 @@ NB_MODULE(_core, m) {
   brushfire::python::bind_distance(m);
   brushfire::python::bind_matrix(m);
   brushfire::python::bind_curves(m);
+  brushfire::python::bind_fields(m);
+  brushfire::python::bind_regions(m);
+  brushfire::python::bind_figure(m);
 }

@@ -186,6 +186,98 @@ def test_wrong_lengths_raise():
             bf.Mesh.from_lengths([[0, 1, 2]], [[1, 1, 1]], vertex_count=count)
 
 
+def calls(mesh: bf.Mesh):
+    """Every function that takes places or arrays, with one argument left open."""
+    d = mesh.distance(0, method="dijkstra")
+    yield from (lambda x: mesh.path(x), lambda x: mesh.path(0, x), lambda x: mesh.paths(x, 1))
+    yield from (lambda x: mesh.paths(0, x), lambda x: mesh.edge_path(x, 1), lambda x: mesh.edge_path(0, x))
+    yield from (lambda x: mesh.shorten(x), lambda x: mesh.length_of(x), lambda x: mesh.trace(x, 0.0, 1.0))
+    yield from (lambda x: mesh.log_map(x), lambda x: mesh.angle_of(x, [1, 0, 0]), lambda x: mesh.voronoi(x))
+    yield from (lambda x: mesh.steepest_descent(d, x), lambda x: mesh.curved_isolines(x, [1.0]))
+    yield from (lambda x: mesh.farthest_points(3, x), lambda x: mesh.cut(vertices=x), lambda x: mesh.cut(faces=x))
+    yield from (lambda x: mesh.render(dots=x, width=32, height=32, colour_bar=False),)
+
+
+def array_calls(mesh: bf.Mesh):
+    """Every function that takes arrays of numbers."""
+    slit = mesh.cut(edges=[(5, 6)])
+    yield from (lambda x: mesh.isolines(x, [1.0]), lambda x: mesh.isolines(np.arange(16.0), x))
+    yield from (lambda x: mesh.gradient(x), lambda x: mesh.steepest_descent(x, 0), lambda x: mesh.isolines(x, count=2))
+    yield from (lambda x: bf.compare(x, np.ones(16)), lambda x: bf.compare(np.ones(16), np.ones(16), x))
+    yield from (lambda x: mesh.curved_isolines(0, x), lambda x: slit.to_original(x), lambda x: mesh.cut(edges=x))
+    yield from (lambda x: mesh.trace(0, x, 1.0), lambda x: mesh.trace(0, 0.0, x), lambda x: mesh.angle_of(0, x))
+    yield from (
+        lambda x: mesh.log_map(0, x),
+        lambda x: mesh.paths(0, 1, offset=x),
+        lambda x: mesh.voronoi([0, 1], offset=x),
+    )
+    yield from (lambda x: mesh.isolines(np.arange(16.0), every=x), lambda x: mesh.isolines(np.arange(16.0), count=x))
+    yield from (lambda x: mesh.curved_isolines(0, [1.0], chord_error=x), lambda x: mesh.farthest_points(x))
+    yield from (lambda x: mesh.render(x, width=32, height=32), lambda x: mesh.render(labels=x, width=32, height=32))
+    yield from (lambda x: mesh.render(width=x), lambda x: mesh.render(zoom=x, width=32, height=32))
+
+
+def refusals(functions, values) -> tuple[int, int]:
+    """How many calls raised something typed, and how many gave an answer; anything else is raised here."""
+    refused = answered = 0
+    for call, value in itertools.product(functions, values):
+        try:
+            call(value)
+            answered += 1
+        except TYPED:
+            refused += 1
+        except RuntimeError as error:
+            assert "no array in here" in str(error)
+            refused += 1
+    return refused, answered
+
+
+def test_every_function_refuses_wrong_places_with_a_typed_error():
+    refused, answered = refusals(list(calls(bf.Mesh(V, F))), list(wrong_places()))
+    assert refused > 10 * answered, (refused, answered)
+
+
+def test_every_function_refuses_wrong_arrays_with_a_typed_error():
+    refused, answered = refusals(list(array_calls(bf.Mesh(V, F))), list(wrong_arrays()))
+    assert refused > 3 * answered, (refused, answered)
+
+
+def test_every_function_takes_a_mesh_without_positions_or_says_that_it_cannot():
+    mesh = bf.Mesh.from_lengths(F, np.linalg.norm(V[np.roll(F, -1, axis=1)] - V[F], axis=2))
+    for call in calls(mesh):
+        try:
+            call(1)
+        except TYPED as error:
+            assert str(error)
+
+
+@pytest.mark.parametrize(
+    "chosen", [{}, {"levels": [1], "every": 1}, {"every": 0}, {"every": -1}, {"count": -1}], ids=str
+)
+def test_wrong_choices_of_levels_raise(chosen):
+    mesh = bf.Mesh(V, F)
+    with pytest.raises(TYPED):
+        mesh.isolines(np.arange(16.0), **chosen)
+    with pytest.raises(TYPED):
+        mesh.curved_isolines(0, **chosen)
+
+
+@pytest.mark.parametrize(
+    "look", [{"view": "inside"}, {"up": 3}, {"samples": 99}, {"colormap": "jet"}, {"nose": 1}], ids=str
+)
+def test_wrong_looks_raise(look):
+    with pytest.raises(TYPED):
+        bf.Mesh(V, F).render(width=32, height=32, **{"view": "top", **look})
+
+
+def test_pictures_go_into_png_files_only(tmp_path):
+    mesh = bf.Mesh(V, F)
+    for file, code in ((tmp_path / "a.jpg", "unknown_format"), (tmp_path / "no" / "a.png", "file_not_writable")):
+        with pytest.raises(bf.BrushfireError) as error:
+            mesh.render(width=32, height=32, file=file)
+        assert error.value.code == code
+
+
 def test_errors_survive_pickling():
     for error in (bf.BrushfireError("why", "too_large"), bf.BrushfireIndexError("vertex 7")):
         again = pickle.loads(pickle.dumps(error))

@@ -14,8 +14,9 @@ EXAMPLES = Path(__file__).parents[2] / "examples" / "python"
 EXPECTED = {
     "cortex.py": r"\d+ vertices in the medial wall.*mm at most",
     "distance.py": r"farthest from vertex 0: vertex \d+ at .*two targets.*novotni-klein ",
-    "farthest_points.py": r"sample: \[0, \d+.*within \d\.\d+",
-    "path.py": r"length (\d+\.\d+).*pieces \1, distance field \1.*\(length\)",
+    "farthest_points.py": r"sample: \[0, \d+.*within \d\.\d+.*covering radius",
+    "isolines.py": r"curves at \d+ levels.*along the arcs.*picture of \d+ x \d+",
+    "path.py": r"length (\d+\.\d+).*pieces \1, distance field \1.*\(length\).*pulled straight",
     "sparse_matrix.py": r"1800 rows.*symmetric to [\d.]+e-1[0-9].*\(1800, 1800\)",
 }
 

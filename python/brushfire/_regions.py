@@ -1,0 +1,235 @@
+"""Parts of a mesh: Voronoi cells, farthest-point samples, barriers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from brushfire import _arrays, _core
+from brushfire._arrays import Floats, Ints, offsets, whole
+from brushfire._curves import OnMesh, Path
+from brushfire._distance import Labels, Progress
+from brushfire._errors import BrushfireError
+from brushfire._options import options
+from brushfire._places import Places, Points
+
+if TYPE_CHECKING:
+    from brushfire._mesh import Mesh
+
+
+class Border(NamedTuple):
+    """Where the cells of two sources meet; ``sources``: their positions in the list, the lower first."""
+
+    sources: tuple[int, int]
+    line: Path
+
+
+@dataclass(frozen=True)
+class Voronoi:
+    """Which source is nearest where.
+
+    ``distance`` (vertex_count,): from the nearest source, +inf where none reaches. ``source`` (vertex_count,): its
+    position in the list, -1 for none. ``area`` (sources,): of each cell. ``borders``: where cells meet, ascending.
+    """
+
+    distance: Floats
+    source: Labels
+    area: Floats
+    borders: list[Border]
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Vertices spread evenly over a mesh.
+
+    ``vertices`` (k,): in the order in which they were taken. ``separation`` (k,): how far each was from those before it,
+    +inf for the first. ``distance`` (vertex_count,): from the nearest sample. ``nearest`` (vertex_count,): its place in
+    ``vertices``, -1 for none. ``covering_radius``: the greatest distance of a vertex that is in a face.
+    """
+
+    vertices: Labels
+    separation: Floats
+    distance: Floats
+    nearest: Labels
+    covering_radius: float
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A mesh with barriers cut out, and the way back.
+
+    ``mesh``: vertex v of the original is vertex v here; where a barrier parts the faces around a vertex, further copies
+    of it follow behind. ``original_vertex`` (mesh.vertex_count,), ``original_face`` (mesh.face_count,): their numbers
+    in the original. ``cut_face`` (original faces,): the number of each face here, -1 where it is blocked.
+    """
+
+    mesh: Mesh
+    original_vertex: Labels
+    original_face: Labels
+    cut_face: Labels
+    _original: Mesh
+    _cut: _core.CutMesh
+
+    def to_original(self, values: npt.ArrayLike) -> Floats:
+        """Values per vertex here to values per vertex of the original: the least of the copies'.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> cut = mesh.cut(edges=[(0, 2)])
+        >>> cut.to_original(cut.mesh.distance(1, method="exact")).tolist()
+        [3.0, 0.0, 4.0, inf]
+        """
+        array = _arrays.floats(values, "values")
+        if array.shape != (self.mesh.vertex_count,):
+            raise BrushfireError(f"values: shape ({self.mesh.vertex_count},) is needed, not {array.shape}")
+        return self._cut.values_to_original(array)
+
+    def points_to_original(self, points: Places) -> Points:
+        """Points here as points of the original mesh.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> cut = mesh.cut(faces=[0])
+        >>> cut.points_to_original(bf.Point(0, (0.2, 0.3, 0.5))).face.tolist()
+        [1]
+        """
+        arrays = self.mesh._arrays(points, "points")
+        return Points(*self._cut.points_to_original(arrays.index, arrays.weights))
+
+    def points_from_original(self, points: Places) -> tuple[Points, Labels]:
+        """Points of the original mesh as points here: one per side of a slit, none in a blocked face.
+
+        :return: the points, and which of the given ones each of them is, (k,).
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> cut = mesh.cut(edges=[(0, 2)])
+        >>> points, origin = cut.points_from_original([1, 2])
+        >>> origin.tolist()
+        [0, 1, 1]
+        """
+        arrays = self._original._arrays(points, "points")
+        face, weights, origin = self._cut.points_from_original(self._original._mesh, arrays.index, arrays.weights)
+        return Points(face, weights), origin
+
+
+class Regions(OnMesh):
+    """The parts of a Mesh."""
+
+    def voronoi(
+        self,
+        sources: Places,
+        *,
+        method: str | None = None,
+        tolerance: float | None = None,
+        offset: npt.ArrayLike = 0.0,
+        max_distance: float = np.inf,
+        progress: Progress = None,
+    ) -> Voronoi:
+        """The geodesic Voronoi diagram: which source is nearest where, the borders in between, the area of each cell.
+
+        :param sources, method, tolerance, offset, max_distance, progress: as for :meth:`distance`.
+        :raises BrushfireError: as :meth:`distance` does.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [2, 0], [2, 2], [0, 2]], [[0, 1, 2], [0, 2, 3]])
+        >>> cells = mesh.voronoi([0, 1], method="exact")
+        >>> cells.source.tolist(), cells.area.sum().item(), cells.borders[0].sources
+        ([0, 1, 1, 0], 4.0, (0, 1))
+        """
+        start = self._arrays(sources, "sources")
+        distance, source, area, borders = _core.voronoi(
+            self._mesh,
+            start.index,
+            start.weights,
+            offsets(offset, len(start.index)),
+            options(method, tolerance, max_distance),
+            progress,
+        )
+        return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders])
+
+    def farthest_points(
+        self,
+        count: int,
+        first: Places | None = None,
+        *,
+        method: str | None = None,
+        tolerance: float | None = None,
+        max_distance: float = np.inf,
+        progress: Progress = None,
+    ) -> Samples:
+        """Farthest-point sampling: again and again the vertex that is farthest from all samples so far.
+
+        :param count: how many; fewer where every vertex is a sample before.
+        :param first: vertices to begin with; the lowest vertex that is in a face if none are given.
+        :param method, tolerance, max_distance, progress: as for :meth:`distance`.
+        :raises BrushfireError: for a first vertex that is in no face or repeats, and for more of them than ``count``.
+
+        Runs are limited to what still matters: all together they cost about log(count) whole fields.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> samples = mesh.farthest_points(3, method="exact")
+        >>> samples.vertices.tolist(), samples.separation.tolist(), samples.covering_radius
+        ([0, 2, 1], [inf, 5.0, 3.0], 3.0)
+        """
+        index = np.zeros(0, dtype=np.int64)
+        if first is not None:
+            arrays = self._arrays(first, "first")
+            if arrays.weights is not None and arrays.weights.any():
+                raise BrushfireError("first: vertices are needed, not points of faces")
+            index = arrays.index
+        taken = whole(count, "count", np.iinfo(np.int32).max)
+        chosen = options(method, tolerance, max_distance)
+        return Samples(*_core.farthest_points(self._mesh, taken, index, chosen, progress))
+
+    def cut(self, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), edges: npt.ArrayLike = ()) -> Cut:
+        """The mesh with barriers cut out, through which no distance and no path goes.
+
+        :param vertices: numbers, or a mask with one bool per vertex: nothing passes them, all their faces are blocked.
+        :param faces: numbers, or a mask with one bool per face: nothing enters them.
+        :param edges: (k, 2) vertex numbers: both sides can be reached, nothing crosses.
+        :return: a :class:`Cut`, whose ``mesh`` is the rest.
+        :raises BrushfireIndexError: for what does not exist.
+        :raises BrushfireError: for two vertices that no edge joins.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.cut(edges=[(0, 2)]).mesh, mesh.cut(faces=[0]).mesh
+        (Mesh(6 vertices, 2 faces), Mesh(4 vertices, 1 faces))
+        """
+        ends = _arrays.integers(edges, "edges")
+        if ends.size and (ends.ndim != 2 or ends.shape[1] != 2):
+            raise BrushfireError(f"edges: shape (k, 2) is needed, not {ends.shape}")
+        made = _core.cut(
+            self._mesh,
+            _numbers(vertices, self._mesh.vertex_count, "vertices"),
+            _numbers(faces, self._mesh.face_count, "faces"),
+            ends.reshape(-1),
+        )
+        return Cut(
+            self._of(made.mesh), made.original_vertex(), made.original_face(), made.cut_face(), self._whole(), made
+        )
+
+    @classmethod
+    def _of(cls, core: _core.Mesh) -> Mesh:
+        raise NotImplementedError
+
+    def _whole(self) -> Mesh:
+        raise NotImplementedError
+
+
+def _numbers(chosen: Any, count: int, what: str) -> Ints:
+    """Of a mask or of numbers, flat."""
+    array = _arrays.any_array(chosen, what)
+    if array.dtype == np.bool_:
+        if array.shape != (count,):
+            raise BrushfireError(f"{what}: a mask needs shape ({count},), not {array.shape}")
+        return np.flatnonzero(array).astype(np.int64)
+    numbers = _arrays.integers(array, what)
+    if numbers.ndim > 1 and numbers.size:
+        raise BrushfireError(f"{what}: shape (k,) is needed, not {numbers.shape}")
+    return numbers.reshape(-1)
