@@ -6,9 +6,9 @@
 // tolerance (windows:1e-3). A round builds the mesh from the arrays and everything that the method derives from it,
 // solves, and solves again. In seconds of processor time:
 //   set_up_s  what is built before the first solve;   first_s  arrays to first field;   solve_s  the second solve
-// (the first one where that took more than five seconds). memory_mib is the peak above the arrays in the first round,
-// which also writes the field to DISTANCES (raw float64). Rounds begin when a line comes, so that a driver can
-// interleave programs.
+// (the first one where that took more than five seconds). memory_mib is the peak above the arrays when the first round
+// has its first field, which is written to DISTANCES (raw float64). Rounds begin when a line comes, so that a driver
+// can interleave programs.
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/distance.h>
 
@@ -37,8 +37,12 @@ DistanceOptions options_named(const std::string& name) {
 }
 
 // One round: what the header of this file says.
-std::string round(std::span<const Vec3> positions, std::span<const Face> faces, Index vertex,
-                  const DistanceOptions& options, DistanceField& field) {
+struct Round {
+  std::string times;
+  double memory_mib;
+};
+Round round(std::span<const Vec3> positions, std::span<const Face> faces, Index vertex, const DistanceOptions& options,
+            DistanceField& field) {
   constexpr double kSlow = 5;
   const double begin = cpu_seconds();
   DistanceSolver solver{Mesh(positions, faces)};
@@ -49,6 +53,7 @@ std::string round(std::span<const Vec3> positions, std::span<const Face> faces, 
   const double built = cpu_seconds();
   field = solver.distance({&source, 1}, options);
   const double first = cpu_seconds();
+  const double memory = peak_memory_mib();
   double solve_s = first - built;
   if (solve_s < kSlow) {
     const DistanceField again = solver.distance({&source, 1}, options);
@@ -58,7 +63,7 @@ std::string round(std::span<const Vec3> positions, std::span<const Face> faces, 
   char line[200];
   std::snprintf(line, sizeof line, "\"first_s\": %.9f, \"set_up_s\": %.9f, \"solve_s\": %.9f, \"updates\": %.0f",
                 first - begin, built - begin, solve_s, static_cast<double>(field.updates));
-  return line;
+  return {line, memory};
 }
 
 int run(int count, char** arguments) {
@@ -74,12 +79,12 @@ int run(int count, char** arguments) {
   double memory = -1;
   for (std::string request; std::getline(std::cin, request);) {
     DistanceField field;
-    const std::string times = round(positions, faces, vertex, options, field);
+    const Round r = round(positions, faces, vertex, options, field);
     if (memory < 0) {
-      memory = peak_memory_mib() - arrays_mib;
+      memory = r.memory_mib - arrays_mib;
       if (count > 5) write_doubles(arguments[5], field.distance);
     }
-    std::printf("{%s, \"memory_mib\": %.2f}\n", times.c_str(), memory);
+    std::printf("{%s, \"memory_mib\": %.2f}\n", r.times.c_str(), memory);
     std::fflush(stdout);
   }
   return 0;

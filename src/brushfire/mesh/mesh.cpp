@@ -29,6 +29,7 @@ class Lazy {
     }
     return value_;
   }
+  bool ready() const { return ready_.load(std::memory_order_acquire); }
 
  private:
   mutable std::atomic<bool> ready_ = false;
@@ -89,15 +90,18 @@ Vec3 scaled_difference(Vec3 a, Vec3 b, double scale) {
   return (2 * scale) * (0.5 * b - 0.5 * a);  // coordinates near the largest double on both sides of zero
 }
 
+// The edges of a face, scaled.
+std::array<Vec3, 3> edges_of(std::span<const Vec3> positions, const Face& t, double scale) {
+  const Vec3 a = positions[t[0]], b = positions[t[1]], c = positions[t[2]];
+  return {scaled_difference(a, b, scale), scaled_difference(b, c, scale), scaled_difference(c, a, scale)};
+}
+
 // Lengths and areas in units of `unit`; returns the mean length.
 double measure(std::span<const Vec3> positions, std::span<const Face> faces, Geometry& g) {
   const double scale = 1 / g.unit;
   double sum = 0;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const Face& t = faces[f];
-    const Vec3 a = positions[t[0]], b = positions[t[1]], c = positions[t[2]];
-    const std::array<Vec3, 3> edge{scaled_difference(a, b, scale), scaled_difference(b, c, scale),
-                                   scaled_difference(c, a, scale)};
+    const std::array<Vec3, 3> edge = edges_of(positions, faces[f], scale);
     double* const length = &g.lengths[3 * f];
     for (std::size_t k = 0; k < 3; ++k) length[k] = length_of(edge[k]);
     sum += length[0] + length[1] + length[2];
@@ -105,18 +109,41 @@ double measure(std::span<const Vec3> positions, std::span<const Face> faces, Geo
   }
   return faces.empty() ? 0 : sum / (3.0 * static_cast<double>(faces.size()));
 }
+// The mean alone.
+double mean_length(std::span<const Vec3> positions, std::span<const Face> faces, double unit) {
+  double sum = 0;
+  for (const Face& t : faces) {
+    const std::array<Vec3, 3> edge = edges_of(positions, t, 1 / unit);
+    sum += length_of(edge[0]) + length_of(edge[1]) + length_of(edge[2]);
+  }
+  return faces.empty() ? 0 : sum / (3.0 * static_cast<double>(faces.size()));
+}
 
-// First in units of the greatest coordinate, where nothing overflows; then the mean is known, and multiplying by powers
-// of two is exact, unless the mesh is so small beside its distance from the origin that squares may have vanished.
-Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
+// A unit in which nothing overflows.
+double first_unit(std::span<const Vec3> positions, std::span<const Face> faces) {
   double largest = 0;
   for (const Face& t : faces) {
     for (const Index v : t) {
       largest = std::max({largest, std::abs(positions[v].x), std::abs(positions[v].y), std::abs(positions[v].z)});
     }
   }
+  return power_of_two_below(largest);
+}
+// From there to the unit near the mean: by this power of two.
+double shrink_of(double mean, double unit) {
+  return std::clamp(power_of_two_below(mean), kSmallestUnit / unit, kLargestUnit / unit);
+}
+double unit_from_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
+  const double unit = first_unit(positions, faces);
+  const double mean = mean_length(positions, faces, unit);
+  return mean == 0 ? 1 : unit * shrink_of(mean, unit);
+}
+
+// First in units of the greatest coordinate, where nothing overflows; then the mean is known, and multiplying by powers
+// of two is exact, unless the mesh is so small beside its distance from the origin that squares may have vanished.
+Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
   Geometry g;
-  g.unit = power_of_two_below(largest);
+  g.unit = first_unit(positions, faces);
   g.lengths.resize(3 * faces.size());
   g.double_areas.resize(faces.size());
   const double mean = measure(positions, faces, g);
@@ -124,7 +151,7 @@ Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<cons
     g.unit = 1;
     return g;
   }
-  const double shrink = std::clamp(power_of_two_below(mean), kSmallestUnit / g.unit, kLargestUnit / g.unit);
+  const double shrink = shrink_of(mean, g.unit);
   g.unit *= shrink;
   constexpr double kSquaresKeepTheirDigits = 0x1p-100;
   if (shrink < kSquaresKeepTheirDigits) {
@@ -138,40 +165,54 @@ Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<cons
 
 }  // namespace
 
-struct Mesh::Data {
+// What the caller gave, and what follows from the faces alone; shared by meshes that differ in slits only.
+struct Mesh::Arrays {
   Index vertex_count = 0;
   bool has_positions = true;
   std::vector<Vec3> positions;
   std::vector<Face> faces;
   std::vector<double> input_lengths;  // [halfedge_count], meshes from lengths only
-  std::vector<Index> slits;           // halfedges whose rings are opened
 
   Lazy<detail::VertexCorners> corners;
+};
+
+struct Mesh::Data {
+  std::shared_ptr<const Arrays> arrays = std::make_shared<Arrays>();
+  std::vector<Index> slits;  // halfedges whose rings are opened
+
+  Lazy<double> unit;
   Lazy<UninitializedArray<Index>> opposite;
   Lazy<std::vector<Link>> links;
   Lazy<Geometry> geometry;
   Lazy<MeshReport> report;
 
   const detail::VertexCorners& get_corners() const {
-    return corners.get([this] { return detail::build_corners(vertex_count, faces); });
+    return arrays->corners.get([this] { return detail::build_corners(arrays->vertex_count, arrays->faces); });
   }
   const UninitializedArray<Index>& get_opposite() const {
     return opposite.get([this] {
-      UninitializedArray<Index> ring = detail::build_opposite(faces, get_corners());
+      UninitializedArray<Index> ring = detail::build_opposite(arrays->faces, get_corners());
       for (const Index h : slits) detail::open_ring(h, ring);
       return ring;
     });
   }
   const std::vector<Link>& get_links() const {
-    return links.get([this] { return detail::build_links(faces, get_corners(), get_opposite()); });
+    return links.get([this] { return detail::build_links(arrays->faces, get_corners(), get_opposite()); });
   }
   const Geometry& get_geometry() const {
-    return geometry.get(
-        [this] { return has_positions ? geometry_from_positions(positions, faces) : geometry_from_lengths(); });
+    return geometry.get([this] {
+      return arrays->has_positions ? geometry_from_positions(arrays->positions, arrays->faces)
+                                   : geometry_from_lengths(arrays->input_lengths);
+    });
+  }
+  // Without building the geometry, where that is not there and need not be.
+  double get_unit() const {
+    if (geometry.ready() || !arrays->has_positions) return get_geometry().unit;
+    return unit.get([this] { return unit_from_positions(arrays->positions, arrays->faces); });
   }
 
   void check_lengths() const;
-  Geometry geometry_from_lengths() const;
+  Geometry geometry_from_lengths(const std::vector<double>& input_lengths) const;
 };
 
 namespace {
@@ -188,6 +229,8 @@ constexpr double kLengthAgreement = 1e-9;
 
 // Every face's own lengths; agreement across an edge is checked against the first face of its ring.
 void Mesh::Data::check_lengths() const {
+  const std::vector<Face>& faces = arrays->faces;
+  const std::vector<double>& input_lengths = arrays->input_lengths;
   const UninitializedArray<Index>& ring = get_opposite();
   for (Index f = 0; f < faces.size(); ++f) {
     std::array<double, 3> l;
@@ -211,7 +254,7 @@ void Mesh::Data::check_lengths() const {
   }
 }
 
-Geometry Mesh::Data::geometry_from_lengths() const {
+Geometry Mesh::Data::geometry_from_lengths(const std::vector<double>& input_lengths) const {
   Geometry g;
   double sum = 0, largest = 0;
   for (const double l : input_lengths) largest = std::max(largest, l);
@@ -229,8 +272,8 @@ Geometry Mesh::Data::geometry_from_lengths() const {
       g.lengths[i] = length;
     }
   }
-  g.double_areas.resize(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  g.double_areas.resize(arrays->faces.size());
+  for (std::size_t f = 0; f < g.double_areas.size(); ++f) {
     const double q = heron_sorted(g.lengths[3 * f], g.lengths[3 * f + 1], g.lengths[3 * f + 2]);
     g.double_areas[f] = q > 0 ? 0.5 * std::sqrt(q) : 0.0;
   }
@@ -253,10 +296,12 @@ Mesh::Mesh(std::span<const Vec3> positions, std::span<const Face> faces) {
     }
   }
   check_faces(static_cast<Index>(positions.size()), faces);
+  auto arrays = std::make_shared<Arrays>();
+  arrays->vertex_count = static_cast<Index>(positions.size());
+  arrays->positions.assign(positions.begin(), positions.end());
+  arrays->faces.assign(faces.begin(), faces.end());
   auto data = std::make_shared<Data>();
-  data->vertex_count = static_cast<Index>(positions.size());
-  data->positions.assign(positions.begin(), positions.end());
-  data->faces.assign(faces.begin(), faces.end());
+  data->arrays = std::move(arrays);
   data_ = std::move(data);
 }
 
@@ -267,12 +312,14 @@ Mesh Mesh::from_lengths(Index vertex_count, std::span<const Face> faces,
                                                 std::to_string(lengths.size()) + ": one triple per face is needed");
   }
   check_faces(vertex_count, faces);
+  auto arrays = std::make_shared<Arrays>();
+  arrays->vertex_count = vertex_count;
+  arrays->has_positions = false;
+  arrays->faces.assign(faces.begin(), faces.end());
+  arrays->input_lengths.reserve(3 * lengths.size());
+  for (const auto& l : lengths) arrays->input_lengths.insert(arrays->input_lengths.end(), l.begin(), l.end());
   auto data = std::make_shared<Data>();
-  data->vertex_count = vertex_count;
-  data->has_positions = false;
-  data->faces.assign(faces.begin(), faces.end());
-  data->input_lengths.reserve(3 * lengths.size());
-  for (const auto& l : lengths) data->input_lengths.insert(data->input_lengths.end(), l.begin(), l.end());
+  data->arrays = std::move(arrays);
   data->check_lengths();
   return Mesh(std::move(data));
 }
@@ -285,26 +332,43 @@ Mesh Mesh::with_slits(std::span<const Index> halfedges) const {
     }
   }
   auto data = std::make_shared<Data>();
-  data->vertex_count = data_->vertex_count;
-  data->has_positions = data_->has_positions;
-  data->positions = data_->positions;
-  data->faces = data_->faces;
-  data->input_lengths = data_->input_lengths;
+  data->arrays = data_->arrays;
   data->slits = data_->slits;
   data->slits.insert(data->slits.end(), halfedges.begin(), halfedges.end());
   return Mesh(std::move(data));
 }
 
-Index Mesh::vertex_count() const noexcept { return data_->vertex_count; }
-Index Mesh::face_count() const noexcept { return static_cast<Index>(data_->faces.size()); }
-bool Mesh::has_positions() const noexcept { return data_->has_positions; }
-std::span<const Vec3> Mesh::positions() const noexcept { return data_->positions; }
-std::span<const Face> Mesh::faces() const noexcept { return data_->faces; }
+Mesh Mesh::for_a_while() const {
+  if (data_->opposite.ready()) return *this;
+  auto data = std::make_shared<Data>();
+  data->arrays = data_->arrays;
+  data->slits = data_->slits;
+  return Mesh(std::move(data));
+}
+
+Index Mesh::vertex_count() const noexcept { return data_->arrays->vertex_count; }
+Index Mesh::face_count() const noexcept { return static_cast<Index>(data_->arrays->faces.size()); }
+bool Mesh::has_positions() const noexcept { return data_->arrays->has_positions; }
+std::span<const Vec3> Mesh::positions() const noexcept { return data_->arrays->positions; }
+std::span<const Face> Mesh::faces() const noexcept { return data_->arrays->faces; }
 std::span<const Index> Mesh::opposite() const { return data_->get_opposite(); }
 std::span<const Link> Mesh::links() const { return data_->get_links(); }
-double Mesh::unit() const { return data_->get_geometry().unit; }
+double Mesh::unit() const { return data_->get_unit(); }
 std::span<const double> Mesh::lengths() const { return data_->get_geometry().lengths; }
 std::span<const double> Mesh::double_areas() const { return data_->get_geometry().double_areas; }
+
+Mesh::FaceGeometry Mesh::face_geometry(Index f) const {
+  const Data& d = *data_;
+  if (d.geometry.ready() || !d.arrays->has_positions) {
+    const Geometry& g = d.get_geometry();
+    return {{g.lengths[3 * f], g.lengths[3 * f + 1], g.lengths[3 * f + 2]}, g.double_areas[f]};
+  }
+  const std::array<Vec3, 3> edge = edges_of(d.arrays->positions, d.arrays->faces[f], 1 / d.get_unit());
+  FaceGeometry g;
+  for (std::size_t k = 0; k < 3; ++k) g.lengths[k] = length_of(edge[k]);
+  g.double_area = double_area_of(edge, g.lengths.data());
+  return g;
+}
 
 std::span<const Index> Mesh::corners(Index v) const {
   const detail::VertexCorners& c = data_->get_corners();

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/types.h>
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -89,6 +90,18 @@ class Mesh {
   std::span<const double> lengths() const;
   std::span<const double> double_areas() const;
 
+  // The same of one face, whether or not those arrays have been built: for one look at every face, which is not worth
+  // 64 bytes per vertex for good.
+  struct FaceGeometry {
+    std::array<double, 3> lengths;  // of the face's halfedges
+    double double_area;
+  };
+  FaceGeometry face_geometry(Index f) const;
+
+  // This mesh, to look up its connectivity for a while: where opposite() and links() have not been built yet, a copy
+  // that shares its arrays and corners(), and takes with it what is built for it.
+  Mesh for_a_while() const;
+
   // The angle at the corner that halfedge h starts from, in [0, pi]; pi/3 in a face whose vertices all coincide.
   double corner_angle(Index h) const;
 
@@ -101,6 +114,7 @@ class Mesh {
   }
 
  private:
+  struct Arrays;
   struct Data;
   explicit Mesh(std::shared_ptr<const Data> data);
   std::shared_ptr<const Data> data_;

@@ -215,6 +215,7 @@ void DistanceSolver::set_up(const DistanceOptions& options) { workspace_->engine
 DistanceField DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options) {
   Workspace& w = *workspace_;
   check(options);
+  detail::Engine& engine = w.engine(options.method);  // first: what it derives of the mesh is not found twice
   locate_sources(w.mesh, sources, w.sources);
   locate_targets(w.mesh, options, w.targets);
   DistanceField field;
@@ -222,8 +223,7 @@ DistanceField DistanceSolver::distance(std::span<const Source> sources, const Di
   field.source.assign(w.mesh.vertex_count(), kNoIndex);
   field.target_distance.assign(w.targets.size(), kInfinity);
   field.target_source.assign(w.targets.size(), kNoIndex);
-  w.engine(options.method)
-      .solve({w.sources, w.targets, options.max_distance / w.mesh.unit(), &options, nullptr}, field);
+  engine.solve({w.sources, w.targets, options.max_distance / w.mesh.unit(), &options, nullptr}, field);
   finish(w.mesh, w.targets, options, field);
   return field;
 }

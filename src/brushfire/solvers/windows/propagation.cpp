@@ -85,6 +85,7 @@ class WindowEngine final : public Engine {
   explicit WindowEngine(const Mesh& mesh) : structure_(mesh) {
     if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
     values_.resize(mesh.vertex_count());
+    touched_.reserve(mesh.vertex_count());
     light_.resize(mesh.vertex_count());
   }
 

@@ -1,27 +1,28 @@
 // Face records, angle sums, and which vertices bend paths.
 #include <brushfire/solvers/windows/detail/structure.h>
 
+#include <brushfire/core/uninitialized.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace brushfire::detail {
 namespace {
 
-Beyond beyond(const Mesh& mesh, Index h) {
-  const auto opposite = mesh.opposite();
+Beyond beyond(const Mesh& mesh, std::span<const Index> opposite, Index h) {
   const Index other = opposite[h];
   if (other == h) return Beyond::Nothing;
   return opposite[other] == h && mesh.from(other) == mesh.to(h) ? Beyond::Face : Beyond::Several;
 }
 
 // Half the median edge (of a sample): the mean says nothing where few long edges stand beside many short ones.
-double typical_bucket(const Mesh& mesh) {
+double typical_bucket(std::span<const WindowFace> faces) {
   constexpr std::size_t kSample = 4096;
-  const auto lengths = mesh.lengths();
   std::vector<double> sample;
-  const std::size_t stride = std::max<std::size_t>(1, lengths.size() / kSample);
-  for (std::size_t i = 0; i < lengths.size(); i += stride) {
-    if (lengths[i] > 0) sample.push_back(lengths[i]);
+  const std::size_t stride = std::max<std::size_t>(1, 3 * faces.size() / kSample);
+  for (std::size_t h = 0; h < 3 * faces.size(); h += stride) {
+    const double length = faces[h / 3].length[h % 3];
+    if (length > 0) sample.push_back(length);
   }
   if (sample.empty()) return 1;
   const auto median = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
@@ -36,12 +37,26 @@ double angle_at(const WindowFace& f, Index i) {
   return std::atan2(f.double_area, 0.5 * (a * a + (b - c) * (b + c)));
 }
 
+// Faces are in the order of their least vertices, those of one vertex in the mesh's order.
+Index WindowStructure::inner_face(Index f) const {
+  const Face& t = mesh.faces()[f];
+  const Index least = std::min({inner_vertex(t[0]), inner_vertex(t[1]), inner_vertex(t[2])});
+  Index low = 0, high = static_cast<Index>(faces.size());
+  while (high - low > 1) {
+    const Index middle = low + (high - low) / 2;
+    const WindowFace& m = faces[middle];
+    const Index its = std::min({m.vertex[0], m.vertex[1], m.vertex[2]});
+    (its < least || (its == least && order.faces[middle] <= f) ? low : high) = middle;
+  }
+  return low;
+}
+
 WindowStructure::WindowStructure(const Mesh& m) : mesh(m), order(locality_order(m)) {
-  const auto lengths = mesh.lengths();
-  const auto opposite = mesh.opposite();
-  const auto links = mesh.links();
+  const Mesh connected = mesh.for_a_while();
+  const auto opposite = connected.opposite();
+  const auto links = connected.links();
   const Index n = mesh.vertex_count();
-  face_rank.resize(mesh.face_count());
+  UninitializedArray<Index> face_rank(mesh.face_count());  // mesh's number to inner
   for (Index f = 0; f < mesh.face_count(); ++f) face_rank[order.faces[f]] = f;
   faces.resize(mesh.face_count());
   bend.assign(n, Bend::None);
@@ -49,18 +64,19 @@ WindowStructure::WindowStructure(const Mesh& m) : mesh(m), order(locality_order(
   for (Index inner = 0; inner < mesh.face_count(); ++inner) {
     const Index f = order.faces[inner];
     WindowFace& face = faces[inner];
-    face.double_area = mesh.double_areas()[f];
+    const Mesh::FaceGeometry geometry = mesh.face_geometry(f);
+    face.double_area = geometry.double_area;
     face.waiting = kNoIndex;
     face.has_target = false;
     face.usable = mesh.is_face_usable(f);
-    const double base = std::max({lengths[3 * f], lengths[3 * f + 1], lengths[3 * f + 2]});
+    const double base = std::max({geometry.lengths[0], geometry.lengths[1], geometry.lengths[2]});
     face.thin = face.double_area <= kThin * base * base;
     for (Index k = 0; k < 3; ++k) {
       const Index h = 3 * f + k;
-      face.length[k] = lengths[h];
+      face.length[k] = geometry.lengths[k];
       face.vertex[k] = inner_vertex(mesh.faces()[f][k]);
-      face.opposite[k] = inner_halfedge(opposite[h]);
-      face.beyond[k] = face.usable ? beyond(mesh, h) : Beyond::Nothing;
+      face.opposite[k] = 3 * face_rank[opposite[h] / 3] + opposite[h] % 3;
+      face.beyond[k] = face.usable ? beyond(mesh, opposite, h) : Beyond::Nothing;
     }
     for (Index k = 0; k < 3; ++k) {
       const Index v = face.vertex[k];
@@ -81,7 +97,7 @@ WindowStructure::WindowStructure(const Mesh& m) : mesh(m), order(locality_order(
     if (link == Link::Circle && total_angle[v] > 2 * kPi + kFlat) bend[v] = Bend::Saddle;
     if (link == Link::Arc && total_angle[v] > kPi + kFlat) bend[v] = Bend::Boundary;
   }
-  bucket_width = typical_bucket(mesh);
+  bucket_width = typical_bucket(faces);
 }
 
 }  // namespace brushfire::detail

@@ -23,14 +23,13 @@ struct WindowStructure {
   Index vertex_count() const { return static_cast<Index>(bend.size()); }
   Index inner_vertex(Index v) const { return order.vertex_rank[v]; }
   Index outer_vertex(Index v) const { return order.vertices[v]; }
-  Index inner_face(Index f) const { return face_rank[f]; }
+  Index inner_face(Index f) const;  // O(log faces): sources and targets ask, the run itself hardly ever
   Index outer_face(Index f) const { return order.faces[f]; }
-  Index inner_halfedge(Index h) const { return 3 * face_rank[h / 3] + h % 3; }
+  Index inner_halfedge(Index h) const { return 3 * inner_face(h / 3) + h % 3; }
   Index outer_halfedge(Index h) const { return 3 * order.faces[h / 3] + h % 3; }
 
   Mesh mesh;  // the caller's
   LocalityOrder order;
-  std::vector<Index> face_rank;   // [face_count] mesh's number to inner
   std::vector<WindowFace> faces;  // [face_count]
   std::vector<Bend> bend;         // [vertex_count]
   double bucket_width = 1;        // half a typical edge
