@@ -123,11 +123,33 @@ def exact_summary(rows):
     return "\n".join(lines) + "\n"
 
 
+def annotate(axes, points):
+    """Writes (x, y, text, colour) beside their points, each where it covers nothing; farther ones with a line."""
+    frame = axes.get_window_extent()
+    near = 7  # pixels around a point that stay free
+    centres = [axes.transData.transform((x, y)) for x, y, _, _ in points]
+    taken = [(x - near, y - near, x + near, y + near) for x, y in centres] + [axes.get_legend().get_window_extent().extents]
+    places = [(10, -4, "left"), (-10, -4, "right")]
+    places += [(0, sign * dy, side) for dy in range(12, 200, 12) for sign in (1, -1) for side in ("left", "right")]
+    for x, y, text, colour in sorted(points):
+        beside = {"xy": (x, y), "textcoords": "offset points", "color": colour, "fontsize": 8}
+        for dx, dy, side in places:
+            note = axes.annotate(text, xytext=(dx, dy), ha=side, **beside)
+            left, low, right, top = note.get_window_extent().extents
+            inside = frame.x0 < left and right < frame.x1 and frame.y0 < low and top < frame.y1
+            if inside and all(right < l or r < left or top < b or t < low for l, b, r, t in taken):
+                taken.append((left - 3, low, right + 3, top))
+                if abs(dy) > 20:
+                    axes.annotate("", xytext=(0, dy), arrowprops={"arrowstyle": "-", "color": colour, "lw": 0.5}, **beside)
+                break
+            note.remove()
+
+
 def pareto(rows, file):
     """Error against time, one point a program: geometric means over the meshes that all of them solved."""
     import matplotlib
 
-    matplotlib.use("svg")
+    matplotlib.use("agg")  # measures text, for annotate(); the file is SVG by its name
     import matplotlib.pyplot as plt
 
     matplotlib.rcParams["svg.hashsalt"] = "brushfire"
@@ -137,17 +159,26 @@ def pareto(rows, file):
         return []
     names = [n for n in rows[0]["results"] if all(n in ran(row, [n]) for row in rows)]
     mean = lambda values: math.exp(sum(map(math.log, values)) / len(values))  # noqa: E731
-    figure, axes = plt.subplots(figsize=(8, 5.5))
+    figure, axes = plt.subplots(figsize=(8.5, 6), dpi=72)  # a pixel is a point, as in the SVG
+    points = []
     for name in names:
         results = [row["results"][name] for row in rows]
         x = mean([1e9 * first(r) / row["vertices"] for r, row in zip(results, rows)])
         y = mean([max(r.get("mean_error", 1), EXACT) for r in results])
         colour = "#c0392b" if is_ours(name) else "#34495e"
         axes.plot(x, y, "o" if is_ours(name) else "s", color=colour)
-        axes.annotate(NAMES.get(name, name), (x, y), textcoords="offset points", xytext=(6, 4), fontsize=8, color=colour)
+        points.append((x, y, NAMES.get(name, name), colour))
     axes.set(xscale="log", yscale="log", xlabel="arrays to field: ns per vertex, one thread")
     axes.set(ylabel=f"mean relative error (at the bottom: exact)", title="Error against time; lower left is better")
     axes.grid(True, which="major", alpha=0.3)
+    axes.set_xmargin(0.12)
+    axes.set_ymargin(0.1)
+    axes.plot([], [], "o", color="#c0392b", label="brushfire")
+    axes.plot([], [], "s", color="#34495e", label="other programs")
+    axes.legend(loc="upper right")
+    figure.tight_layout()
+    figure.canvas.draw()
+    annotate(axes, points)
     figure.savefig(file, metadata={"Date": None}, bbox_inches="tight")
     return [row["mesh"] for row in rows]
 
