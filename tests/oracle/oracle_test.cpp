@@ -1,5 +1,6 @@
 // The oracle itself: cases that can be checked by hand, closed forms, the visibility graph, a dense Steiner graph, and
 // the exact distances of other programs.
+#include "oracle/deviation.h"
 #include "oracle/planar_domain.h"
 #include "oracle/polyhedral.h"
 #include "oracle/zoo.h"
@@ -258,6 +259,23 @@ TEST(Oracle, AgreesWithOtherExactPrograms) {
     const auto d = from_vertex(mesh, t.source);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       ASSERT_LT(relative_error(d[v], known[v]), 2e-13) << t.name << " from " << t.source << " vertex " << v;
+    }
+  }
+}
+
+// A source on a vertex that lies on an edge of a row without altitude was lost beside another source (by rounding, in
+// rule 3): distances from several sources are the least of those from each.
+TEST(Oracle, SeveralSourcesOnRowsWithoutAltitudeAreTheLeastOfEach) {
+  for (std::uint32_t grid = 1; grid <= 60; ++grid) {
+    const Mesh mesh = needle_grid(grid, 6, 0);
+    std::mt19937 random(grid);
+    const std::vector<Source> sources{{random_vertex(mesh, random), 0.05}, {random_edge_point(mesh, random), 0}};
+    const Truth both = polyhedral_distance(mesh, sources);
+    const Truth one = polyhedral_distance(mesh, std::span(sources).first(1));
+    const Truth other = polyhedral_distance(mesh, std::span(sources).last(1));
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Real least = std::min(one.distance[v], other.distance[v]);
+      EXPECT_LE(std::abs(both.distance[v] - least), 1e-14L) << "grid " << grid << ", vertex " << v;
     }
   }
 }

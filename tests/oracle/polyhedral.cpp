@@ -304,7 +304,10 @@ class Solver {
     if (a > b) return false;
     if (w.back != kNoIndex) {
       const Real behind = truth_.distance[w.back];
-      const Real side_left = cross(w.left, w.back_at - w.source), side_right = cross(w.right, w.back_at - w.source);
+      // Without doubt: a source on the edge behind lies in line with V and a limit ray.
+      const Point to_back = w.back_at - w.source;
+      const Real side_left = cross(w.left, to_back) - doubt(w, w.back_at);
+      const Real side_right = cross(w.right, to_back) + doubt(w, w.back_at);
       const Point at_b{b, 0}, at_a{a, 0};
       if (side_left > 0 && behind + norm(at_b - w.back_at) + margin(behind) < along(w, b)) return false;
       if (side_right < 0 && behind + norm(at_a - w.back_at) + margin(behind) < along(w, a)) return false;
@@ -334,9 +337,14 @@ class Solver {
 
   bool sees(const Window& w, Point p) const {
     const Point d = p - w.source;
-    const Real doubt = kAngle * norm(d) + kLateral * (norm(w.source) + norm(p));
-    return cross(w.left, d) <= doubt && cross(w.right, d) >= -doubt &&
-           (dot(w.left, d) >= -doubt || dot(w.right, d) >= -doubt);
+    const Real doubtful = doubt(w, p);
+    return cross(w.left, d) <= doubtful && cross(w.right, d) >= -doubtful &&
+           (dot(w.left, d) >= -doubtful || dot(w.right, d) >= -doubtful);
+  }
+
+  // How far (times 1, across a unit direction) rounding may have moved p against a ray from the source.
+  static Real doubt(const Window& w, Point p) {
+    return kAngle * norm(p - w.source) + kLateral * (norm(w.source) + norm(p));
   }
 
   // Through the face: to the apex, the targets inside and, split at the apex, to the two other edges.
