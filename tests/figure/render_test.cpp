@@ -196,6 +196,21 @@ TEST(Render, PanelsOfAnotherScaleHaveTheirOwnRangeAndBar) {
   EXPECT_GT(brightness(image, x + 92, 50), 180);
 }
 
+TEST(Render, WhatHasNoValueIsInTheLegend) {
+  Panel panel = square();
+  RenderOptions options = front(240);
+  options.colour_bar = true;
+  const auto swatches = [&] {
+    const std::span<const Panel> panels(&panel, 1);
+    return detail::lay_out(panels, options, detail::ranges_of(panels, options), detail::Font("")).swatches;
+  };
+  EXPECT_TRUE(swatches().empty());
+  panel.scalar[40] = kInfinity;
+  ASSERT_EQ(swatches().size(), 1u);
+  EXPECT_TRUE(swatches().front().color == detail::kNoValueColor);
+  EXPECT_LE(swatches().front().at.y + swatches().front().at.height, 240);
+}
+
 TEST(Render, CornersThatAreLessOpenAreDarker) {
   Panel panel = square();
   const Image plain = render_one(panel, front(100));

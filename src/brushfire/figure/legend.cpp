@@ -63,6 +63,16 @@ bool last_of_its_scale(std::span<const Panel> panels) {
   return coloured(panels.front()) && std::none_of(panels.begin() + 1, panels.end(), coloured);
 }
 
+// Whether a face is drawn without a value in a panel of this scale.
+bool lacks_values(std::span<const Panel> panels, std::size_t scale) {
+  return std::any_of(panels.begin(), panels.end(), [&](const Panel& p) {
+    if (p.scalar.empty() || !p.labels.empty() || p.scale != scale) return false;
+    return std::any_of(p.mesh.faces().begin(), p.mesh.faces().end(), [&](const Face& t) {
+      return !(std::isfinite(p.scalar[t[0]]) && std::isfinite(p.scalar[t[1]]) && std::isfinite(p.scalar[t[2]]));
+    });
+  });
+}
+
 // The labels in use, with a name each.
 std::vector<std::pair<Index, std::string>> legend_entries(std::span<const Panel> panels) {
   std::set<Index> used;
@@ -94,7 +104,7 @@ class Builder {
     layout_.width += options_.width;
   }
 
-  void add_bar(const ColorScale& scale, ScalarRange range) {
+  void add_bar(const ColorScale& scale, ScalarRange range, bool with_no_value) {
     const int x = layout_.width + kPad, width = static_cast<int>(std::max(14.0, 0.9 * size_));
     const int unit_room = scale.unit.empty() ? 0 : static_cast<int>(1.6 * size_);
     const int height = std::max(16, static_cast<int>(0.82 * options_.height) - unit_room);
@@ -109,6 +119,11 @@ class Builder {
       right = std::max(right, add_text(at.x + width + 7, row + 0.32 * size_, tick.text));
     }
     if (unit_room > 0) right = std::max(right, add_text(x, at.y - 0.6 * size_, scale.unit));
+    if (with_no_value) {
+      const int side = static_cast<int>(0.75 * size_), y = at.y + at.height + static_cast<int>(0.6 * size_);
+      layout_.swatches.push_back({{x, y, side, side}, kNoValueColor});
+      right = std::max(right, add_text(x + side + 7, y + 0.88 * side, "no value"));
+    }
     layout_.width = static_cast<int>(std::ceil(right)) + kPad;
   }
 
@@ -180,7 +195,7 @@ Layout lay_out(std::span<const Panel> panels, const RenderOptions& options, std:
     builder.add_panel(panels[i]);
     const std::size_t scale = panels[i].scale;
     if (options.colour_bar && last_of_its_scale(panels.subspan(i))) {
-      builder.add_bar(options.scales[scale], ranges[scale]);
+      builder.add_bar(options.scales[scale], ranges[scale], lacks_values(panels, scale));
     }
   }
   if (options.colour_bar) {

@@ -9,7 +9,6 @@
 namespace brushfire::detail {
 namespace {
 
-constexpr Color kGrey{0.72F, 0.72F, 0.72F};   // no value: unreachable, unlabelled
 constexpr Color kPlain{0.80F, 0.82F, 0.85F};  // nothing to show but the shape
 constexpr Color kLineColor{0.08F, 0.08F, 0.10F};
 
@@ -89,10 +88,10 @@ Color SurfaceShader::base_color(double value, std::array<float, 3> w) const {
     // A face belongs to the label of the corner that the sample is nearest to.
     const auto k = static_cast<std::size_t>(std::max_element(w.begin(), w.end()) - w.begin());
     const Index label = panel.labels[surface_.mesh().faces()[face_][k]];
-    return label == kNoIndex ? kGrey : label_color(label);
+    return label == kNoIndex ? kNoValueColor : label_color(label);
   }
   if (panel.scalar.empty()) return kPlain;
-  if (!has_value_) return kGrey;
+  if (!has_value_) return kNoValueColor;
   if (value > panel.front) return kPlain;
   const ScalarRange range = surface_.range_;
   const double span = range.high - range.low;

@@ -30,7 +30,7 @@ struct Layout {
   int width = 0, height = 0;
   std::vector<Rectangle> panels;
   std::vector<TextAt> texts;
-  std::vector<Swatch> swatches;  // of labels
+  std::vector<Swatch> swatches;  // of labels, and of what has no value
   std::vector<Bar> bars;
 };
 

@@ -13,6 +13,9 @@ struct ScalarRange {
   double low = 0, high = 1;
 };
 
+// Faces that have no value, as they cannot be reached, and places that have no label.
+inline constexpr Color kNoValueColor{0.72F, 0.72F, 0.72F};
+
 // Everything about one panel's surface that does not depend on the sample. Keeps references to its arguments.
 class Surface {
  public:
