@@ -75,19 +75,17 @@ constexpr std::array<TwoSteps, 24 * 64> kTwoSteps = [] {
 // Spreads the lower two bits of x three apart.
 constexpr unsigned spread(unsigned x) { return (x & 1) | (x & 2) << 2; }
 
-struct Keyed {
-  std::uint64_t key;
-  Index item;
-};
+// A place on the curve and a vertex there, as one number that sorts by the place.
+using Keyed = std::uint64_t;
+constexpr int kKeyBits = 3 * kHilbertBits;
 
-// The items by the lowest `kBits` bits of their keys, equal ones in the order given. `items` is used up.
-template <int kBits>
+// The vertices by their keys, equal ones in the order given. `items` is used up.
 std::vector<Index> radix_sorted(UninitializedArray<Keyed>& items) {
-  constexpr int kDigitBits = 12, kDigits = kBits / kDigitBits;
-  static_assert(kBits % kDigitBits == 0);
-  const auto digit = [](const Keyed& k, int i) { return (k.key >> (i * kDigitBits)) & ((1 << kDigitBits) - 1); };
-  std::vector<std::array<Index, 1 << kDigitBits>> start(kDigits);
-  for (const Keyed& k : items) {
+  constexpr int kDigitBits = 10, kDigits = kKeyBits / kDigitBits;
+  static_assert(kKeyBits % kDigitBits == 0 && kKeyBits <= 32);
+  const auto digit = [](Keyed k, int i) { return (k >> (32 + i * kDigitBits)) & ((1 << kDigitBits) - 1); };
+  std::array<std::array<Index, 1 << kDigitBits>, kDigits> start{};
+  for (const Keyed k : items) {
     for (int i = 0; i < kDigits; ++i) ++start[static_cast<std::size_t>(i)][digit(k, i)];
   }
   UninitializedArray<Keyed> other(items.size());
@@ -97,10 +95,10 @@ std::vector<Index> radix_sorted(UninitializedArray<Keyed>& items) {
     Index sum = 0;
     for (Index& s : place) sum += std::exchange(s, sum);
     if (i + 1 < kDigits) {
-      for (const Keyed& k : items) other[place[digit(k, i)]++] = k;
+      for (const Keyed k : items) other[place[digit(k, i)]++] = k;
       items.swap(other);
     } else {
-      for (const Keyed& k : items) order[place[digit(k, i)]++] = k.item;
+      for (const Keyed k : items) order[place[digit(k, i)]++] = static_cast<Index>(k);
     }
   }
   return order;
@@ -116,15 +114,18 @@ std::vector<Index> hilbert_order(std::span<const Vec3> positions) {
   const Vec3 half = 0.5 * high - 0.5 * low;
   const double extent = std::max({half.x, half.y, half.z});
   constexpr double kCells = (1 << kHilbertBits) - 1;
+  // First to the unit cube, as the inverse of a tiny extent may be infinite.
+  const double unit = extent > 0 ? std::clamp(std::ldexp(1.0, std::ilogb(extent)), 0x1p-1000, 0x1p1000) : 1.0;
+  const double up = 1 / unit, cells = extent > 0 ? kCells / (extent * up) : 0;
   const auto cell = [=](double x, double lowest) {
-    return extent > 0 ? static_cast<std::uint32_t>((0.5 * x - 0.5 * lowest) / extent * kCells) : 0u;
+    return static_cast<std::uint32_t>(std::min((0.5 * x - 0.5 * lowest) * up * cells, kCells));
   };
   UninitializedArray<Keyed> items(positions.size());
   for (Index v = 0; v < items.size(); ++v) {
     const Vec3 p = positions[v];
-    items[v] = {detail::hilbert_index(cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z)), v};
+    items[v] = detail::hilbert_index(cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z)) << 32 | v;
   }
-  return radix_sorted<3 * kHilbertBits>(items);
+  return radix_sorted(items);
 }
 
 std::vector<Index> breadth_first_order(const Mesh& mesh) {
@@ -176,6 +177,20 @@ std::uint64_t detail::hilbert_index(std::uint32_t x, std::uint32_t y, std::uint3
 
 std::vector<Index> vertex_locality_order(const Mesh& mesh) {
   return mesh.has_positions() ? hilbert_order(mesh.positions()) : breadth_first_order(mesh);
+}
+
+bool is_local(const Mesh& mesh) {
+  constexpr Index kNear = 4096, kSample = 4096;
+  const std::span<const Face> faces = mesh.faces();
+  const std::size_t stride = std::max<std::size_t>(1, faces.size() / kSample);
+  std::size_t near = 0, all = 0;
+  for (std::size_t f = 0; f + 1 < faces.size(); f += stride, ++all) {
+    const auto [low, high] =
+        std::minmax({faces[f][0], faces[f][1], faces[f][2], faces[f + 1][0], faces[f + 1][1], faces[f + 1][2]});
+    near += high - low < kNear;
+  }
+  constexpr std::size_t kMost = 8;  // all but one in so many
+  return near >= all - all / kMost;
 }
 
 LocalityOrder locality_order(const Mesh& mesh) {

@@ -17,12 +17,16 @@ struct LocalityOrder {
   std::vector<Index> faces;        // [face_count] new to old, by the least place of a face's vertices, then by number
 };
 
-// Along a Hilbert curve through the bounding cube of the positions (2^16 cells a side); breadth first, from the lowest
+// Along a Hilbert curve through the bounding cube of the positions (2^10 cells a side); breadth first, from the lowest
 // vertex of each component, where the mesh has no positions. Ties by number, so the result is unique. O(vertices +
 // faces): a radix sort.
 LocalityOrder locality_order(const Mesh& mesh);
 
 // Its `vertices` alone.
 std::vector<Index> vertex_locality_order(const Mesh& mesh);
+
+// Whether the numbers that a mesh has will do: nearly all edges, and faces that follow each other, join vertices with
+// near numbers. Looks at some thousand faces.
+bool is_local(const Mesh& mesh);
 
 }  // namespace brushfire

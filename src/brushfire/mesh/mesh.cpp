@@ -31,6 +31,14 @@ class Lazy {
   }
   bool ready() const { return ready_.load(std::memory_order_acquire); }
 
+  // Where it is known already; before anybody asks.
+  void set(T value) {
+    std::call_once(once_, [&] {
+      value_ = std::move(value);
+      ready_.store(true, std::memory_order_release);
+    });
+  }
+
  private:
   mutable std::atomic<bool> ready_ = false;
   mutable std::once_flag once_;
@@ -40,7 +48,6 @@ class Lazy {
 namespace {
 
 struct Geometry {
-  double unit = 1;
   UninitializedArray<double> lengths;       // [halfedge_count]
   UninitializedArray<double> double_areas;  // [face_count]
 };
@@ -96,69 +103,58 @@ std::array<Vec3, 3> edges_of(std::span<const Vec3> positions, const Face& t, dou
   return {scaled_difference(a, b, scale), scaled_difference(b, c, scale), scaled_difference(c, a, scale)};
 }
 
-// Lengths and areas in units of `unit`; returns the mean length.
-double measure(std::span<const Vec3> positions, std::span<const Face> faces, Geometry& g) {
-  const double scale = 1 / g.unit;
-  double sum = 0;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const std::array<Vec3, 3> edge = edges_of(positions, faces[f], scale);
-    double* const length = &g.lengths[3 * f];
-    for (std::size_t k = 0; k < 3; ++k) length[k] = length_of(edge[k]);
-    sum += length[0] + length[1] + length[2];
-    g.double_areas[f] = double_area_of(edge, length);
-  }
-  return faces.empty() ? 0 : sum / (3.0 * static_cast<double>(faces.size()));
-}
-// The mean alone.
-double mean_length(std::span<const Vec3> positions, std::span<const Face> faces, double unit) {
-  double sum = 0;
-  for (const Face& t : faces) {
-    const std::array<Vec3, 3> edge = edges_of(positions, t, 1 / unit);
-    sum += length_of(edge[0]) + length_of(edge[1]) + length_of(edge[2]);
-  }
-  return faces.empty() ? 0 : sum / (3.0 * static_cast<double>(faces.size()));
+std::array<double, 3> lengths_of(const std::array<Vec3, 3>& edge) {
+  return {length_of(edge[0]), length_of(edge[1]), length_of(edge[2])};
 }
 
-// A unit in which nothing overflows.
-double first_unit(std::span<const Vec3> positions, std::span<const Face> faces) {
-  double largest = 0;
-  for (const Face& t : faces) {
-    for (const Index v : t) {
-      largest = std::max({largest, std::abs(positions[v].x), std::abs(positions[v].y), std::abs(positions[v].z)});
+// The mean length of the edges of every `stride`-th face, and the greatest coordinate there. Measured in units of that,
+// where nothing overflows.
+struct Sample {
+  double mean = 0, largest = 0;
+};
+
+Sample sample_edges(std::span<const Vec3> positions, std::span<const Face> faces, std::size_t stride) {
+  Sample sample;
+  for (std::size_t f = 0; f < faces.size(); f += stride) {
+    for (const Index v : faces[f]) {
+      const Vec3& p = positions[v];
+      sample.largest = std::max({sample.largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
   }
-  return power_of_two_below(largest);
-}
-// From there to the unit near the mean: by this power of two.
-double shrink_of(double mean, double unit) {
-  return std::clamp(power_of_two_below(mean), kSmallestUnit / unit, kLargestUnit / unit);
-}
-double unit_from_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
-  const double unit = first_unit(positions, faces);
-  const double mean = mean_length(positions, faces, unit);
-  return mean == 0 ? 1 : unit * shrink_of(mean, unit);
+  const double unit = power_of_two_below(sample.largest);
+  double sum = 0, count = 0;
+  for (std::size_t f = 0; f < faces.size(); f += stride, count += 3) {
+    const std::array<double, 3> length = lengths_of(edges_of(positions, faces[f], 1 / unit));
+    sum += length[0] + length[1] + length[2];
+  }
+  if (count > 0) sample.mean = sum / count * unit;
+  return sample;
 }
 
-// First in units of the greatest coordinate, where nothing overflows; then the mean is known, and multiplying by powers
-// of two is exact, unless the mesh is so small beside its distance from the origin that squares may have vanished.
-Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
+// How far two powers of two apart squares and fourth powers keep their digits.
+constexpr double kOneSize = 0x1p100;
+
+double unit_from_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
+  constexpr std::size_t kSample = 4096;
+  Sample sample = sample_edges(positions, faces, std::max<std::size_t>(1, faces.size() / kSample));
+  const bool is_large = faces.size() > kSample;
+  double largest = sample.largest;
+  if (is_large) {
+    for (const Vec3& p : positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  if (is_large && !(sample.mean > largest / kOneSize)) sample = sample_edges(positions, faces, 1);
+  return power_of_two_below(sample.mean);
+}
+
+Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<const Face> faces, double unit) {
   Geometry g;
-  g.unit = first_unit(positions, faces);
   g.lengths.resize(3 * faces.size());
   g.double_areas.resize(faces.size());
-  const double mean = measure(positions, faces, g);
-  if (mean == 0) {
-    g.unit = 1;
-    return g;
-  }
-  const double shrink = shrink_of(mean, g.unit);
-  g.unit *= shrink;
-  constexpr double kSquaresKeepTheirDigits = 0x1p-100;
-  if (shrink < kSquaresKeepTheirDigits) {
-    measure(positions, faces, g);
-  } else if (shrink != 1) {
-    for (double& l : g.lengths) l /= shrink;
-    for (double& a : g.double_areas) a /= shrink * shrink;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const std::array<Vec3, 3> edge = edges_of(positions, faces[f], 1 / unit);
+    double* const length = &g.lengths[3 * f];
+    for (std::size_t k = 0; k < 3; ++k) length[k] = length_of(edge[k]);
+    g.double_areas[f] = double_area_of(edge, length);
   }
   return g;
 }
@@ -169,11 +165,14 @@ Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<cons
 struct Mesh::Arrays {
   Index vertex_count = 0;
   bool has_positions = true;
-  std::vector<Vec3> positions;
-  std::vector<Face> faces;
+  UninitializedArray<Vec3> positions;
+  UninitializedArray<Face> faces;
   std::vector<double> input_lengths;  // [halfedge_count], meshes from lengths only
 
   Lazy<detail::VertexCorners> corners;
+  mutable std::atomic<bool> searched = false;  // first_corner() has been called
+
+  double unit_from_lengths() const;
 };
 
 struct Mesh::Data {
@@ -201,18 +200,25 @@ struct Mesh::Data {
   }
   const Geometry& get_geometry() const {
     return geometry.get([this] {
-      return arrays->has_positions ? geometry_from_positions(arrays->positions, arrays->faces)
+      return arrays->has_positions ? geometry_from_positions(arrays->positions, arrays->faces, get_unit())
                                    : geometry_from_lengths(arrays->input_lengths);
     });
   }
-  // Without building the geometry, where that is not there and need not be.
   double get_unit() const {
-    if (geometry.ready() || !arrays->has_positions) return get_geometry().unit;
-    return unit.get([this] { return unit_from_positions(arrays->positions, arrays->faces); });
+    return unit.get([this] {
+      return arrays->has_positions ? unit_from_positions(arrays->positions, arrays->faces)
+                                   : arrays->unit_from_lengths();
+    });
   }
 
   void check_lengths() const;
   Geometry geometry_from_lengths(const std::vector<double>& input_lengths) const;
+
+  // The next halfedge around an edge, and how many there are, looked up in the corners of an end.
+  struct EdgeFaces {
+    Index next, faces;
+  };
+  EdgeFaces find_opposite(Index h) const;
 };
 
 namespace {
@@ -229,7 +235,7 @@ constexpr double kLengthAgreement = 1e-9;
 
 // Every face's own lengths; agreement across an edge is checked against the first face of its ring.
 void Mesh::Data::check_lengths() const {
-  const std::vector<Face>& faces = arrays->faces;
+  const UninitializedArray<Face>& faces = arrays->faces;
   const std::vector<double>& input_lengths = arrays->input_lengths;
   const UninitializedArray<Index>& ring = get_opposite();
   for (Index f = 0; f < faces.size(); ++f) {
@@ -254,19 +260,22 @@ void Mesh::Data::check_lengths() const {
   }
 }
 
-Geometry Mesh::Data::geometry_from_lengths(const std::vector<double>& input_lengths) const {
-  Geometry g;
+double Mesh::Arrays::unit_from_lengths() const {
   double sum = 0, largest = 0;
   for (const double l : input_lengths) largest = std::max(largest, l);
   const double scale = 1 / power_of_two_below(largest);
   for (const double l : input_lengths) sum += l * scale;
-  if (!input_lengths.empty()) g.unit = power_of_two_below(sum / static_cast<double>(input_lengths.size()) / scale);
+  return input_lengths.empty() ? 1 : power_of_two_below(sum / static_cast<double>(input_lengths.size()) / scale);
+}
+
+Geometry Mesh::Data::geometry_from_lengths(const std::vector<double>& input_lengths) const {
+  Geometry g;
   g.lengths.resize(input_lengths.size());
   const UninitializedArray<Index>& ring = get_opposite();
   std::vector<bool> done(input_lengths.size(), false);
   for (Index h = 0; h < input_lengths.size(); ++h) {
     // One length for all faces of an edge: that of the ring's lowest halfedge, which comes first.
-    const double length = input_lengths[h] / g.unit;
+    const double length = input_lengths[h] / get_unit();
     for (Index i = h; !done[i]; i = ring[i]) {
       done[i] = true;
       g.lengths[i] = length;
@@ -278,6 +287,30 @@ Geometry Mesh::Data::geometry_from_lengths(const std::vector<double>& input_leng
     g.double_areas[f] = q > 0 ? 0.5 * std::sqrt(q) : 0.0;
   }
   return g;
+}
+
+// The halfedges of an edge ascend around its ring, and with the corners at either of its ends.
+Mesh::Data::EdgeFaces Mesh::Data::find_opposite(Index h) const {
+  EdgeFaces found{h, 1};
+  const Index f = face_of(h), corner = h - 3 * f;
+  const Face& own = arrays->faces[f];
+  if (own[0] == own[1] || own[1] == own[2] || own[2] == own[0]) return found;
+  const detail::VertexCorners& all = get_corners();
+  const Index v = own[corner], w = own[corner == 2 ? 0 : corner + 1];
+  Index lowest = h, higher = kNoIndex;
+  for (Index i = all.offset[v]; i < all.offset[v + 1]; ++i) {
+    const Index other_face = face_of(all.corner[i]);
+    const Face& t = arrays->faces[other_face];
+    const bool has_w = (t[0] == w) | (t[1] == w) | (t[2] == w);
+    if (!has_w || other_face == f || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    const Index k = all.corner[i] - 3 * other_face;
+    const Index other = t[k == 2 ? 0 : k + 1] == w ? all.corner[i] : previous(all.corner[i]);
+    ++found.faces;
+    lowest = std::min(lowest, other);
+    if (other > h) higher = std::min(higher, other);
+  }
+  found.next = higher != kNoIndex ? higher : lowest;
+  return found;
 }
 
 Mesh::Mesh() : data_(std::make_shared<Data>()) {}
@@ -346,13 +379,44 @@ Mesh Mesh::for_a_while() const {
   return Mesh(std::move(data));
 }
 
+Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> vertex_rank,
+                      std::span<const Index> face_order) const {
+  const Arrays& old = *data_->arrays;
+  auto arrays = std::make_shared<Arrays>();
+  arrays->vertex_count = old.vertex_count;
+  arrays->has_positions = old.has_positions;
+  arrays->positions.resize(old.positions.size());
+  for (std::size_t i = 0; i < arrays->positions.size(); ++i) arrays->positions[i] = old.positions[vertices[i]];
+  arrays->faces.resize(old.faces.size());
+  arrays->input_lengths.resize(old.input_lengths.size());
+  for (std::size_t f = 0; f < arrays->faces.size(); ++f) {
+    const Face& t = old.faces[face_order[f]];
+    arrays->faces[f] = {vertex_rank[t[0]], vertex_rank[t[1]], vertex_rank[t[2]]};
+    if (has_positions()) continue;
+    for (std::size_t k = 0; k < 3; ++k) arrays->input_lengths[3 * f + k] = unit() * lengths()[3 * face_order[f] + k];
+  }
+  auto data = std::make_shared<Data>();
+  data->arrays = std::move(arrays);
+  data->unit.set(unit());
+  if (has_slits()) {
+    std::vector<Index> rank(face_order.size());
+    for (Index f = 0; f < rank.size(); ++f) rank[face_order[f]] = f;
+    for (const Index h : data_->slits) data->slits.push_back(3 * rank[h / 3] + h % 3);
+  }
+  return Mesh(std::move(data));
+}
+
 Index Mesh::vertex_count() const noexcept { return data_->arrays->vertex_count; }
 Index Mesh::face_count() const noexcept { return static_cast<Index>(data_->arrays->faces.size()); }
 bool Mesh::has_positions() const noexcept { return data_->arrays->has_positions; }
+bool Mesh::has_slits() const noexcept { return !data_->slits.empty(); }
 std::span<const Vec3> Mesh::positions() const noexcept { return data_->arrays->positions; }
 std::span<const Face> Mesh::faces() const noexcept { return data_->arrays->faces; }
 std::span<const Index> Mesh::opposite() const { return data_->get_opposite(); }
 std::span<const Link> Mesh::links() const { return data_->get_links(); }
+Index Mesh::opposite(Index h) const {
+  return data_->slits.empty() && !data_->opposite.ready() ? data_->find_opposite(h).next : data_->get_opposite()[h];
+}
 double Mesh::unit() const { return data_->get_unit(); }
 std::span<const double> Mesh::lengths() const { return data_->get_geometry().lengths; }
 std::span<const double> Mesh::double_areas() const { return data_->get_geometry().double_areas; }
@@ -369,6 +433,44 @@ Mesh::FaceGeometry Mesh::face_geometry(Index f) const {
   g.double_area = double_area_of(edge, g.lengths.data());
   return g;
 }
+
+Index Mesh::neighbour(Index h) const {
+  if (data_->slits.empty() && !data_->opposite.ready()) {
+    const Data::EdgeFaces edge = data_->find_opposite(h);
+    return edge.faces == 2 ? edge.next : h;
+  }
+  const Index g = opposite(h);
+  return opposite(g) == h ? g : h;
+}
+
+double Mesh::length(Index h) const {
+  if (data_->geometry.ready() || !has_positions()) return lengths()[h];
+  return length_of(scaled_difference(positions()[from(h)], positions()[to(h)], 1 / unit()));
+}
+
+double Mesh::double_area(Index f) const { return face_geometry(f).double_area; }
+
+Index Mesh::first_corner(Index v) const {
+  Index first = kNoIndex;
+  if (data_->arrays->corners.ready() || data_->arrays->searched.exchange(true)) {
+    for (const Index h : corners(v)) {
+      if (is_face_usable(face_of(h))) return h;
+      first = std::min(first, h);
+    }
+    return first;
+  }
+  for (Index f = 0; f < face_count(); ++f) {
+    const Face& t = faces()[f];
+    if ((t[0] != v) & (t[1] != v) & (t[2] != v)) continue;
+    const Index h = 3 * f + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
+    if (is_face_usable(f)) return h;
+    first = std::min(first, h);
+  }
+  return first;
+}
+
+std::span<const Index> Mesh::corner_offsets() const { return data_->get_corners().offset; }
+std::span<const Index> Mesh::all_corners() const { return data_->get_corners().corner; }
 
 std::span<const Index> Mesh::corners(Index v) const {
   const detail::VertexCorners& c = data_->get_corners();

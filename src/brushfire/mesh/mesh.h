@@ -56,12 +56,19 @@ class Mesh {
   // Error(IndexOutOfRange).
   Mesh with_slits(std::span<const Index> halfedges) const;
 
+  // The same mesh under other numbers: vertex i is vertex vertices[i] of this one, with vertex_rank the inverse, and
+  // face f is face faces[f]; corners keep their order in their faces. The same unit(). All must be permutations.
+  Mesh renumbered(std::span<const Index> vertices, std::span<const Index> vertex_rank,
+                  std::span<const Index> faces) const;
+
   Index vertex_count() const noexcept;
   Index face_count() const noexcept;
   Index halfedge_count() const noexcept { return 3 * face_count(); }
 
   // False for a mesh from lengths; positions() is empty then.
   bool has_positions() const noexcept;
+  // Whether with_slits() has opened edges of it.
+  bool has_slits() const noexcept;
   std::span<const Vec3> positions() const noexcept;  // [vertex_count]
   std::span<const Face> faces() const noexcept;      // [face_count]
 
@@ -76,19 +83,36 @@ class Mesh {
   // faces lie the same way round where their halfedges run in opposite directions; where from(h) == from(opposite[h])
   // the neighbour is mirrored. Halfedges of a face with a repeated vertex are not in any ring (their own opposite).
   std::span<const Index> opposite() const;
+  // One of them. Where the array has not been built it is found among the faces at the edge's ends, so that who asks
+  // for few does not pay for all. O(faces at a vertex).
+  Index opposite(Index h) const;
+  // The halfedge of the other face of an edge of two faces; h itself at any other edge.
+  Index neighbour(Index h) const;
 
   // The corners (outgoing halfedges) at vertex v, ascending. Corners of faces with a repeated vertex are included.
   std::span<const Index> corners(Index v) const;
+  // The same for all vertices: those of v are numbers offsets[v] to offsets[v + 1] of all_corners().
+  std::span<const Index> corner_offsets() const;  // [vertex_count + 1]
+  std::span<const Index> all_corners() const;     // [halfedge_count]
+
+  // The first corner at v that is in a face with three distinct vertices; the first one of all where there is none;
+  // kNoIndex at a vertex in no face. The first call searches the faces where corner lists have not been built: often it
+  // is the only one.
+  Index first_corner(Index v) const;
 
   // What the faces around each vertex form, [vertex_count].
   std::span<const Link> links() const;
 
   // A power of two within a factor 2 of the mean edge length (in 2^-1000 .. 2^1000); 1 where all edges have length 0.
+  // The mean is that of some thousand faces, evenly spread over the list, where these are of one size with the whole.
   double unit() const;
   // Edge length of every halfedge, [halfedge_count], and twice the area of every face, [face_count], in unit() and
   // unit()^2. Both sides of an edge have the same bits.
   std::span<const double> lengths() const;
   std::span<const double> double_areas() const;
+  // One of them, the same bits; computed where the arrays have not been built.
+  double length(Index h) const;
+  double double_area(Index f) const;
 
   // The same of one face, whether or not those arrays have been built: for one look at every face, which is not worth
   // 64 bytes per vertex for good.

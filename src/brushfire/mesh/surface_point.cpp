@@ -69,18 +69,11 @@ SurfacePoint vertex_point(const Mesh& mesh, Index v) {
     throw Error(ErrorCode::IndexOutOfRange, "vertex " + std::to_string(v) + " does not exist: the mesh has " +
                                                 std::to_string(mesh.vertex_count()) + " vertices");
   }
-  const auto corners = mesh.corners(v);
-  if (corners.empty()) {
+  // A usable face where there is one: points of degenerate faces know less about their surroundings.
+  const Index corner = mesh.first_corner(v);
+  if (corner == kNoIndex) {
     throw Error(ErrorCode::InvalidArgument,
                 "vertex " + std::to_string(v) + " is in no face: nothing can be reached from it");
-  }
-  // A usable face where there is one: points of degenerate faces know less about their surroundings.
-  Index corner = corners.front();
-  for (const Index h : corners) {
-    if (mesh.is_face_usable(Mesh::face_of(h))) {
-      corner = h;
-      break;
-    }
   }
   SurfacePoint p{Mesh::face_of(corner), {0, 0, 0}};
   p.weights[corner % 3] = 1;
@@ -100,16 +93,15 @@ std::array<double, 3> corner_distances(const Mesh& mesh, const PointLocation& po
   // Corner k in the origin, corner k+1 on the x axis: the point's coordinates are sums of positive multiples of the
   // other two weights, so a tiny weight keeps all its digits.
   std::array<double, 3> result;
-  const auto lengths = mesh.lengths();
   for (Index k = 0; k < 3; ++k) {
     const Index h = 3 * point.face + k;
     const double wa = point.weights[(k + 1) % 3], wb = point.weights[(k + 2) % 3];
-    const double la = lengths[h], lb = lengths[Mesh::previous(h)], opposite = lengths[Mesh::next(h)];
+    const double la = mesh.length(h), lb = mesh.length(Mesh::previous(h)), opposite = mesh.length(Mesh::next(h));
     if (la == 0 || lb == 0) {
       result[k] = la == 0 ? wb * lb : wa * la;
       continue;
     }
-    const Vec2 b = apex_over_edge(la, lb, opposite, mesh.double_areas()[point.face]);
+    const Vec2 b = apex_over_edge(la, lb, opposite, mesh.double_area(point.face));
     result[k] = std::hypot(wa * la + wb * b.x, wb * b.y);
   }
   return result;

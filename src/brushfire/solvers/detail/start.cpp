@@ -9,22 +9,23 @@
 namespace brushfire::detail {
 namespace {
 
-// The mesh's arrays, asked for once.
+// What is asked of the mesh here, of few faces: looked up, not from arrays of all.
 struct Net {
-  explicit Net(const Mesh& mesh)
-      : faces(mesh.faces()), opposite(mesh.opposite()), lengths(mesh.lengths()), double_areas(mesh.double_areas()) {}
+  explicit Net(const Mesh& m) : mesh(m), faces(m.faces()) {}
 
   Index from(Index h) const { return faces[h / 3][h % 3]; }
+  Index opposite(Index h) const { return mesh.opposite(h); }
+  double length(Index h) const { return mesh.length(h); }
   Vec2 apex_over(Index h, Index g) const {
     const bool same_way = g == h || from(g) == from(h);
-    const double from_first = lengths[same_way ? Mesh::previous(g) : Mesh::next(g)];
-    const double from_second = lengths[same_way ? Mesh::next(g) : Mesh::previous(g)];
-    return apex_over_edge(lengths[h], from_first, from_second, double_areas[Mesh::face_of(g)]);
+    const Mesh::FaceGeometry face = mesh.face_geometry(Mesh::face_of(g));
+    const double from_first = face.lengths[(same_way ? Mesh::previous(g) : Mesh::next(g)) % 3];
+    const double from_second = face.lengths[(same_way ? Mesh::next(g) : Mesh::previous(g)) % 3];
+    return apex_over_edge(face.lengths[g % 3], from_first, from_second, face.double_area);
   }
 
+  const Mesh& mesh;
   std::span<const Face> faces;
-  std::span<const Index> opposite;
-  std::span<const double> lengths, double_areas;
 };
 
 // What a point sees of an edge: the point lies at `start`, on or below the edge, in the frame of the edge from its
@@ -36,7 +37,7 @@ struct Sight {
 };
 
 Sight whole_edge(const Net& net, Index h, Vec2 start) {
-  return {h, net.from(h), start, Vec2{0, 0} - start, Vec2{net.lengths[h], 0} - start, 0};
+  return {h, net.from(h), start, Vec2{0, 0} - start, Vec2{net.length(h), 0} - start, 0};
 }
 
 // Into the frame of the edge from `origin` towards `end`.
@@ -49,13 +50,13 @@ void look_through(const Net& net, const Sight& s, Index g, Vec2 apex, std::vecto
   const bool same_way = net.from(g) == s.first;
   const Index left_edge = same_way ? Mesh::previous(g) : Mesh::next(g);
   const Index right_edge = same_way ? Mesh::next(g) : Mesh::previous(g);
-  if (!apex_is_left && net.lengths[left_edge] > 0) {
-    const Vec2 along = (1 / net.lengths[left_edge]) * apex;
+  if (!apex_is_left && net.length(left_edge) > 0) {
+    const Vec2 along = (1 / net.length(left_edge)) * apex;
     sights.push_back({left_edge, s.first, turned(along, s.start), turned(along, s.left),
                       turned(along, apex_is_right ? s.right : to_apex), s.crossed + 1});
   }
-  if (!apex_is_right && net.lengths[right_edge] > 0) {
-    const Vec2 along = (1 / net.lengths[right_edge]) * (Vec2{net.lengths[s.edge], 0} - apex);
+  if (!apex_is_right && net.length(right_edge) > 0) {
+    const Vec2 along = (1 / net.length(right_edge)) * (Vec2{net.length(s.edge), 0} - apex);
     sights.push_back({right_edge, net.from(Mesh::previous(g)), turned(along, s.start - apex),
                       turned(along, apex_is_left ? s.left : to_apex), turned(along, s.right), s.crossed + 1});
   }
@@ -69,16 +70,16 @@ std::vector<Sight> first_sights(const Mesh& mesh, const Net& net, const PointLoc
   if (at.on == PointLocation::On::Vertex) {
     for (const Index corner : mesh.corners(at.vertex)) {
       const Index h = Mesh::next(corner);
-      if (!mesh.is_face_usable(Mesh::face_of(h)) || net.lengths[h] == 0) continue;
+      if (!mesh.is_face_usable(Mesh::face_of(h)) || net.length(h) == 0) continue;
       const Vec2 own = net.apex_over(h, h);
       sights.push_back(whole_edge(net, h, {own.x, -own.y}));
     }
     return sights;
   }
   const auto add = [&](Index h, double ahead, double third) {
-    if (net.lengths[h] == 0) return;
+    if (net.length(h) == 0) return;
     const Vec2 own = net.apex_over(h, h);
-    sights.push_back(whole_edge(net, h, {ahead * net.lengths[h] + third * own.x, -third * own.y}));
+    sights.push_back(whole_edge(net, h, {ahead * net.length(h) + third * own.x, -third * own.y}));
   };
   if (at.on == PointLocation::On::Interior) {
     for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
@@ -93,7 +94,7 @@ std::vector<Sight> first_sights(const Mesh& mesh, const Net& net, const PointLoc
     const double at_from = same_way ? at_first : at_second, at_to = same_way ? at_second : at_first;
     add(Mesh::next(g), 0, at_from);  // from to(g) to the apex; from(g) is its third corner
     add(Mesh::previous(g), at_from, at_to);
-    g = net.opposite[g];
+    g = net.opposite(g);
   } while (g != at.halfedge);
   return sights;
 }
@@ -121,15 +122,15 @@ double distance_in_face(const Mesh& mesh, Index f, const std::array<double, 3>& 
   if (!mesh.is_face_usable(f)) {  // a segment, or a point: the one corner that differs from the others says where
     const Face& t = mesh.faces()[f];
     for (Index k = 0; k < 3; ++k) {
-      if (t[k] != t[(k + 1) % 3] && t[k] != t[(k + 2) % 3]) return std::abs(a[k] - b[k]) * mesh.lengths()[3 * f + k];
+      if (t[k] != t[(k + 1) % 3] && t[k] != t[(k + 2) % 3]) return std::abs(a[k] - b[k]) * mesh.length(3 * f + k);
     }
     return 0;
   }
   Index k = 0;  // the frame of the longest edge, which is not 0 unless all are
   for (Index i = 1; i < 3; ++i) {
-    if (mesh.lengths()[3 * f + i] > mesh.lengths()[3 * f + k]) k = i;
+    if (mesh.length(3 * f + i) > mesh.length(3 * f + k)) k = i;
   }
-  const double length = mesh.lengths()[3 * f + k];
+  const double length = mesh.length(3 * f + k);
   if (length == 0) return 0;
   const Vec2 apex = apex_over(mesh, 3 * f + k, 3 * f + k);
   const double ahead = a[(k + 1) % 3] - b[(k + 1) % 3], third = a[(k + 2) % 3] - b[(k + 2) % 3];
@@ -141,12 +142,12 @@ double distance_across_edge(const Mesh& mesh, const PointLocation& a, const Poin
   double shortest = kInfinity;
   std::array<double, 3> wb;
   for (Index h = 3 * a.face; h < 3 * a.face + 3; ++h) {
-    const double length = mesh.lengths()[h];
+    const double length = mesh.length(h);
     if (length == 0 || !mesh.is_face_usable(a.face)) continue;
     const Vec2 own = apex_over(mesh, h, h);
     const double ahead = a.weights[Mesh::next(h) % 3], third = a.weights[Mesh::previous(h) % 3];
     const Vec2 below{ahead * length + third * own.x, third * own.y};  // a lies at (x,-y)
-    for (Index g = mesh.opposite()[h]; g != h; g = mesh.opposite()[g]) {
+    for (Index g = mesh.opposite(h); g != h; g = mesh.opposite(g)) {
       if (!weights_in(mesh, b, Mesh::face_of(g), wb)) continue;
       const Index to = mesh.from(g) == mesh.from(h) ? Mesh::next(g) : g;  // the corner of g's face at to(h)
       const Vec2 apex = apex_over(mesh, h, g);
@@ -169,10 +170,10 @@ std::vector<Seed> seeds_in_own_faces(const Mesh& mesh, const PointLocation& at) 
   std::vector<Seed> seeds;
   const std::array<double, 3> d = corner_distances(mesh, at);
   for (Index k = 0; k < 3; ++k) seeds.push_back({mesh.faces()[at.face][k], d[k]});
-  if (at.on == PointLocation::On::Edge && mesh.lengths()[at.halfedge] > 0) {
+  if (at.on == PointLocation::On::Edge && mesh.length(at.halfedge) > 0) {
     const Index h = at.halfedge;
-    const double x = at.weights[Mesh::next(h) % 3] * mesh.lengths()[h];
-    for (Index g = mesh.opposite()[h]; g != h; g = mesh.opposite()[g]) {
+    const double x = at.weights[Mesh::next(h) % 3] * mesh.length(h);
+    for (Index g = mesh.opposite(h); g != h; g = mesh.opposite(g)) {
       const Vec2 apex = apex_over(mesh, h, g);
       seeds.push_back({mesh.from(Mesh::previous(g)), std::hypot(apex.x - x, apex.y)});
     }
@@ -188,8 +189,8 @@ std::vector<Seed> seeds_in_sight(const Mesh& mesh, const PointLocation& at, int 
   for (std::size_t i = 0; i < sights.size() && i < kMaxSights; ++i) {
     const Sight s = sights[i];
     if (s.crossed >= crossings) break;
-    const double length = net.lengths[s.edge];
-    for (Index g = net.opposite[s.edge]; g != s.edge; g = net.opposite[g]) {
+    const double length = net.length(s.edge);
+    for (Index g = net.opposite(s.edge); g != s.edge; g = net.opposite(g)) {
       Vec2 apex = net.apex_over(s.edge, g);
       if (net.from(s.edge) != s.first) apex.x = length - apex.x;
       const Vec2 to_apex = apex - s.start;
@@ -215,7 +216,7 @@ double straight_distance(const Mesh& mesh, const PointLocation& a, const PointLo
   try_face(a.face);
   try_face(b.face);
   if (a.on == PointLocation::On::Edge) {
-    for (Index g = mesh.opposite()[a.halfedge]; g != a.halfedge; g = mesh.opposite()[g]) try_face(Mesh::face_of(g));
+    for (Index g = mesh.opposite(a.halfedge); g != a.halfedge; g = mesh.opposite(g)) try_face(Mesh::face_of(g));
   }
   if (a.on == PointLocation::On::Vertex) {
     for (const Index h : mesh.corners(a.vertex)) try_face(Mesh::face_of(h));
