@@ -2,8 +2,8 @@
 //
 //   time_solver VERTICES FACES SOURCE METHOD [DISTANCES]
 //
-// VERTICES holds float64 x y z, FACES int32 triples (raw, little endian). METHOD may be followed by :float or by a
-// tolerance (windows:1e-3). A round builds the mesh from the arrays and everything that the method derives from it,
+// VERTICES holds float64 x y z, FACES int32 triples (raw, little endian). METHOD may be followed by :float, :double or
+// a tolerance (windows:1e-3). A round builds the mesh from the arrays and everything that the method derives from it,
 // solves, and solves again. In seconds of processor time:
 //   set_up_s  what is built before the first solve;   first_s  arrays to first field;   solve_s  the second solve
 // (the first one where that took more than five seconds). memory_mib is the peak above the arrays when the first round
@@ -28,8 +28,8 @@ DistanceOptions options_named(const std::string& name) {
   options.method = method_named(name.substr(0, colon));
   if (colon == std::string::npos) return options;
   const std::string option = name.substr(colon + 1);
-  if (option == "float") {
-    options.precision = Precision::Float;
+  if (option == "double" || option == "float") {
+    options.precision = option == "float" ? Precision::Float : Precision::Double;
   } else {
     options.tolerance = std::stod(option);
   }

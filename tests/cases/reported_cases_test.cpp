@@ -22,6 +22,7 @@ DistanceField field_of(const Mesh& mesh, const std::vector<Source>& sources, Met
                        std::vector<SurfacePoint> targets = {}, double max_distance = kInfinity) {
   DistanceOptions options;
   options.method = method;
+  options.precision = Precision::Double;
   options.targets = std::move(targets);
   options.max_distance = max_distance;
   return distance(mesh, sources, options);

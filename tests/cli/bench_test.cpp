@@ -46,7 +46,7 @@ TEST_F(BenchVerb, TableHasALineForEveryMethod) {
 }
 
 TEST_F(BenchVerb, JsonTellsTimesMemoryAndErrors) {
-  const Ended ended = run({"--methods", "exact", "-m", "dijkstra", "-m", "windows:1e-2", "-m", "novotni-klein:float",
+  const Ended ended = run({"--methods", "exact", "-m", "dijkstra", "-m", "windows:1e-2", "-m", "novotni-klein:double",
                            "--sources", "3", "--repeat", "2", "--json"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(number(ended.out, "sources"), 3);
@@ -62,7 +62,7 @@ TEST_F(BenchVerb, JsonTellsTimesMemoryAndErrors) {
   const std::size_t windows = ended.out.find("\"windows\"");
   EXPECT_EQ(number(ended.out, "tolerance", windows), 0.01);
   EXPECT_LE(number(ended.out, "max_relative_error", windows), number(ended.out, "max_error_bound", windows));
-  EXPECT_NE(ended.out.find("\"precision\": \"float\""), std::string::npos);
+  EXPECT_NE(ended.out.find("\"precision\": \"double\""), std::string::npos);
 }
 
 TEST_F(BenchVerb, ThreadsShareOutTheSourcesAndFindTheSame) {

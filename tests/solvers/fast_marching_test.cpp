@@ -192,6 +192,20 @@ TEST(FastMarching, ScalingByPowersOfTwoScalesTheResultToTheBit) {
   }
 }
 
+TEST(FastMarching, FloatLanesTakeCoordinatesOfAnySizeAnywhere) {
+  const Shape shape = shapes::torus(24, 16);
+  const DistanceField expected = field_from(shape.mesh(), {at_vertex(shape.mesh(), 5)});
+  for (const double scale : {1e-30, 3e-8, 7e11, 1e30, 1e-300, 1e300}) {
+    Shape scaled = shape;
+    for (Vec3& p : scaled.positions) p = scale * (p + Vec3{3, -5, 7});
+    const Mesh mesh = scaled.mesh();
+    const DistanceField field = field_from(mesh, {at_vertex(mesh, 5)}, Method::NovotniKlein, Precision::Float);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      EXPECT_NEAR(field.distance[v] / scale, expected.distance[v], 2e-4 * expected.distance[v]) << scale;
+    }
+  }
+}
+
 TEST(FastMarching, RigidMotionAndRenumberingStayWithinTheMethodsError) {
   const Shape shape = shapes::noise_terrain(40, 40);
   const Mesh mesh(shape.positions, shape.faces);
@@ -264,6 +278,7 @@ TEST(FastMarching, MaxDistanceCutsWithoutChangingWhatIsInside) {
     const DistanceField whole = field_from(mesh, {at_vertex(mesh, 9)}, method);
     DistanceOptions options;
     options.method = method;
+    options.precision = Precision::Double;
     options.max_distance = 0.7;
     const Source source = at_vertex(mesh, 9);
     const DistanceField cut = distance(mesh, {&source, 1}, options);
@@ -280,6 +295,7 @@ TEST(FastMarching, TargetsReadTheSameValueAsInAFullRun) {
     const DistanceField whole = field_from(mesh, {at_vertex(mesh, 9)}, method);
     DistanceOptions options;
     options.method = method;
+    options.precision = Precision::Double;
     for (const Index v : {10u, 300u, 1500u}) options.targets.push_back(vertex_point(mesh, v));
     const Source source = at_vertex(mesh, 9);
     const DistanceField field = distance(mesh, {&source, 1}, options);

@@ -80,6 +80,7 @@ TEST(PlanarExactness, DelaunayTriangulationsOfConvexRegionsAreExactFromSourcesAn
     DistanceSolver solver(mesh);
     DistanceOptions fast;
     fast.method = Method::NovotniKlein;
+    fast.precision = Precision::Double;
     for (int run = 0; run < 3; ++run) {
       const Source source{random_source(mesh, random)};
       const DistanceField field = solver.distance({&source, 1}, fast);
@@ -110,6 +111,7 @@ TEST(PlanarExactness, TargetsInsideFacesAndOnEdgesAreExactToo) {
     if (mesh.face_count() == 0) continue;
     DistanceOptions options;
     options.method = Method::NovotniKlein;
+    options.precision = Precision::Double;
     for (int i = 0; i < 20; ++i) options.targets.push_back(random_source(mesh, random));
     const Source source{random_source(mesh, random)};
     const DistanceField field = distance(mesh, {&source, 1}, options);

@@ -23,11 +23,11 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   brushfire bench bunny.ply
-  brushfire bench bunny.ply --method windows:1e-4 --method novotni-klein:float
+  brushfire bench bunny.ply --method windows:1e-4 --method novotni-klein:double
   brushfire bench bunny.ply --sources 8 --threads 2 --json
   brushfire bench large.ply --method novotni-klein --repeat 9 --no-error
 
-A method may be followed by :float (its arithmetic) or by a tolerance (windows:1e-4). Every repetition builds the mesh
+A method may be followed by :double (its arithmetic) or by a tolerance (windows:1e-4). Every repetition builds the mesh
 from its arrays, with all that the method needs (set-up), and then solves for each source (solve, per source); what is
 printed is the median. Times are processor time; with --threads above 1, which share out the sources, they are by the
 clock on the wall. Memory is the most that the first repetition took beyond the arrays that it started from. Errors are
@@ -64,7 +64,7 @@ std::size_t whole(const std::optional<double>& value, std::size_t otherwise, std
   return static_cast<std::size_t>(*value);
 }
 
-// "windows:1e-4", "novotni-klein:float", "exact".
+// "windows:1e-4", "novotni-klein:double", "exact".
 DistanceOptions method_of(const std::string& text) {
   DistanceOptions options;
   const std::size_t colon = text.find(':');
@@ -74,8 +74,8 @@ DistanceOptions method_of(const std::string& text) {
   const std::string detail = text.substr(colon + 1);
   const bool marches = options.method == Method::NovotniKlein || options.method == Method::NovotniKlein2002 ||
                        options.method == Method::KimmelSethian;
-  if (marches && detail == "float") {
-    options.precision = Precision::Float;
+  if (marches && (detail == "float" || detail == "double")) {
+    options.precision = detail == "float" ? Precision::Float : Precision::Double;
   } else if (options.method == Method::Windows) {
     const char* end = detail.data() + detail.size();
     const auto [stop, status] = std::from_chars(detail.data(), end, options.tolerance);
@@ -83,7 +83,8 @@ DistanceOptions method_of(const std::string& text) {
       refuse("'" + text + "': a tolerance is a number from 0 to 0.1");
     }
   } else {
-    refuse("'" + text + "': " + (marches ? "after the colon goes float" : "this method has nothing to choose"));
+    refuse("'" + text +
+           "': " + (marches ? "after the colon goes float or double" : "this method has nothing to choose"));
   }
   return options;
 }
@@ -91,7 +92,7 @@ DistanceOptions method_of(const std::string& text) {
 std::string name_of(const DistanceOptions& options) {
   std::string name(brushfire::name_of(options.method));
   if (options.method == Method::Windows) name += ":" + readable(options.tolerance);
-  if (options.precision == Precision::Float) name += ":float";
+  if (options.precision == Precision::Double) name += ":double";
   return name;
 }
 

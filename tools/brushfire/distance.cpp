@@ -43,7 +43,7 @@ struct Arguments {
   std::string file, sources_file, output;
   std::vector<std::string> sources, targets;
   Accuracy accuracy;
-  std::string precision = "double";
+  std::string precision = "float";
   std::optional<double> radius;
 };
 
@@ -235,7 +235,7 @@ void add_distance(CommandLine& command_line) {
     verb.option("--sources", arguments->sources_file, "LIST", "File of sources, one per line, # comments");
     verb.option("-t,--target", arguments->targets, "WHERE", "Print the distance of this point; may be repeated");
     add_accuracy(verb, arguments->accuracy);
-    verb.choice("--precision", arguments->precision, {"double", "float"}, "Arithmetic of the marching methods");
+    verb.choice("--precision", arguments->precision, {"float", "double"}, "Arithmetic of the marching methods");
     verb.option("-r,--radius", arguments->radius, "R", "Stop at this distance; what is farther reads inf");
     verb.option("-o,--output", arguments->output, "FILE", "Write the field: .ply .vtk .npy .csv ...; - prints CSV");
     verb.talks();

@@ -30,7 +30,9 @@ Method method_named(std::string_view name);
 // All of them, in the order of the enumeration.
 std::span<const Method> all_methods();
 
-// Arithmetic of the marching itself; lengths and results are double either way.
+// Arithmetic of the marching itself; lengths and results are double either way. Float costs digits beyond the sixth, of
+// values whose error is larger than that unless the surface is flat; where a mesh does not fit into its range (edges
+// 2^24 times the mean), and for novotni-klein-2002, whose formula cancels, Double is used.
 enum class Precision : std::uint8_t { Float, Double };
 
 // Which value a method with proven bounds gives out. For Windows, Upper (never shorter than a real path) and Lower
@@ -49,14 +51,14 @@ struct DistanceOptions {
   // Method::Windows: |value - distance| <= tolerance * distance at every vertex (of the path's length, where sources
   // have offsets); in [0, kMaxTolerance], 0 is exact.
   double tolerance = 1e-3;
-  Bound bound = Bound::Estimate;            // Method::Windows only
-  Precision precision = Precision::Double;  // methods that have only one ignore it
-  double max_distance = kInfinity;          // vertices farther than this read +inf; >= 0, may be +inf
-  std::vector<SurfacePoint> targets;        // where there are any, the solver may stop once all of them are final
-  bool keep_paths = false;                  // fill DistanceField::windows, for paths to vertices and targets (exact)
-  bool keep_windows = false;                // the same for every surface point: all windows are kept, some kB a vertex
-  Progress progress;                        // called now and then; may be empty
-  const CancelToken* cancel = nullptr;      // polled now and then; may be null
+  Bound bound = Bound::Estimate;           // Method::Windows only
+  Precision precision = Precision::Float;  // methods that have only one ignore it
+  double max_distance = kInfinity;         // vertices farther than this read +inf; >= 0, may be +inf
+  std::vector<SurfacePoint> targets;       // where there are any, the solver may stop once all of them are final
+  bool keep_paths = false;                 // fill DistanceField::windows, for paths to vertices and targets (exact)
+  bool keep_windows = false;               // the same for every surface point: all windows are kept, some kB a vertex
+  Progress progress;                       // called now and then; may be empty
+  const CancelToken* cancel = nullptr;     // polled now and then; may be null
 };
 
 struct DistanceField {

@@ -3,43 +3,48 @@
 
 #include <brushfire/core/planar.h>
 #include <brushfire/core/types.h>
+#include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace brushfire::detail {
 
 // What the surface around a vertex lacks to be flat, and a third of the area of the faces there.
 struct Patch {
-  double deficit = 0;  // 2 pi less the sum of the angles; 0 where the vertex is no inner one, or flat to kFlat
-  double area = 0;
+  float deficit = 0;  // 2 pi less the sum of the angles; 0 where the vertex is no inner one, or flat to kFlat
+  float area = 0;
 };
 
-inline constexpr double kFlat = 1e-6;
+// What rounding and quick_angle() make of a flat vertex is less.
+template <class T>
+inline constexpr double kFlat = std::is_same_v<T, float> ? 4e-6 : 1e-6;
 
 // From one vertex to the next a front makes half an altitude in the mean: of the square root of a vertex's area.
-inline constexpr double kStep = 0.4;
+inline constexpr float kStep = 0.4f;
 
 // Gaussian curvature around a vertex (missing angle over area, of the vertex and its neighbours together) times the way
 // that a front makes from one vertex to the next: what a front's own curvature loses there.
-inline double front_bend(const Patch& own, const Patch& around) {
+inline float front_bend(const Patch& own, const Patch& around) {
   return around.area > 0 ? kStep * around.deficit / around.area * std::sqrt(own.area) : 0;
 }
 
-// atan2(y, x) for y >= 0 to 2e-8, without branches; 0 for (0, 0).
+// atan2(y, x) for y >= 0 to 2e-8 and rounding, without branches; 0 for (0, 0).
 // Based on: Abramowitz, Stegun (1964), Handbook of Mathematical Functions, 4.4.49.
-inline double quick_angle(double x, double y) {
-  const double ax = std::abs(x);
-  const double larger = ax > y ? ax : y, smaller = ax > y ? y : ax;
-  const double t = smaller / (larger > 0 ? larger : 1), u = t * t;
-  double p = 0.0028662257;
+template <class T>
+BRUSHFIRE_INLINE T quick_angle(T x, T y) {
+  const T ax = std::abs(x);
+  const T larger = ax > y ? ax : y, smaller = ax > y ? y : ax;
+  const T t = smaller / (larger > 0 ? larger : 1), u = t * t;
+  T p = T(0.0028662257);
   for (const double c :
        {-0.0161657367, 0.0429096138, -0.0752896400, 0.1065626393, -0.1420889944, 0.1999355085, -0.3333314528, 1.0}) {
-    p = p * u + c;
+    p = p * u + static_cast<T>(c);
   }
-  const double octant = p * t;
-  const double quadrant = y > ax ? 0.5 * kPi - octant : octant;
-  return x < 0 ? kPi - quadrant : quadrant;
+  const T octant = p * t;
+  const T quadrant = y > ax ? T(0.5 * kPi) - octant : octant;
+  return x < 0 ? T(kPi) - quadrant : quadrant;
 }
 
 }  // namespace brushfire::detail

@@ -3,6 +3,8 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/core/planar.h>
+#include <brushfire/core/uninitialized.h>
+#include <brushfire/mesh/locality_order.h>
 #include <brushfire/solvers/detail/start.h>
 #include <brushfire/solvers/fast_marching/march.h>
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
@@ -22,22 +24,66 @@ FrontModel front_model(Method method) {
 }
 
 double update(FrontModel model, const UpdateTriangle<double>& at, double t1, double t2) {
-  if (model == FrontModel::Planar) return PlanarFront::update(at, t1, t2);
-  if (model == FrontModel::LiteralCircular) return LiteralCircularFront::update(at, t1, t2);
-  return CircularFront::update(at, t1, t2);
+  if (model == FrontModel::Planar) return PlanarFront::update(at, t1, t2).value;
+  if (model == FrontModel::LiteralCircular) return LiteralCircularFront::update(at, t1, t2).value;
+  return CircularFront::update(at, t1, t2).value;
 }
+
+// The mesh in an order that keeps neighbours close.
+class LocalMesh {
+ public:
+  explicit LocalMesh(const Mesh& mesh) : mesh_(mesh) {
+    if (is_local(mesh)) return;
+    LocalityOrder order = locality_order(mesh);
+    mesh_ = mesh.renumbered(order.vertices, order.vertex_rank, order.faces);
+    vertex_ = std::move(order.vertices);
+    face_rank_.resize(order.faces.size());
+    for (Index f = 0; f < face_rank_.size(); ++f) face_rank_[order.faces[f]] = f;
+  }
+
+  const Mesh& mesh() const { return mesh_; }
+
+  // From numbers of this mesh to the caller's, and back.
+  Index vertex(Index local) const { return vertex_.empty() ? local : vertex_[local]; }
+  PointLocation location(PointLocation at) const {
+    if (vertex_.empty()) return at;
+    const Index face = at.face;
+    at.face = face_rank_[face];
+    if (at.halfedge != kNoIndex) at.halfedge = 3 * at.face + (at.halfedge - 3 * face);
+    if (at.vertex != kNoIndex) {
+      Index k = 0;  // a point at a vertex weighs that alone
+      while (k < 2 && !(at.weights[k] > 0)) ++k;
+      at.vertex = mesh_.from(3 * at.face + k);
+    }
+    return at;
+  }
+
+ private:
+  Mesh mesh_;
+  std::vector<Index> vertex_;            // [vertex_count] the caller's numbers; empty: the same
+  UninitializedArray<Index> face_rank_;  // [face_count] the number here of each of the caller's faces
+};
 
 // The methods in one precision.
 template <class T>
 class Marcher {
  public:
-  explicit Marcher(const Mesh& mesh) : mesh_(mesh), rings_(build_rings<T>(mesh)) {
-    state_.resize(mesh.vertex_count());
+  explicit Marcher(const LocalMesh& local) : local_(local), mesh_(local.mesh()), rings_(build_rings<T>(mesh_)) {
+    state_.resize(mesh_.vertex_count());
     // Half a mean edge measured best; the front is that wide, and order inside it does not matter.
     state_.buckets_per_unit = static_cast<T>(2 / rings_.layout.mean_edge);
   }
 
-  void solve(const Problem& problem, DistanceField& field) {
+  void solve(const Problem& in_callers_numbers, DistanceField& field) {
+    sources_.clear();
+    for (const LocatedSource& s : in_callers_numbers.sources) {
+      sources_.push_back({local_.location(s.at), s.offset, s.label});
+    }
+    targets_.clear();
+    for (const PointLocation& at : in_callers_numbers.targets) targets_.push_back(local_.location(at));
+    Problem problem = in_callers_numbers;
+    problem.sources = sources_;
+    problem.targets = targets_;
     start(problem);
     if (front_model(problem.options->method) == FrontModel::LiteralCircular) {
       check_cancel(problem);
@@ -57,7 +103,7 @@ class Marcher {
     for (const LocatedSource& s : problem.sources) base_ = std::min(base_, s.offset);
     // One source needs no labels; neither does a method that keeps them anyway.
     state_.labelled = problem.sources.size() > 1 || front_model(problem.options->method) == FrontModel::LiteralCircular;
-    if (state_.labelled && state_.label.empty()) state_.label.assign(state_.value.size(), kNoIndex);
+    if (state_.labelled && state_.label.empty()) state_.label.assign(state_.front_at.size(), kNoIndex);
     state_.start.clear();
     if (state_.labelled) state_.start.resize(problem.sources.back().label + 1);
     // The other two are given what their papers give them: the corners around the source.
@@ -66,7 +112,7 @@ class Marcher {
       const double offset = s.offset - base_;
       if (state_.labelled) state_.start[s.label] = static_cast<T>(offset);
       for (const Seed& seed : seeds_in_sight(mesh_, s.at, crossings, problem.max_distance - s.offset)) {
-        state_.offer(rings_.layout.place[seed.vertex], static_cast<T>(offset + seed.distance), s.label);
+        state_.offer(seed.vertex, static_cast<T>(offset + seed.distance), s.label);
       }
     }
   }
@@ -104,11 +150,8 @@ class Marcher {
     }
   }
 
-  double value(Index v) const { return static_cast<double>(state_.value[rings_.layout.place[v]]); }
-  Index label(Index v) const {
-    const Index place = rings_.layout.place[v];
-    return state_.labelled ? state_.label[place] : value(v) < kInfinity ? 0 : kNoIndex;
-  }
+  double value(Index v) const { return static_cast<double>(state_.front_at[v].value); }
+  Index label(Index v) const { return state_.labelled ? state_.label[v] : value(v) < kInfinity ? 0 : kNoIndex; }
 
   // A target is read from the corners of its faces, so these have to be final.
   bool is_final(const PointLocation& at, double front) const {
@@ -159,9 +202,9 @@ class Marcher {
     if (at.on == PointLocation::On::Interior) {
       for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
         const double third = at.weights[Mesh::previous(h) % 3], ahead = at.weights[Mesh::next(h) % 3];
-        if (mesh_.lengths()[h] == 0) continue;
+        if (mesh_.length(h) == 0) continue;
         const Vec2 apex = apex_over(mesh_, h, h);
-        through_edge(problem, h, {ahead * mesh_.lengths()[h] + third * apex.x, third * apex.y}, offer);
+        through_edge(problem, h, {ahead * mesh_.length(h) + third * apex.x, third * apex.y}, offer);
       }
       return;
     }
@@ -170,7 +213,7 @@ class Marcher {
       const bool same_way = mesh_.from(g) == mesh_.from(at.halfedge);
       const double t = at.weights[(same_way ? Mesh::next(at.halfedge) : at.halfedge) % 3];  // share of the way along g
       for (const Index h : {Mesh::next(g), Mesh::previous(g)}) {
-        const double length = mesh_.lengths()[h];
+        const double length = mesh_.length(h);
         if (length == 0) continue;
         // The third corner over h is an end of g; the target lies between it and the end that h shares with g.
         const Vec2 apex = apex_over(mesh_, h, h);
@@ -178,7 +221,7 @@ class Marcher {
         const double share = h == Mesh::next(g) ? 1 - t : t;
         through_edge(problem, h, shared + share * (apex - shared), offer);
       }
-      g = mesh_.opposite()[g];
+      g = mesh_.opposite(g);
     } while (g != at.halfedge);
   }
 
@@ -189,7 +232,7 @@ class Marcher {
     const Index l = label(v1);
     if (l == kNoIndex || l != label(v2)) return;
     const double started = state_.labelled ? static_cast<double>(state_.start[l]) : 0.0;
-    const double length = mesh_.lengths()[h];
+    const double length = mesh_.length(h);
     const UpdateTriangle<double> triangle{length, 1 / length, at.x, at.y, norm(at), true};
     const double d = update(front_model(problem.options->method), triangle, value(v1) - started, value(v2) - started);
     offer(base_ + started + d, l);
@@ -198,21 +241,30 @@ class Marcher {
   void write(const Problem& problem, DistanceField& field) const {
     field.updates = state_.pops;
     field.beyond_radius = 0;
-    for (const Index place : state_.touched) {
-      const double d = base_ + static_cast<double>(state_.value[place]);
-      if (d >= final_) {
-        ++field.beyond_radius;
-        continue;
-      }
-      const Index v = rings_.layout.vertex[place];
-      field.distance[v] = d;
-      field.source[v] = state_.labelled ? state_.label[place] : problem.sources.front().label;
-      if (problem.touched) problem.touched->push_back(v);
+    if (state_.touched_most() && !problem.touched) {
+      for (Index place = 0; place < mesh_.vertex_count(); ++place) write(problem, place, field);
+    } else {
+      for (const Index place : state_.touched) write(problem, place, field);
     }
   }
 
-  Mesh mesh_;
+  void write(const Problem& problem, Index place, DistanceField& field) const {
+    const double d = base_ + static_cast<double>(state_.front_at[place].value);
+    if (d >= final_) {
+      field.beyond_radius += d < kInfinity;
+      return;
+    }
+    const Index v = local_.vertex(place);
+    field.distance[v] = d;
+    field.source[v] = state_.labelled ? state_.label[place] : problem.sources.front().label;
+    if (problem.touched) problem.touched->push_back(v);
+  }
+
+  const LocalMesh& local_;
+  const Mesh& mesh_;
   Rings<T> rings_;
+  std::vector<LocatedSource> sources_;  // of the run, in local numbers
+  std::vector<PointLocation> targets_;
   MarchState<T> state_;
   double base_ = 0;           // the lowest offset: values are kept relative to it
   double final_ = kInfinity;  // where the front stopped
@@ -226,9 +278,9 @@ class FastMarching final : public Engine {
 
   void set_up(const DistanceOptions& options) override {
     if (marches_in_float(options)) {
-      if (!in_float_) in_float_.emplace(mesh_);
+      if (!in_float_) in_float_.emplace(local());
     } else {
-      if (!in_double_) in_double_.emplace(mesh_);
+      if (!in_double_) in_double_.emplace(local());
     }
   }
 
@@ -243,18 +295,35 @@ class FastMarching final : public Engine {
 
  private:
   bool marches_in_float(const DistanceOptions& options) const {
-    return options.precision == Precision::Float && float_is_enough_;
+    return options.precision == Precision::Float && float_is_enough_ && options.method != Method::NovotniKlein2002;
+  }
+
+  const LocalMesh& local() {
+    if (!local_) local_.emplace(mesh_);
+    return *local_;
   }
 
   // Float lanes hold fourth powers of lengths in units of the mean edge.
   static bool is_float_enough(const Mesh& mesh) {
     constexpr double kLongest = 0x1p24;
-    const auto lengths = mesh.lengths();
-    return lengths.empty() || *std::max_element(lengths.begin(), lengths.end()) < kLongest;
+    double longest = 0;
+    if (mesh.has_positions()) {
+      Vec3 low{kInfinity, kInfinity, kInfinity}, high = -1 * low;
+      for (const Vec3& p : mesh.positions()) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      }
+      const Vec3 extent = (1 / mesh.unit()) * high - (1 / mesh.unit()) * low;
+      longest = std::max({extent.x, extent.y, extent.z});
+    } else {
+      for (const double l : mesh.lengths()) longest = std::max(longest, l);
+    }
+    return longest < kLongest;
   }
 
   Mesh mesh_;
   bool float_is_enough_;
+  std::optional<LocalMesh> local_;
   std::optional<Marcher<float>> in_float_;
   std::optional<Marcher<double>> in_double_;
 };

@@ -5,7 +5,9 @@
 // same bits.
 #include <brushfire/solvers/fast_marching/march.h>
 
+#include <brushfire/solvers/fast_marching/float8.h>
 #include <brushfire/solvers/fast_marching/triangle_update.h>
+#include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <algorithm>
 #include <bit>
@@ -13,16 +15,6 @@
 #include <functional>
 #include <queue>
 #include <utility>
-
-#if defined(__GNUC__)
-#define BRUSHFIRE_INLINE [[gnu::always_inline]] inline
-#else
-#define BRUSHFIRE_INLINE inline
-#endif
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define BRUSHFIRE_HAS_AVX2_VARIANT 1
-#endif
 
 namespace brushfire::detail {
 namespace {
@@ -36,16 +28,26 @@ inline constexpr T kNews = 1 - 4 * std::numeric_limits<T>::epsilon();
 constexpr std::uint8_t kOpen = 128;
 constexpr std::uint8_t kMaxPops = 3;
 
-// One number for each of the two others of each triangle of a block.
-template <class T>
-struct alignas(64) Pairs {
-  T a[kLanes], b[kLanes];
-};
-
-// What a vertex offers to the two others of each triangle of a block, and the roots that go with the offers.
+// What a vertex offers to the ends of the sides of a block, and the roots that go with the offers; and what the
+// triangles offer to the ends of their second sides.
 template <class T>
 struct Offers {
-  Pairs<T> value, root;
+  alignas(64) T value[kLanes], root[kLanes], value_b[kLanes], root_b[kLanes];
+};
+
+// The offers of a block that improve, or seem to: several may go to one vertex.
+template <class T>
+struct Candidates {
+  static constexpr Index kRoom = 3 * kLanes;  // whole registers are written
+  alignas(64) Index end[kRoom];
+  alignas(64) T value[kRoom];
+  alignas(64) T root[kRoom];
+  Index count = 0;
+
+  BRUSHFIRE_INLINE void add(Index w, T offer, T passed) {
+    end[count] = w, value[count] = offer, root[count] = passed;
+    ++count;
+  }
 };
 
 // The vertex whose turn it is.
@@ -67,70 +69,214 @@ BRUSHFIRE_INLINE T common_root(const Turn<T>& turn, T other_value, T other_root,
   return other_value < MarchState<T>::kUnreached ? common : turn.root;  // a vertex not reached has no root
 }
 
-// Offers from `support` values at the other vertex. Bit k of the result: lane k improves a; bit kLanes + k: b.
-template <class Front, bool kLabelled, class T>
-BRUSHFIRE_INLINE std::uint32_t offers_of(const RingBlock<T>& block, const T* support, const MarchState<T>& s,
-                                         const Turn<T>& turn, Offers<T>& offers) {
+// The ends of a block's sides: their values, what of these may support a front (fronts of other labels support
+// nothing), and their roots.
+template <class T>
+struct Ends {
+  alignas(64) T value[kLanes], support[kLanes], root[kLanes];
+};
+
+// Offers from `support(place)` at the other end: to the ends of the sides of a block; and to the end of a triangle's
+// second side, where that side takes another triangle's offer (there are more triangles than sides where some are
+// unfolded).
+template <class Front, bool kLabelled, class T, class Support>
+BRUSHFIRE_INLINE void make_offers(const RingBlock<T>& block, const LaneLinks& links, const Support& support,
+                                  const MarchState<T>& s, const Turn<T>& turn, Candidates<T>& candidates) {
+  constexpr T kNever = MarchState<T>::kUnreached;
   // Gathered first: only the loop without indices vectorises everywhere.
-  Pairs<T> supports, values, roots;
+  Ends<T> a, b;
+  Offers<T> offers;
+  alignas(64) T inverse_a[kLanes], inverse_b[kLanes], length_b[kLanes];
+  alignas(64) bool any_order_a[kLanes], any_order_b[kLanes];
   for (Index k = 0; k < kLanes; ++k) {
-    supports.a[k] = support[block.a[k]];
-    supports.b[k] = support[block.b[k]];
-    values.a[k] = s.value[block.a[k]];
-    values.b[k] = s.value[block.b[k]];
-    if constexpr (Front::kBends) {
-      roots.a[k] = s.root[block.a[k]];
-      roots.b[k] = s.root[block.b[k]];
-    }
-    if constexpr (kLabelled) {  // fronts of other labels support nothing
-      if (s.label[block.a[k]] != turn.label) supports.a[k] = MarchState<T>::kUnreached;
-      if (s.label[block.b[k]] != turn.label) supports.b[k] = MarchState<T>::kUnreached;
-    }
+    const Index end = block.end[k];
+    a.value[k] = s.front_at[end].value;
+    a.support[k] = support(end);
+    if constexpr (kLabelled) a.support[k] = s.label[end] == turn.label ? a.support[k] : kNever;
+    a.root[k] = s.front_at[end].root;
   }
-  std::uint32_t improves = 0;
   for (Index k = 0; k < kLanes; ++k) {
-    const T la = std::abs(block.length_a[k]), lb = std::abs(block.length_b[k]);
-    const T dot = block.dot[k], cross = block.cross[k];
-    const T ia = 1 / la, ib = 1 / lb;
-    const bool any_order_a = block.length_a[k] < 0, any_order_b = block.length_b[k] < 0;
-    const T root_a = Front::kBends ? common_root(turn, supports.b[k], roots.b[k], lb) : turn.start;
-    const T root_b = Front::kBends ? common_root(turn, supports.a[k], roots.a[k], la) : turn.start;
-    const T to_a = root_a + Front::update(UpdateTriangle<T>{lb, ib, dot * ib, cross * ib, la, any_order_a},
-                                          turn.value - root_a, supports.b[k] - root_a);
-    const T to_b = root_b + Front::update(UpdateTriangle<T>{la, ia, dot * ia, cross * ia, lb, any_order_b},
-                                          turn.value - root_b, supports.a[k] - root_b);
-    offers.value.a[k] = to_a;
-    offers.value.b[k] = to_b;
-    if constexpr (Front::kBends) {  // along the edge the vertex passes on its own root
-      offers.root.a[k] = to_a < turn.value + la ? root_a : turn.root;
-      offers.root.b[k] = to_b < turn.value + lb ? root_b : turn.root;
-    }
-    bool lowers_a = to_a < values.a[k] * kNews<T>, lowers_b = to_b < values.b[k] * kNews<T>;
-    if constexpr (kLabelled) {  // equal values may go to another label
-      lowers_a = (to_a <= values.a[k]) & (to_a < MarchState<T>::kUnreached);
-      lowers_b = (to_b <= values.b[k]) & (to_b < MarchState<T>::kUnreached);
-    }
-    improves |= (lowers_a ? 1u << k : 0u) | (lowers_b ? 1u << (kLanes + k) : 0u);
+    inverse_a[k] = 1 / block.length[k];
+    a.root[k] = Front::kBends ? common_root(turn, a.support[k], a.root[k], block.length[k]) : turn.start;
   }
-  return improves;
+  for (Index k = 0; k < kLanes; ++k) {
+    const Index second = links.second(k);
+    b.value[k] = links.back(second) == k ? 0 : a.value[second];  // 0: nothing is less
+    b.support[k] = a.support[second];
+    b.root[k] = a.root[second];
+    length_b[k] = block.length[second];
+    inverse_b[k] = inverse_a[second];
+    any_order_a[k] = links.any_order_first(k);
+    any_order_b[k] = links.any_order_second(k);
+  }
+  for (Index k = 0; k < kLanes; ++k) {
+    const T la = block.length[k], lb = length_b[k], dot = block.dot[k], cross = block.cross[k];
+    const T ia = inverse_a[k], ib = inverse_b[k], over_a = a.root[k], over_b = b.root[k];
+    const Update<T> to_a = Front::update(UpdateTriangle<T>{lb, ib, dot * ib, cross * ib, la, any_order_a[k]},
+                                         turn.value - over_b, b.support[k] - over_b);
+    const Update<T> to_b = Front::update(UpdateTriangle<T>{la, ia, dot * ia, cross * ia, lb, any_order_b[k]},
+                                         turn.value - over_a, a.support[k] - over_a);
+    // Along the edge the vertex passes on its own root.
+    offers.value[k] = to_a.through ? over_b + to_a.value : turn.value + la;
+    offers.root[k] = to_a.through ? over_b : turn.root;
+    offers.value_b[k] = to_b.through ? over_a + to_b.value : turn.value + lb;
+    offers.root_b[k] = to_b.through ? over_a : turn.root;
+  }
+  const auto lowers = [](T offer, T old) -> bool {
+    if constexpr (kLabelled) return (offer <= old) & (offer < kNever);  // equal values may go to another label
+    return offer < old * kNews<T>;
+  };
+  for (Index k = 0; k < kLanes; ++k) {
+    // Each side takes the better one of the offers of its two triangles.
+    const Index back = links.back(k);
+    if (back != k && offers.value_b[back] < offers.value[k]) {
+      offers.value[k] = offers.value_b[back];
+      offers.root[k] = offers.root_b[back];
+    }
+    if (lowers(offers.value[k], a.value[k])) candidates.add(block.end[k], offers.value[k], offers.root[k]);
+  }
+  for (Index k = 0; k < kLanes; ++k) {
+    if (!lowers(offers.value_b[k], b.value[k])) continue;
+    candidates.add(block.end[links.second(k)], offers.value_b[k], offers.root_b[k]);
+  }
 }
+
+#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
+
+// What CircularFront::update() makes of eight edges (the front over each of them), and of the targets over them: the
+// same operations in the same order, so the same bits; shared by the two triangles at each edge.
+struct Edge8 {
+  Float8 length, inverse, root, t1, start_x, start_y, real;
+};
+BRUSHFIRE_AVX2_INLINE Edge8 edge8(Float8 length, Float8 root, Float8 t1, Float8 t2) {
+  constexpr float kShorter = 1 - 8 * std::numeric_limits<float>::epsilon();
+  const Float8 zero = all(0), difference = t1 - t2, sum = t1 + t2;
+  const Float8 heron = (sum - all(kShorter) * length) * (sum + length) * (length - difference) * (length + difference);
+  const Float8 inverse = all(1) / length, half = all(0.5f) * inverse;
+  const Float8 start_x = all(0.5f) * length + difference * sum * half;
+  const Float8 start_y = square_root(greater(heron, zero)) * half;
+  return {length, inverse, root, t1, start_x, start_y, zero < heron};
+}
+BRUSHFIRE_AVX2_INLINE Edge8 permuted(const Edge8& e, __m256i index) {
+  return {permuted(e.length, index),  permuted(e.inverse, index), permuted(e.root, index), permuted(e.t1, index),
+          permuted(e.start_x, index), permuted(e.start_y, index), permuted(e.real, index)};
+}
+
+// Values and roots that a vertex with `turn` offers over eight edges to the targets at `dot`, `cross` and `side`.
+struct Fronts8 {
+  Float8 value, root;
+};
+BRUSHFIRE_AVX2_INLINE Fronts8 update8(const Edge8& edge, Float8 dot, Float8 cross, Float8 side, Float8 any_order,
+                                      const Turn<float>& turn) {
+  const Float8 x = dot * edge.inverse, y = cross * edge.inverse;
+  const Float8 height = y + edge.start_y;
+  const Float8 crossing = edge.start_x * y + x * edge.start_y;
+  const Float8 across = x - edge.start_x;
+  const Float8 straight = square_root(across * across + height * height);
+  const Float8 causal = any_order | ((edge.t1 - straight) * (edge.t1 + straight) <= side * side);
+  const Float8 through =
+      edge.real & (all(0) <= crossing) & (crossing <= edge.length * height) & (straight < edge.t1 + side) & causal;
+  return {select(through, edge.root + straight, all(turn.value) + side), select(through, edge.root, all(turn.root))};
+}
+
+BRUSHFIRE_AVX2_INLINE Float8 common_root8(const Turn<float>& turn, Float8 other_value, Float8 other_root,
+                                          Float8 length) {
+  const Float8 mean = all(0.5f) * (all(turn.root) + other_root);
+  const Float8 highest = all(0.5f) * (all(turn.value) + other_value) - all(0.75f) * length;
+  const Float8 common = lesser(mean, greater(highest, all(turn.start)));
+  return select(other_value < all(MarchState<float>::kUnreached), common, all(turn.root));
+}
+
+BRUSHFIRE_AVX2_INLINE __m128 pair4(const MarchState<float>::Front* at, Index i, Index j) {
+  const __m128d low = _mm_load_sd(reinterpret_cast<const double*>(at + i));
+  return _mm_castpd_ps(_mm_loadh_pd(low, reinterpret_cast<const double*>(at + j)));
+}
+// Values and roots at the ends of eight sides.
+BRUSHFIRE_AVX2_INLINE Fronts8 gather8(const MarchState<float>::Front* at, const Index* end) {
+  // Sides 0 1 4 5 and 2 3 6 7, so that the halves of the shuffles below come out in order.
+  const __m256 outer =
+      _mm256_insertf128_ps(_mm256_castps128_ps256(pair4(at, end[0], end[1])), pair4(at, end[4], end[5]), 1);
+  const __m256 inner =
+      _mm256_insertf128_ps(_mm256_castps128_ps256(pair4(at, end[2], end[3])), pair4(at, end[6], end[7]), 1);
+  return {{_mm256_shuffle_ps(outer, inner, 0x88)}, {_mm256_shuffle_ps(outer, inner, 0xdd)}};
+}
+
+template <bool kLabelled>
+BRUSHFIRE_AVX2_INLINE Float8 lowers8(Float8 offer, Float8 old) {
+  if constexpr (kLabelled) return (offer <= old) & (offer < all(MarchState<float>::kUnreached));
+  return offer < old * all(kNews<float>);
+}
+
+// make_offers() for the circular front in float.
+template <bool kLabelled>
+BRUSHFIRE_AVX2 void make_offers8(const RingBlock<float>& block, const LaneLinks& lanes, const MarchState<float>& s,
+                                 const Turn<float>& turn, Candidates<float>& candidates) {
+  const Float8 never = all(MarchState<float>::kUnreached);
+  const __m256i links = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(lanes.links)));
+  const __m256i back = _mm256_srli_epi32(links, 4), lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  const auto [value, root] = gather8(s.front_at.data(), block.end);
+  Float8 support = value;
+  if constexpr (kLabelled) {
+    const __m256i ends = _mm256_load_si256(reinterpret_cast<const __m256i*>(block.end));
+    const __m256i label = _mm256_i32gather_epi32(reinterpret_cast<const int*>(s.label.data()), ends, 4);
+    const __m256i own = _mm256_set1_epi32(static_cast<int>(turn.label));
+    support = select({_mm256_castsi256_ps(_mm256_cmpeq_epi32(label, own))}, value, never);
+  }
+  const Float8 dot = load(block.dot), cross = load(block.cross), la = load(block.length);
+  const Float8 common = common_root8(turn, support, root, la);
+  const Edge8 at_a = edge8(la, common, all(turn.value) - common, support - common), at_b = permuted(at_a, links);
+  const auto [to_a, root_a] = update8(at_b, dot, cross, la, mask_of_bit(links, 3), turn);
+  const auto [to_b, root_b] = update8(at_a, dot, cross, at_b.length, mask_of_bit(links, 7), turn);
+  // Each side takes the better one of the offers of its two triangles.
+  const __m256i returned = _mm256_and_si256(_mm256_permutevar8x32_epi32(back, links), _mm256_set1_epi32(7));
+  const Float8 alone = {_mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_and_si256(back, _mm256_set1_epi32(7)), lane))};
+  const Float8 from_b = select(alone, never, permuted(to_b, back));
+  const Float8 takes_b = from_b < to_a;
+  const Float8 best = select(takes_b, from_b, to_a), root_best = select(takes_b, permuted(root_b, back), root_a);
+  const std::uint32_t lower = bits(lowers8<kLabelled>(best, value));
+  const __m256i packed = packing(lower);
+  const __m256i end = _mm256_load_si256(reinterpret_cast<const __m256i*>(block.end));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(candidates.end + candidates.count),
+                      _mm256_permutevar8x32_epi32(end, packed));
+  _mm256_storeu_ps(candidates.value + candidates.count, permuted(best, packed).v);
+  _mm256_storeu_ps(candidates.root + candidates.count, permuted(root_best, packed).v);
+  candidates.count += static_cast<Index>(std::popcount(lower));
+  const Float8 first = {_mm256_castsi256_ps(_mm256_cmpeq_epi32(returned, lane))};
+  const Float8 value_b = select(first, all(0), permuted(value, links));  // nothing is less than 0: done with above
+  const std::uint32_t lower_b = bits(lowers8<kLabelled>(to_b, value_b));
+  if (lower_b == 0) return;
+  alignas(32) float offered[kLanes], passed[kLanes];
+  store(offered, to_b);
+  store(passed, root_b);
+  for (std::uint32_t more = lower_b; more != 0; more &= more - 1) {
+    const Index k = static_cast<Index>(std::countr_zero(more));
+    candidates.add(block.end[lanes.second(k)], offered[k], passed[k]);
+  }
+}
+
+#endif
 
 // Equal values go to the lower label.
 template <class Front, bool kLabelled, class T>
 BRUSHFIRE_INLINE void accept(MarchState<T>& s, Index w, T offer, T root, Index label) {
-  const T old = s.value[w];
-  if ((s.open[w] & ~kOpen) >= kMaxPops) return;
+  auto& at = s.front_at[w];
+  const T old = at.value;
+  const std::uint8_t state = s.open[w];
+  if ((state & ~kOpen) >= kMaxPops) return;
   if constexpr (kLabelled) {
     if (!(offer < old * kNews<T>) && !(offer <= old && label < s.label[w])) return;
     s.label[w] = label;
   } else {
     if (!(offer < old * kNews<T>)) return;
   }
-  if (old == MarchState<T>::kUnreached) s.touched.push_back(w);
-  s.value[w] = offer;
-  if constexpr (Front::kBends) s.root[w] = root;
-  s.open[w] |= kOpen;
-  s.queue.push(w, s.bucket_of(offer));
+  at.value = offer;
+  if constexpr (Front::kBends) at.root = root;
+  const BucketQueue::Bucket bucket = s.bucket_of(offer);
+  // Where it waits already, in the same bucket, that will do.
+  const bool waits = ((state & kOpen) != 0) & (bucket == s.bucket_of(old));
+  s.open[w] = state | kOpen;
+  s.touched.push_if(old == MarchState<T>::kUnreached, w);
+  s.queue.push_if(!waits, w, bucket);
 }
 
 // Gaussian curvature bends the front that passes over it: its curvature 1/r falls by the curvature on the way (the
@@ -138,60 +284,78 @@ BRUSHFIRE_INLINE void accept(MarchState<T>& s, Index w, T offer, T root, Index l
 template <class T>
 BRUSHFIRE_INLINE void bend_front(const Rings<T>& rings, MarchState<T>& s, Index v) {
   const T bend = rings.bend[v];
-  const T radius = s.value[v] - s.root[v];
+  auto& at = s.front_at[v];
+  const T radius = at.value - at.root;
   if (bend == 0 || !(radius > 0)) return;
   // 1/after = 1/(1/radius - bend); the bounds are those of the radius.
   constexpr T kMostPerVertex = 2, kFlattest = 8;
   const T shrinking = 1 - bend * radius;
-  const T largest = std::max(radius, std::min(kMostPerVertex * radius, kFlattest * s.value[v]));
+  const T largest = std::max(radius, std::min(kMostPerVertex * radius, kFlattest * at.value));
   const T after = shrinking > 1 / kFlattest ? radius / shrinking : largest;
-  s.root[v] = s.value[v] - std::clamp(after, radius / kMostPerVertex, largest);
+  at.root = at.value - std::clamp(after, radius / kMostPerVertex, largest);
 }
 
+// How offers are made: by loops that compilers turn into vector instructions, as far as these go.
 template <class Front, bool kLabelled, class T>
-BRUSHFIRE_INLINE void relax(const Rings<T>& rings, MarchState<T>& s, Index v) {
+struct InLoops {
+  BRUSHFIRE_INLINE static void offers(const RingBlock<T>& block, const LaneLinks& links, const MarchState<T>& s,
+                                      const Turn<T>& turn, Candidates<T>& candidates) {
+    make_offers<Front, kLabelled>(block, links, [&](Index w) { return s.front_at[w].value; }, s, turn, candidates);
+  }
+};
+
+#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
+// Or in registers.
+template <class Front, bool kLabelled, class T>
+struct InRegisters : InLoops<Front, kLabelled, T> {};
+
+template <bool kLabelled>
+struct InRegisters<CircularFront, kLabelled, float> {
+  BRUSHFIRE_INLINE static void offers(const RingBlock<float>& block, const LaneLinks& links, const MarchState<float>& s,
+                                      const Turn<float>& turn, Candidates<float>& candidates) {
+    make_offers8<kLabelled>(block, links, s, turn, candidates);
+  }
+};
+#endif
+
+// Vertex v offers values to its neighbours.
+template <template <class, bool, class> class Maker, class Front, bool kLabelled, class T>
+BRUSHFIRE_INLINE void relax(const Rings<T>& rings, MarchState<T>& s, Index v, Candidates<T>& candidates) {
   if constexpr (Front::kBends) bend_front(rings, s, v);
-  Turn<T> turn{s.value[v], 0, 0, 0};
+  Turn<T> turn{s.front_at[v].value, 0, 0, 0};
   if constexpr (kLabelled) {
     turn.label = s.label[v];
     turn.start = s.start[turn.label];
   }
-  turn.root = Front::kBends ? s.root[v] : turn.start;
-  Offers<T> offers;
+  turn.root = Front::kBends ? s.front_at[v].root : turn.start;
   const Index end = rings.layout.block_offset[v + 1];
   for (Index i = rings.layout.block_offset[v]; i < end; ++i) {
-    const RingBlock<T>& block = rings.blocks[i];
-    std::uint32_t improves = offers_of<Front, kLabelled>(block, s.value.data(), s, turn, offers);
-    while (improves != 0) {
-      const Index lane = static_cast<Index>(std::countr_zero(improves)), k = lane % kLanes;
-      improves &= improves - 1;
-      if (lane < kLanes) {
-        accept<Front, kLabelled>(s, block.a[k], offers.value.a[k], offers.root.a[k], turn.label);
-      } else {
-        accept<Front, kLabelled>(s, block.b[k], offers.value.b[k], offers.root.b[k], turn.label);
-      }
+    candidates.count = 0;
+    Maker<Front, kLabelled, T>::offers(rings.blocks[i], rings.layout.links[i], s, turn, candidates);
+    for (Index c = 0; c < candidates.count; ++c) {
+      accept<Front, kLabelled>(s, candidates.end[c], candidates.value[c], candidates.root[c], turn.label);
     }
   }
 }
 
 // What the vertices that come up next will need: first where their blocks are, then the blocks.
 template <class T>
-BRUSHFIRE_INLINE void prefetch(const Rings<T>& rings, const MarchState<T>& s, const std::vector<Index>& bucket,
-                               std::size_t i) {
+BRUSHFIRE_INLINE void prefetch(const Rings<T>& rings, const MarchState<T>& s, const Pile& bucket, std::size_t i) {
 #if defined(__GNUC__)
   constexpr std::size_t kOffsetsAhead = 12, kBlocksAhead = 5, kCacheLine = 64;
   if (i + kOffsetsAhead < bucket.size()) {
     const Index v = bucket[i + kOffsetsAhead];
     __builtin_prefetch(&rings.layout.block_offset[v]);
-    __builtin_prefetch(&s.value[v]);
-    __builtin_prefetch(&s.root[v]);
+    __builtin_prefetch(&s.front_at[v]);
     __builtin_prefetch(&rings.bend[v]);
     __builtin_prefetch(&s.open[v]);
   }
   if (i + kBlocksAhead < bucket.size()) {
     const Index v = bucket[i + kBlocksAhead];
-    const char* block = reinterpret_cast<const char*>(rings.blocks.data() + rings.layout.block_offset[v]);
-    const char* end = reinterpret_cast<const char*>(rings.blocks.data() + rings.layout.block_offset[v + 1]);
+    const Index first = rings.layout.block_offset[v], last = rings.layout.block_offset[v + 1];
+    __builtin_prefetch(&rings.layout.links[first]);
+    const char* block = reinterpret_cast<const char*>(rings.blocks.data() + first);
+    const char* end = reinterpret_cast<const char*>(rings.blocks.data() + last);
     for (; block < end; block += kCacheLine) __builtin_prefetch(block);
   }
 #else
@@ -199,8 +363,9 @@ BRUSHFIRE_INLINE void prefetch(const Rings<T>& rings, const MarchState<T>& s, co
 #endif
 }
 
-template <class Front, bool kLabelled, class T>
+template <template <class, bool, class> class Maker, class Front, bool kLabelled, class T>
 BRUSHFIRE_INLINE std::size_t slice_body(const Rings<T>& rings, MarchState<T>& s, std::size_t begin) {
+  Candidates<T> candidates;
   std::size_t i = begin;
   for (; i < s.queue.current().size() && i < begin + kSlice; ++i) {
     prefetch(rings, s, s.queue.current(), i);
@@ -208,27 +373,29 @@ BRUSHFIRE_INLINE std::size_t slice_body(const Rings<T>& rings, MarchState<T>& s,
     if ((s.open[v] & kOpen) == 0) continue;
     s.open[v] = static_cast<std::uint8_t>((s.open[v] ^ kOpen) + 1);
     ++s.pops;
-    relax<Front, kLabelled>(rings, s, v);
+    relax<Maker, Front, kLabelled>(rings, s, v, candidates);
   }
   return i;
 }
 
 template <class Front, bool kLabelled, class T>
 std::size_t slice_baseline(const Rings<T>& rings, MarchState<T>& s, std::size_t begin) {
-  return slice_body<Front, kLabelled>(rings, s, begin);
+  return slice_body<InLoops, Front, kLabelled>(rings, s, begin);
 }
 
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
 template <class Front, bool kLabelled, class T>
-[[gnu::target("avx2,bmi,lzcnt")]] std::size_t slice_avx2(const Rings<T>& rings, MarchState<T>& s, std::size_t begin) {
-  return slice_body<Front, kLabelled>(rings, s, begin);
+BRUSHFIRE_AVX2 std::size_t slice_avx2(const Rings<T>& rings, MarchState<T>& s, std::size_t begin) {
+  return slice_body<InRegisters, Front, kLabelled>(rings, s, begin);
 }
 #endif
 
 template <class Front, bool kLabelled, class T>
-MarchSlice<T> best_slice() {
+MarchSlice<T> slice_for(Variant variant) {
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-  if (__builtin_cpu_supports("avx2")) return slice_avx2<Front, kLabelled, T>;
+  if (variant == Variant::Best && __builtin_cpu_supports("avx2")) return slice_avx2<Front, kLabelled, T>;
+#else
+  static_cast<void>(variant);
 #endif
   return slice_baseline<Front, kLabelled, T>;
 }
@@ -237,9 +404,8 @@ MarchSlice<T> best_slice() {
 
 template <class T>
 void MarchState<T>::resize(Index vertex_count) {
-  value.assign(static_cast<std::size_t>(vertex_count) + 1, kUnreached);
-  open.assign(value.size(), 0);
-  root.assign(value.size(), 0);
+  front_at.assign(static_cast<std::size_t>(vertex_count) + 1, Front{});
+  open.assign(front_at.size(), 0);
   touched.clear();
   label.clear();
   fixed_value.clear();
@@ -247,11 +413,18 @@ void MarchState<T>::resize(Index vertex_count) {
 
 template <class T>
 void MarchState<T>::reset() {
-  for (const Index v : touched) {
-    value[v] = kUnreached;
-    open[v] = 0;
-    if (!label.empty()) label[v] = kNoIndex;
-    if (!fixed_value.empty()) fixed_value[v] = kUnreached;
+  if (touched_most()) {
+    std::fill(front_at.begin(), front_at.end(), Front{});
+    std::fill(open.begin(), open.end(), std::uint8_t{0});
+    std::fill(label.begin(), label.end(), kNoIndex);
+    std::fill(fixed_value.begin(), fixed_value.end(), kUnreached);
+  } else {
+    for (const Index v : touched) {
+      front_at[v] = Front{};
+      open[v] = 0;
+      if (!label.empty()) label[v] = kNoIndex;
+      if (!fixed_value.empty()) fixed_value[v] = kUnreached;
+    }
   }
   touched.clear();
   queue.reset();
@@ -267,10 +440,10 @@ BucketQueue::Bucket MarchState<T>::bucket_of(T v) const {
 
 template <class T>
 void MarchState<T>::offer(Index place, T v, Index source) {
-  if (labelled ? std::pair(v, source) < std::pair(value[place], label[place]) : v < value[place]) {
-    if (value[place] == kUnreached) touched.push_back(place);
-    value[place] = v;
-    root[place] = labelled ? start[source] : T(0);
+  Front& at = front_at[place];
+  if (labelled ? std::pair(v, source) < std::pair(at.value, label[place]) : v < at.value) {
+    if (at.value == kUnreached) touched.push(place);
+    at = {v, labelled ? start[source] : T(0)};
     if (labelled) label[place] = source;
     open[place] = kOpen;
     queue.push(place, bucket_of(v));
@@ -278,19 +451,20 @@ void MarchState<T>::offer(Index place, T v, Index source) {
 }
 
 template <class T>
-MarchSlice<T> march_slice(FrontModel model, bool labelled) {
-  if (model == FrontModel::Planar)
-    return labelled ? best_slice<PlanarFront, true, T>() : best_slice<PlanarFront, false, T>();
-  return labelled ? best_slice<CircularFront, true, T>() : best_slice<CircularFront, false, T>();
+MarchSlice<T> march_slice(FrontModel model, bool labelled, Variant variant) {
+  if (model == FrontModel::Planar) {
+    return labelled ? slice_for<PlanarFront, true, T>(variant) : slice_for<PlanarFront, false, T>(variant);
+  }
+  return labelled ? slice_for<CircularFront, true, T>(variant) : slice_for<CircularFront, false, T>(variant);
 }
 
 template <class T>
 void march_label_setting(const Rings<T>& rings, MarchState<T>& s, const std::function<void()>& poll) {
   using Entry = std::pair<T, Index>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (const Index v : s.touched) queue.emplace(s.value[v], v);
-  s.fixed_value.resize(s.value.size(), MarchState<T>::kUnreached);
-  Offers<T> offers;
+  for (const Index v : s.touched) queue.emplace(s.front_at[v].value, v);
+  s.fixed_value.resize(s.front_at.size(), MarchState<T>::kUnreached);
+  Candidates<T> candidates;
   while (!queue.empty()) {
     const auto [t, v] = queue.top();
     queue.pop();
@@ -302,19 +476,18 @@ void march_label_setting(const Rings<T>& rings, MarchState<T>& s, const std::fun
     const Turn<T> turn{t, s.start[label], s.start[label], label};
     const Index end = rings.layout.block_offset[v + 1];
     for (Index i = rings.layout.block_offset[v]; i < end; ++i) {
-      const RingBlock<T>& block = rings.blocks[i];
-      const std::uint32_t improves =
-          offers_of<LiteralCircularFront, true>(block, s.fixed_value.data(), s, turn, offers);
-      for (Index lane = 0; lane < 2 * kLanes; ++lane) {
-        const Index w = lane < kLanes ? block.a[lane] : block.b[lane - kLanes];
-        const T offer = lane < kLanes ? offers.value.a[lane] : offers.value.b[lane - kLanes];
-        if ((improves >> lane & 1u) == 0) continue;
-        if (s.fixed_value[w] != MarchState<T>::kUnreached || !(offer < s.value[w])) continue;
-        if (s.value[w] == MarchState<T>::kUnreached) s.touched.push_back(w);
-        s.value[w] = offer;
+      candidates.count = 0;
+      make_offers<LiteralCircularFront, true>(
+          rings.blocks[i], rings.layout.links[i], [&](Index w) { return s.fixed_value[w]; }, s, turn, candidates);
+      for (Index c = 0; c < candidates.count; ++c) {
+        const Index w = candidates.end[c];
+        T& value = s.front_at[w].value;
+        if (s.fixed_value[w] != MarchState<T>::kUnreached || !(candidates.value[c] < value)) continue;
+        if (value == MarchState<T>::kUnreached) s.touched.push(w);
+        value = candidates.value[c];
         s.label[w] = label;
         s.open[w] = 1;
-        queue.emplace(offer, w);
+        queue.emplace(value, w);
       }
     }
   }
@@ -322,8 +495,8 @@ void march_label_setting(const Rings<T>& rings, MarchState<T>& s, const std::fun
 
 template struct MarchState<float>;
 template struct MarchState<double>;
-template MarchSlice<float> march_slice<float>(FrontModel, bool);
-template MarchSlice<double> march_slice<double>(FrontModel, bool);
+template MarchSlice<float> march_slice<float>(FrontModel, bool, Variant);
+template MarchSlice<double> march_slice<double>(FrontModel, bool, Variant);
 template void march_label_setting<float>(const Rings<float>&, MarchState<float>&, const std::function<void()>&);
 template void march_label_setting<double>(const Rings<double>&, MarchState<double>&, const std::function<void()>&);
 

@@ -20,18 +20,26 @@ template <class T>
 struct MarchState {
   static constexpr T kUnreached = std::numeric_limits<T>::infinity();
 
-  std::vector<T> value;            // [vertex_count + 1], >= 0; +inf: not reached yet
+  // Side by side, as who needs the one needs the other.
+  struct Front {
+    T value = kUnreached;  // >= 0; +inf: not reached yet
+    T root = 0;            // value minus radius of the front that brought it (circular fronts)
+  };
+
+  std::vector<Front> front_at;     // [vertex_count + 1]
   std::vector<std::uint8_t> open;  // [vertex_count + 1] the value has not been offered to the neighbours yet
-  std::vector<T> root;         // [vertex_count + 1] value minus radius of the front that brought it (circular fronts)
-  std::vector<Index> label;    // [vertex_count + 1] where labelled
-  std::vector<T> start;        // [labels] the value that each label's front started with
-  std::vector<Index> touched;  // places with a value
-  std::vector<T> fixed_value;  // [vertex_count + 1], label-setting only: the value once it is fixed
+  std::vector<Index> label;        // [vertex_count + 1] where labelled
+  std::vector<T> start;            // [labels] the value that each label's front started with
+  Pile touched;                    // places with a value
+  std::vector<T> fixed_value;      // [vertex_count + 1], label-setting only: the value once it is fixed
   BucketQueue queue;
   T buckets_per_unit = 1;
   T front = 0;            // the lower end of the current bucket: what is below is final
   bool labelled = false;  // several sources or offsets: fronts of different labels do not mix
   std::uint64_t pops = 0;
+
+  // Whether going through all vertices costs less than through those that were touched.
+  bool touched_most() const { return touched.size() > front_at.size() / 4; }
 
   void resize(Index vertex_count);
   void reset();
@@ -46,9 +54,10 @@ inline constexpr std::size_t kSlice = 8192;
 template <class T>
 using MarchSlice = std::size_t (*)(const Rings<T>&, MarchState<T>&, std::size_t begin);
 
-// The variant for this processor.
+// The variant for this processor, or the one that runs on all of them: the same bits.
+enum class Variant : std::uint8_t { Best, Portable };
 template <class T>
-MarchSlice<T> march_slice(FrontModel model, bool labelled);
+MarchSlice<T> march_slice(FrontModel model, bool labelled, Variant variant = Variant::Best);
 
 // Label-setting in strict order, as the paper of 2002 has it, to the end: its values need not grow along the way, so
 // there is no radius to stop at. Calls `poll` every kSlice vertices.

@@ -1,43 +1,57 @@
-// The triangles around every vertex, laid out for vector registers and in an order that keeps neighbours close.
+// The triangles around every vertex, laid out for vector registers.
 #pragma once
 
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace brushfire::detail {
 
 inline constexpr Index kLanes = 8;
 
-// Eight triangles (v; a, b) of one vertex v, real or unfolded: in the plane of the triangle, with v in the origin,
-// |a|, |b|, a . b and a x b. Negative |a|: the corner at a is obtuse and no unfolding splits it (see UpdateTriangle,
-// any_order); the same for b. A lane that is no triangle but an edge va has |b| = +inf and a . b = NaN; an unused lane
-// has |a| = +inf, too. Both name the vertex beyond the last for what they lack.
+// Up to eight sides from one vertex v to others, and the triangles between them, real or unfolded. Triangle k has side
+// k (its end: a) and the side that LaneLinks names (its end: b); in its plane, with v in the origin: |a|, a . b and |a
+// x b|. A side that is no triangle's first has dot = NaN; an unused one has |a| = +inf, too, and ends in the vertex
+// beyond the last.
 template <class T>
 struct alignas(64) RingBlock {
-  Index a[kLanes], b[kLanes];
-  T length_a[kLanes], length_b[kLanes], dot[kLanes], cross[kLanes];
+  Index end[kLanes];
+  T length[kLanes], dot[kLanes], cross[kLanes];
 };
 
-// Where the blocks of each vertex are, and which place each vertex has: everything that does not depend on T.
+// How the sides of a block make triangles, a byte for each.
+struct LaneLinks {
+  // Bits 0-2 of links[k]: the second side of triangle k (k itself: no triangle). Bits 4-6: the triangle whose second
+  // side is side k (k itself: none). Bit 3: the corner at the end of the first side is obtuse and no unfolding splits
+  // it (see UpdateTriangle, any_order); bit 7: the same at the end of the second.
+  std::uint8_t links[kLanes];
+
+  static constexpr std::uint8_t kAnyOrderFirst = 8, kAnyOrderSecond = 128;
+  Index second(Index k) const { return links[k] & 7u; }
+  Index back(Index k) const { return links[k] >> 4 & 7u; }
+  bool any_order_first(Index k) const { return (links[k] & kAnyOrderFirst) != 0; }
+  bool any_order_second(Index k) const { return (links[k] & kAnyOrderSecond) != 0; }
+};
+
+// Where the blocks of each vertex are: everything that does not depend on T.
 struct RingLayout {
-  std::vector<Index> place;         // [vertex_count] of each vertex in the internal order
-  std::vector<Index> vertex;        // [vertex_count] the inverse
-  std::vector<Index> block_offset;  // [vertex_count + 1] by place
-  double mean_edge = 1;             // in mesh.unit()
-  int longest_unfolding = 1;        // faces that the longest unfolding of a corner crosses
+  UninitializedArray<Index> block_offset;  // [vertex_count + 1]
+  UninitializedArray<LaneLinks> links;     // [blocks]
+  double mean_edge = 1;                    // in mesh.unit()
+  int longest_unfolding = 1;               // faces that the longest unfolding of a corner crosses
 };
 
 template <class T>
 struct Rings {
   RingLayout layout;
   UninitializedArray<RingBlock<T>> blocks;
-  std::vector<T> bend;  // [vertex_count] by place: by how much the curvature of a front falls that passes the vertex
+  UninitializedArray<T> bend;  // [vertex_count] by how much the curvature of a front falls that passes it
 };
 
-// O(vertices + faces), and what the unfolding of obtuse corners takes.
+// O(vertices + faces), and what the unfolding of obtuse corners takes. The mesh should be in a local order.
 template <class T>
 Rings<T> build_rings(const Mesh& mesh);
 

@@ -7,31 +7,9 @@
 #include <algorithm>
 
 namespace brushfire::detail {
-namespace {
-
-// The one other face of an edge, as its halfedge; h itself at a boundary and on a non-manifold edge.
-Index only_neighbour(std::span<const Index> opposite, Index h) {
-  const Index g = opposite[h];
-  return opposite[g] == h ? g : h;
-}
-
-}  // namespace
-
-Index obtuse_corner(std::span<const double> lengths, Index f) {
-  constexpr double kRightAngle = 1e-9;  // rounding of coordinates tilts right angles by less than this
-  const double a = lengths[3 * f], b = lengths[3 * f + 1], c = lengths[3 * f + 2];
-  const double aa = a * a, bb = b * b, cc = c * c;
-  // Only the corner across the longest edge can be.
-  const Index longest = cc > aa ? (cc > bb ? 2 : 1) : (bb > aa ? 1 : 0);
-  const double most = std::max({aa, bb, cc}), others = longest == 0 ? bb + cc : longest == 1 ? aa + cc : aa + bb;
-  return others < most * (1 - kRightAngle) ? 3 * f + (longest + 2) % 3 : kNoIndex;
-}
-
 Unfolding unfold_obtuse_corner(const Mesh& mesh, Index h, std::vector<UnfoldedTriangle>& triangles) {
   const Index corner = mesh.from(h);
-  const std::span<const double> lengths = mesh.lengths();
-  const std::span<const Index> opposite = mesh.opposite();
-  const double length = lengths[h];
+  const double length = mesh.length(h);
   Unfolding result;
   if (length == 0) return result;
   // Left and right bound what is left of the angle; left_end and right_end are the edge that is crossed next.
@@ -41,13 +19,14 @@ Unfolding unfold_obtuse_corner(const Mesh& mesh, Index h, std::vector<UnfoldedTr
   Index left_vertex = left;  // the vertex at left_end
   Index edge = Mesh::next(h);
   while (result.crossed < kMaxUnfolded) {
-    const Index g = only_neighbour(opposite, edge);
-    if (g == edge || lengths[edge] == 0) return result;
+    const Index g = mesh.neighbour(edge);
+    const double crossed = mesh.length(edge);
+    if (g == edge || crossed == 0) return result;
     ++result.crossed;
     // apex_over() has from(edge) at the origin; here the edge runs from left_end to right_end or the other way round.
     Vec2 apex = apex_over(mesh, edge, g);
-    if (mesh.from(edge) != left_vertex) apex.x = lengths[edge] - apex.x;
-    const Vec2 along = (1 / lengths[edge]) * (right_end - left_end);
+    if (mesh.from(edge) != left_vertex) apex.x = crossed - apex.x;
+    const Vec2 along = (1 / crossed) * (right_end - left_end);
     // The corner lies to the left of the way from left_end to right_end, the new vertex to its right.
     const Vec2 at = left_end + apex.x * along + apex.y * Vec2{along.y, -along.x};
     const Index vertex = mesh.from(Mesh::previous(g));

@@ -5,7 +5,7 @@
 
 #include <brushfire/mesh/mesh.h>
 
-#include <span>
+#include <array>
 #include <vector>
 
 namespace brushfire::detail {
@@ -19,8 +19,16 @@ struct UnfoldedTriangle {
 };
 
 // The halfedge that names the obtuse corner of face f, kNoIndex where there is none (right angles, up to rounding, are
-// not obtuse). `lengths`: mesh.lengths().
-Index obtuse_corner(std::span<const double> lengths, Index f);
+// not obtuse). squared_length[k]: of halfedge 3f + k.
+inline Index obtuse_corner(const std::array<double, 3>& squared_length, Index f) {
+  constexpr double kRightAngle = 1e-9;  // rounding of coordinates tilts right angles by less than this
+  const auto [aa, bb, cc] = squared_length;
+  // Only the corner across the longest edge can be.
+  const double ab = aa >= bb ? aa : bb, most = ab >= cc ? ab : cc;
+  const double others = ab >= cc ? cc + (aa >= bb ? bb : aa) : aa + bb;
+  const Index across = ab >= cc ? (aa >= bb ? 2u : 0u) : 1u;
+  return others < most * (1 - kRightAngle) ? 3 * f + across : kNoIndex;
+}
 
 struct Unfolding {
   int crossed = 0;     // edges that were crossed

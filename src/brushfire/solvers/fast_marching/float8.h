@@ -1,0 +1,70 @@
+// Eight floats in one register of a processor with AVX2. To be used in functions with BRUSHFIRE_AVX2 only.
+#pragma once
+
+#include <brushfire/solvers/fast_marching/vector_target.h>
+
+#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
+
+#include <immintrin.h>
+
+#include <array>
+#include <cstdint>
+
+#define BRUSHFIRE_AVX2 [[gnu::target("avx2,bmi,lzcnt,popcnt")]]
+#define BRUSHFIRE_AVX2_INLINE [[gnu::target("avx2,bmi,lzcnt,popcnt"), gnu::always_inline]] inline
+
+namespace brushfire::detail {
+
+// Numbers, or masks: all bits of a lane, or none.
+struct Float8 {
+  __m256 v;
+
+  BRUSHFIRE_AVX2_INLINE friend Float8 operator+(Float8 a, Float8 b) { return {_mm256_add_ps(a.v, b.v)}; }
+  BRUSHFIRE_AVX2_INLINE friend Float8 operator-(Float8 a, Float8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
+  BRUSHFIRE_AVX2_INLINE friend Float8 operator*(Float8 a, Float8 b) { return {_mm256_mul_ps(a.v, b.v)}; }
+  BRUSHFIRE_AVX2_INLINE friend Float8 operator/(Float8 a, Float8 b) { return {_mm256_div_ps(a.v, b.v)}; }
+  BRUSHFIRE_AVX2_INLINE friend Float8 operator<(Float8 a, Float8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
+  BRUSHFIRE_AVX2_INLINE friend Float8 operator<=(Float8 a, Float8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)}; }
+  BRUSHFIRE_AVX2_INLINE friend Float8 operator&(Float8 a, Float8 b) { return {_mm256_and_ps(a.v, b.v)}; }
+  BRUSHFIRE_AVX2_INLINE friend Float8 operator|(Float8 a, Float8 b) { return {_mm256_or_ps(a.v, b.v)}; }
+};
+
+BRUSHFIRE_AVX2_INLINE Float8 all(float x) { return {_mm256_set1_ps(x)}; }
+BRUSHFIRE_AVX2_INLINE Float8 load(const float* from) { return {_mm256_load_ps(from)}; }
+BRUSHFIRE_AVX2_INLINE void store(float* to, Float8 a) { _mm256_store_ps(to, a.v); }
+BRUSHFIRE_AVX2_INLINE Float8 square_root(Float8 a) { return {_mm256_sqrt_ps(a.v)}; }
+// a < b ? a : b and a > b ? a : b, lane by lane.
+BRUSHFIRE_AVX2_INLINE Float8 lesser(Float8 a, Float8 b) { return {_mm256_min_ps(a.v, b.v)}; }
+BRUSHFIRE_AVX2_INLINE Float8 greater(Float8 a, Float8 b) { return {_mm256_max_ps(a.v, b.v)}; }
+BRUSHFIRE_AVX2_INLINE Float8 select(Float8 mask, Float8 yes, Float8 no) {
+  return {_mm256_blendv_ps(no.v, yes.v, mask.v)};
+}
+BRUSHFIRE_AVX2_INLINE std::uint32_t bits(Float8 mask) { return static_cast<std::uint32_t>(_mm256_movemask_ps(mask.v)); }
+
+// Lane k of the result: lane index[k] % 8 of a.
+BRUSHFIRE_AVX2_INLINE Float8 permuted(Float8 a, __m256i index) { return {_mm256_permutevar8x32_ps(a.v, index)}; }
+// All bits where bit `bit` of the lane is set.
+BRUSHFIRE_AVX2_INLINE Float8 mask_of_bit(__m256i a, int bit) {
+  return {_mm256_castsi256_ps(_mm256_srai_epi32(_mm256_slli_epi32(a, 31 - bit), 31))};
+}
+
+// For each set of lanes, their numbers: one after the other, from the lowest byte on.
+inline constexpr std::array<std::uint64_t, 256> kPacking = [] {
+  std::array<std::uint64_t, 256> packing{};
+  for (unsigned set = 0; set < 256; ++set) {
+    unsigned count = 0;
+    for (std::uint64_t lane = 0; lane < 8; ++lane) {
+      if ((set >> lane & 1u) != 0) packing[set] |= lane << 8 * count++;
+    }
+  }
+  return packing;
+}();
+
+// The index by which permuted() brings the lanes of a set to the front.
+BRUSHFIRE_AVX2_INLINE __m256i packing(std::uint32_t set) {
+  return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&kPacking[set])));
+}
+
+}  // namespace brushfire::detail
+
+#endif

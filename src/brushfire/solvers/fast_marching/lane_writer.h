@@ -1,0 +1,140 @@
+// Puts the sides and triangles around one vertex into blocks.
+#pragma once
+
+#include <brushfire/solvers/fast_marching/ring_blocks.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <brushfire/solvers/fast_marching/vector_target.h>
+
+namespace brushfire::detail {
+
+// A triangle (v; a, b) with v in the origin of its plane: |a|, |b|, a . b, |a x b|.
+struct Corner {
+  Index a = kNoIndex, b = kNoIndex;  // places
+  double length_a = 0, length_b = 0, dot = 0, cross = 0;
+
+  Corner mirrored() const { return {b, a, length_b, length_a, dot, cross}; }
+};
+
+// Writes blocks one after the other. The block at hand is the last one.
+template <class T>
+class LaneWriter {
+ public:
+  // `none`: the end of sides that are not there; `expected` blocks (there may be more).
+  LaneWriter(Index none, std::size_t expected) : none_(none) { grow(expected + 1); }
+
+  // Corners of which each ends on the side where the next one begins; `closed`: the last one on that of the first.
+  void add_fan(std::span<const Corner> fan, bool closed) {
+    const Index count = static_cast<Index>(fan.size());
+    if (count_ + count + (closed ? 0 : 1) > kLanes) finish();
+    if (closed && count <= kLanes) {
+      const Index first = count_;
+      for (const Corner& c : fan) add_triangle(c, count_ + 1 < first + count ? count_ + 1 : first);
+      return;
+    }
+    for (Index i = 0; i < count;) {
+      const Index room = kLanes - 1 - count_;  // one stays for the side that ends the piece
+      for (const Index end = std::min(count, i + room); i < end; ++i) add_triangle(fan[i], count_ + 1);
+      add_edge(fan[i - 1].b, fan[i - 1].length_b);
+      if (i < count) finish();
+    }
+  }
+
+  // A side without a triangle.
+  void add_edge(Index a, double length) {
+    if (count_ == kLanes) finish();
+    set({a, none_, length, 0, kNan, 0}, count_);
+  }
+
+  // An unfolded triangle, whose second side may be one of those that are there. It offers values to its first end.
+  void add_unfolded(const Corner& c) {
+    Index second = 0;
+    while (second < count_ && !is_second_side(second, c)) ++second;
+    if (count_ + (second == count_ ? 2 : 1) > kLanes) {
+      finish();
+      second = 0;
+    }
+    const bool there = second < count_;
+    add_triangle(c, there ? second : count_ + 1);
+    if (!there) add_edge(c.b, c.length_b);
+  }
+
+  // The block at hand, for a caller that fills it. Its first `count` sides are used; second[k] is the second side of
+  // triangle k, back[k] the triangle whose second side is k.
+  RingBlock<T>& block() { return blocks_[done_]; }
+  BRUSHFIRE_INLINE void filled(Index count, const Index* second, const Index* back) {
+    count_ = filled_ = count;
+    for (Index k = 0; k < kLanes; ++k) {
+      second_[k] = static_cast<std::uint8_t>(second[k]);
+      links_[done_].links[k] = static_cast<std::uint8_t>(second[k] | back[k] << 4);
+    }
+  }
+
+  // Completes the block that has been begun; the next one follows it.
+  BRUSHFIRE_INLINE void finish() {
+    if (count_ == 0) return;
+    if (count_ != filled_) complete();
+    count_ = filled_ = 0;
+    if (++done_ == blocks_.size()) grow(done_ + done_ / 2);
+  }
+
+  Index blocks_done() const { return done_; }
+
+  // All blocks, once.
+  void take(UninitializedArray<RingBlock<T>>& blocks, UninitializedArray<LaneLinks>& links) {
+    blocks_.resize(done_);
+    links_.resize(done_);
+    blocks = std::move(blocks_);
+    links = std::move(links_);
+  }
+
+ private:
+  void complete() {
+    while (count_ < kLanes) add_edge(none_, kInfinity);
+    std::uint8_t back[kLanes];
+    for (Index k = 0; k < kLanes; ++k) back[k] = static_cast<std::uint8_t>(k);
+    for (Index k = kLanes; k-- > 0;) back[second_[k]] = static_cast<std::uint8_t>(second_[k] != k ? k : back[k]);
+    for (Index k = 0; k < kLanes; ++k) {
+      links_[done_].links[k] = static_cast<std::uint8_t>(second_[k] | back[k] << 4);
+    }
+  }
+
+  static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+  void add_triangle(const Corner& c, Index second) { set(c, second); }
+
+  // Lengths of unfolded sides are computed another way than those of edges.
+  bool is_second_side(Index k, const Corner& c) const {
+    constexpr T kSame = 16 * std::numeric_limits<T>::epsilon();
+    const RingBlock<T>& block = blocks_[done_];
+    return block.end[k] == c.b && std::abs(block.length[k] - static_cast<T>(c.length_b)) <= kSame * block.length[k];
+  }
+
+  void set(const Corner& c, Index second) {
+    RingBlock<T>& block = blocks_[done_];
+    block.end[count_] = c.a;
+    block.length[count_] = static_cast<T>(c.length_a);
+    block.dot[count_] = static_cast<T>(c.dot);
+    block.cross[count_] = static_cast<T>(c.cross);
+    second_[count_++] = static_cast<std::uint8_t>(second);
+  }
+
+  void grow(std::size_t size) {
+    blocks_.resize(size);
+    links_.resize(size);
+  }
+
+  UninitializedArray<RingBlock<T>> blocks_;
+  UninitializedArray<LaneLinks> links_;
+  Index none_, done_ = 0;         // blocks that are complete
+  Index count_ = 0, filled_ = 0;  // sides of the one at hand, and how many of them came by filled()
+  std::array<std::uint8_t, kLanes> second_{};
+};
+
+}  // namespace brushfire::detail

@@ -1,0 +1,24 @@
+// Which functions are compiled twice: for any processor, and for those with 256-bit vectors.
+#pragma once
+
+#include <brushfire/core/inline.h>
+
+// Functions marked [[gnu::target(...)]] may only call what is BRUSHFIRE_INLINE, or not vectorised, and are entered
+// after
+// __builtin_cpu_supports() has said yes. Products are not contracted: both variants give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__)
+#define BRUSHFIRE_HAS_AVX2_VARIANT 1
+#endif
+
+namespace brushfire::detail {
+
+// Asks for the cache line at `address`, which may be anywhere.
+BRUSHFIRE_INLINE void prefetch(const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  static_cast<void>(address);
+#endif
+}
+
+}  // namespace brushfire::detail
