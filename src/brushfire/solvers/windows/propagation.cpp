@@ -331,17 +331,20 @@ class WindowEngine final : public Engine {
   }
   [[gnu::noinline]] void accept(Index v, double value, const Ray& ray, bool all_around) {
     double& least = values_[v].lower;
-    const bool lower = value < least;
+    const double before = least;
+    const bool lower = value < before;
     if (!lower && (!several_ || label_of(ray.root) >= origins_[v].label)) return;
     least = value;
     if (several_) origins_[v] = {ray.root, label_of(ray.root)};
     if (!rays_.empty()) rays_[v] = ray;
     if (!all_around && structure_.bend[v] == Bend::None) return;
     VertexLight& light = light_[v];
+    const bool queued = light.waiting && queue_.same_bucket(before, value);
     light.from = crossed_at(structure_, ray);
     light.all_around = all_around;
     if (!lower) return;
     light.waiting = true;
+    if (queued) return;
     queue_.push_vertex(v, value);
   }
 
@@ -359,7 +362,8 @@ class WindowEngine final : public Engine {
   // ---- windows
 
   EdgeBounds bounds_of(const WindowFace& f, Index k) const {
-    return {f.length[k], values_[f.vertex[k]].upper, values_[f.vertex[next3(k)]].upper};
+    const VertexValues &start = values_[f.vertex[k]], &end = values_[f.vertex[next3(k)]];
+    return {f.length[k], std::min(start.upper, start.lower), std::min(end.upper, end.lower)};
   }
   [[gnu::always_inline]] bool is_dominated(const WindowFace& f, Index k, const Window& w) const {
     return detail::is_dominated(bounds_of(f, k), w.b0, w.b1, w.d0, w.d1);
