@@ -64,6 +64,9 @@ std::size_t whole(const std::optional<double>& value, std::size_t otherwise, std
   return static_cast<std::size_t>(*value);
 }
 
+// Methods that compute in float or double as asked.
+bool has_precision(Method method) { return method == Method::NovotniKlein || method == Method::KimmelSethian; }
+
 // "windows:1e-4", "novotni-klein:double", "exact".
 DistanceOptions method_of(const std::string& text) {
   DistanceOptions options;
@@ -72,8 +75,7 @@ DistanceOptions method_of(const std::string& text) {
   options.cancel = &cancel_token();
   if (colon == std::string::npos) return options;
   const std::string detail = text.substr(colon + 1);
-  const bool marches = options.method == Method::NovotniKlein || options.method == Method::NovotniKlein2002 ||
-                       options.method == Method::KimmelSethian;
+  const bool marches = has_precision(options.method);
   if (marches && (detail == "float" || detail == "double")) {
     options.precision = detail == "float" ? Precision::Float : Precision::Double;
   } else if (options.method == Method::Windows) {
@@ -272,7 +274,9 @@ std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::si
     methods.emplace_back()
         .add("method", std::string(brushfire::name_of(options.method)))
         .add("tolerance", options.method == Method::Windows ? Record::Value(options.tolerance) : nullptr)
-        .add("precision", std::string(options.precision == Precision::Float ? "float" : "double"))
+        .add("precision", !has_precision(options.method)          ? Record::Value(nullptr)
+                          : options.precision == Precision::Float ? Record::Value(std::string("float"))
+                                                                  : Record::Value(std::string("double")))
         .add("set_up_s", r.set_up_s)
         .add("solve_s", r.solve_s)
         .add("vertices_per_s", vertices_per_second(r))
