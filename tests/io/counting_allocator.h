@@ -8,5 +8,6 @@ namespace brushfire::test {
 std::size_t memory_in_use();
 std::size_t memory_peak();  // since the last reset
 void reset_memory_peak();
+std::size_t allocation_count();  // so far
 
 }  // namespace brushfire::test

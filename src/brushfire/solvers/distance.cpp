@@ -213,19 +213,28 @@ const Mesh& DistanceSolver::mesh() const noexcept { return workspace_->mesh; }
 void DistanceSolver::set_up(const DistanceOptions& options) { workspace_->engine(options.method).set_up(options); }
 
 DistanceField DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options) {
+  DistanceField field;
+  distance(sources, options, field);
+  return field;
+}
+
+void DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options, DistanceField& field) {
   Workspace& w = *workspace_;
   check(options);
   detail::Engine& engine = w.engine(options.method);  // first: what it derives of the mesh is not found twice
   locate_sources(w.mesh, sources, w.sources);
   locate_targets(w.mesh, options, w.targets);
-  DistanceField field;
+  field.windows.reset();
+  field.error_bound.clear();
+  field.max_error_bound = kInfinity;
+  field.beyond_radius = 0;
+  field.updates = 0;
   field.distance.assign(w.mesh.vertex_count(), kInfinity);
   field.source.assign(w.mesh.vertex_count(), kNoIndex);
   field.target_distance.assign(w.targets.size(), kInfinity);
   field.target_source.assign(w.targets.size(), kNoIndex);
   engine.solve({w.sources, w.targets, options.max_distance / w.mesh.unit(), &options, nullptr}, field);
   finish(w.mesh, w.targets, options, field);
-  return field;
 }
 
 void DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options,

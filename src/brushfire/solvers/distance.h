@@ -106,6 +106,8 @@ class DistanceSolver {
   // O(faces).
   void set_up(const DistanceOptions& options = {});
   DistanceField distance(std::span<const Source> sources, const DistanceOptions& options = {});
+  // In place of what `field` held, whose memory is used again: in the long run the marching methods allocate nothing.
+  void distance(std::span<const Source> sources, const DistanceOptions& options, DistanceField& field);
 
   // The same numbers, of the reached vertices only: costs what it reaches, whatever the size of the mesh (after the
   // first call; for methods that keep no list of what they touched, one look at every vertex more).

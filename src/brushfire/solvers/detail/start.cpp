@@ -28,14 +28,6 @@ struct Net {
   std::span<const Face> faces;
 };
 
-// What a point sees of an edge: the point lies at `start`, on or below the edge, in the frame of the edge from its
-// vertex `first` on; `left` and `right` are directions from the point that bound what it sees.
-struct Sight {
-  Index edge = kNoIndex, first = kNoIndex;
-  Vec2 start, left, right;
-  int crossed = 0;
-};
-
 Sight whole_edge(const Net& net, Index h, Vec2 start) {
   return {h, net.from(h), start, Vec2{0, 0} - start, Vec2{net.length(h), 0} - start, 0};
 }
@@ -63,10 +55,8 @@ void look_through(const Net& net, const Sight& s, Index g, Vec2 apex, std::vecto
 }
 
 // The edges that a point sees first: all of its face, the others of the faces of its edge, or those opposite to it.
-std::vector<Sight> first_sights(const Mesh& mesh, const Net& net, const PointLocation& at) {
-  constexpr std::size_t kUsual = 64;
-  std::vector<Sight> sights;
-  sights.reserve(kUsual);
+void first_sights(const Mesh& mesh, const Net& net, const PointLocation& at, std::vector<Sight>& sights) {
+  sights.clear();
   if (at.on == PointLocation::On::Vertex) {
     for (const Index corner : mesh.corners(at.vertex)) {
       const Index h = Mesh::next(corner);
@@ -74,7 +64,7 @@ std::vector<Sight> first_sights(const Mesh& mesh, const Net& net, const PointLoc
       const Vec2 own = net.apex_over(h, h);
       sights.push_back(whole_edge(net, h, {own.x, -own.y}));
     }
-    return sights;
+    return;
   }
   const auto add = [&](Index h, double ahead, double third) {
     if (net.length(h) == 0) return;
@@ -85,7 +75,7 @@ std::vector<Sight> first_sights(const Mesh& mesh, const Net& net, const PointLoc
     for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
       add(h, at.weights[Mesh::next(h) % 3], at.weights[Mesh::previous(h) % 3]);
     }
-    return sights;
+    return;
   }
   const double at_first = at.weights[at.halfedge % 3], at_second = at.weights[Mesh::next(at.halfedge) % 3];
   Index g = at.halfedge;
@@ -96,7 +86,6 @@ std::vector<Sight> first_sights(const Mesh& mesh, const Net& net, const PointLoc
     add(Mesh::previous(g), at_from, at_to);
     g = net.opposite(g);
   } while (g != at.halfedge);
-  return sights;
 }
 
 // The point's weights at the corners of face f; false where the point is not in that face.
@@ -165,29 +154,32 @@ double distance_across_edge(const Mesh& mesh, const PointLocation& a, const Poin
 
 Vec2 apex_over(const Mesh& mesh, Index h, Index g) { return Net(mesh).apex_over(h, g); }
 
-std::vector<Seed> seeds_in_own_faces(const Mesh& mesh, const PointLocation& at) {
-  if (at.on == PointLocation::On::Vertex) return {{at.vertex, 0.0}};
-  std::vector<Seed> seeds;
+std::span<const Seed> SeedSearch::in_own_faces(const Mesh& mesh, const PointLocation& at) {
+  seeds_.clear();
+  if (at.on == PointLocation::On::Vertex) {
+    seeds_.push_back({at.vertex, 0.0});
+    return seeds_;
+  }
   const std::array<double, 3> d = corner_distances(mesh, at);
-  for (Index k = 0; k < 3; ++k) seeds.push_back({mesh.faces()[at.face][k], d[k]});
+  for (Index k = 0; k < 3; ++k) seeds_.push_back({mesh.faces()[at.face][k], d[k]});
   if (at.on == PointLocation::On::Edge && mesh.length(at.halfedge) > 0) {
     const Index h = at.halfedge;
     const double x = at.weights[Mesh::next(h) % 3] * mesh.length(h);
     for (Index g = mesh.opposite(h); g != h; g = mesh.opposite(g)) {
       const Vec2 apex = apex_over(mesh, h, g);
-      seeds.push_back({mesh.from(Mesh::previous(g)), std::hypot(apex.x - x, apex.y)});
+      seeds_.push_back({mesh.from(Mesh::previous(g)), std::hypot(apex.x - x, apex.y)});
     }
   }
-  return seeds;
+  return seeds_;
 }
 
-std::vector<Seed> seeds_in_sight(const Mesh& mesh, const PointLocation& at, int crossings, double limit) {
-  std::vector<Seed> seeds = seeds_in_own_faces(mesh, at);
-  if (!mesh.is_face_usable(at.face) && at.on != PointLocation::On::Vertex) return seeds;
+std::span<const Seed> SeedSearch::in_sight(const Mesh& mesh, const PointLocation& at, int crossings, double limit) {
+  in_own_faces(mesh, at);
+  if (!mesh.is_face_usable(at.face) && at.on != PointLocation::On::Vertex) return seeds_;
   const Net net(mesh);
-  std::vector<Sight> sights = first_sights(mesh, net, at);
-  for (std::size_t i = 0; i < sights.size() && i < kMaxSights; ++i) {
-    const Sight s = sights[i];
+  first_sights(mesh, net, at, sights_);
+  for (std::size_t i = 0; i < sights_.size() && i < kMaxSights; ++i) {
+    const Sight s = sights_[i];
     if (s.crossed >= crossings) break;
     const double length = net.length(s.edge);
     for (Index g = net.opposite(s.edge); g != s.edge; g = net.opposite(g)) {
@@ -197,12 +189,12 @@ std::vector<Seed> seeds_in_sight(const Mesh& mesh, const PointLocation& at, int 
       const double distance = norm(to_apex);  // in mesh.unit(): squares neither vanish nor overflow
       if (!(to_apex.y > 0) || distance > limit) continue;
       if (cross(s.left, to_apex) <= 0 && cross(to_apex, s.right) <= 0) {
-        seeds.push_back({net.from(Mesh::previous(g)), distance});
+        seeds_.push_back({net.from(Mesh::previous(g)), distance});
       }
-      look_through(net, s, g, apex, sights);
+      look_through(net, s, g, apex, sights_);
     }
   }
-  return seeds;
+  return seeds_;
 }
 
 double straight_distance(const Mesh& mesh, const PointLocation& a, const PointLocation& b) {

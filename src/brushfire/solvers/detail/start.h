@@ -4,6 +4,7 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 
+#include <span>
 #include <vector>
 
 namespace brushfire::detail {
@@ -13,15 +14,31 @@ struct Seed {
   double distance = 0;  // in mesh.unit()
 };
 
-// The corners of all faces that hold the point, with their straight distances (a vertex: itself; a point of an edge:
-// the corners of every face of that edge). Digits are kept however near to an edge or a corner the point is.
-std::vector<Seed> seeds_in_own_faces(const Mesh& mesh, const PointLocation& at);
+// What a point sees of an edge: the point lies at `start`, on or below the edge, in the frame of the edge from its
+// vertex `first` on; `left` and `right` are directions from the point that bound what it sees.
+struct Sight {
+  Index edge = kNoIndex, first = kNoIndex;
+  Vec2 start, left, right;
+  int crossed = 0;
+};
 
-// In addition the vertices that the point sees in a straight line across up to `crossings` edges, nearest faces first,
-// kMaxSights faces at most, not farther than `limit` (in mesh.unit()). A front that starts near an edge, or inside the
-// faces that an obtuse corner is unfolded through, needs them: there the distances of two vertices do not tell where it
-// started.
-std::vector<Seed> seeds_in_sight(const Mesh& mesh, const PointLocation& at, int crossings, double limit);
+// Looks around points, one after the other, in memory that it keeps: what it returns lasts until the next call.
+class SeedSearch {
+ public:
+  // The corners of all faces that hold the point, with their straight distances (a vertex: itself; a point of an edge:
+  // the corners of every face of that edge). Digits are kept however near to an edge or a corner the point is.
+  std::span<const Seed> in_own_faces(const Mesh& mesh, const PointLocation& at);
+
+  // In addition the vertices that the point sees in a straight line across up to `crossings` edges, nearest faces
+  // first, kMaxSights faces at most, not farther than `limit` (in mesh.unit()). A front that starts near an edge, or
+  // inside the faces that an obtuse corner is unfolded through, needs them: there the distances of two vertices do not
+  // tell where it started.
+  std::span<const Seed> in_sight(const Mesh& mesh, const PointLocation& at, int crossings, double limit);
+
+ private:
+  std::vector<Seed> seeds_;
+  std::vector<Sight> sights_;
+};
 
 inline constexpr std::size_t kMaxSights = 1024;
 

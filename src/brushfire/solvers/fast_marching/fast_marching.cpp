@@ -111,7 +111,7 @@ class Marcher {
     for (const LocatedSource& s : problem.sources) {
       const double offset = s.offset - base_;
       if (state_.labelled) state_.start[s.label] = static_cast<T>(offset);
-      for (const Seed& seed : seeds_in_sight(mesh_, s.at, crossings, problem.max_distance - s.offset)) {
+      for (const Seed& seed : seeds_.in_sight(mesh_, s.at, crossings, problem.max_distance - s.offset)) {
         state_.offer(seed.vertex, static_cast<T>(offset + seed.distance), s.label);
       }
     }
@@ -156,7 +156,7 @@ class Marcher {
   // A target is read from the corners of its faces, so these have to be final.
   bool is_final(const PointLocation& at, double front) const {
     if (at.on == PointLocation::On::Vertex) return base_ + value(at.vertex) < front;
-    for (const Seed& seed : seeds_in_own_faces(mesh_, at)) {
+    for (const Seed& seed : seeds_.in_own_faces(mesh_, at)) {
       if (!(base_ + value(seed.vertex) < front)) return false;
     }
     return true;
@@ -167,7 +167,7 @@ class Marcher {
     double around = 0;
     for (const PointLocation& at : problem.targets) {
       if (at.on == PointLocation::On::Vertex) continue;
-      for (const Seed& seed : seeds_in_own_faces(mesh_, at)) around = std::max(around, seed.distance);
+      for (const Seed& seed : seeds_.in_own_faces(mesh_, at)) around = std::max(around, seed.distance);
     }
     return problem.max_distance + around;
   }
@@ -184,7 +184,7 @@ class Marcher {
     if (at.on == PointLocation::On::Vertex) {
       offer(base_ + value(at.vertex), label(at.vertex));
     } else {
-      for (const Seed& seed : seeds_in_own_faces(mesh_, at)) {
+      for (const Seed& seed : seeds_.in_own_faces(mesh_, at)) {
         offer(base_ + value(seed.vertex) + seed.distance, label(seed.vertex));
       }
       if (mesh_.is_face_usable(at.face)) through_faces(problem, at, offer);
@@ -265,6 +265,7 @@ class Marcher {
   Rings<T> rings_;
   std::vector<LocatedSource> sources_;  // of the run, in local numbers
   std::vector<PointLocation> targets_;
+  mutable SeedSearch seeds_;
   MarchState<T> state_;
   double base_ = 0;           // the lowest offset: values are kept relative to it
   double final_ = kInfinity;  // where the front stopped
