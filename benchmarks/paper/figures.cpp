@@ -20,6 +20,7 @@ using namespace brushfire;
 std::vector<double> distances(const Mesh& mesh, Index seed, Method method) {
   DistanceOptions options;
   options.method = method;
+  options.precision = Precision::Double;  // what is exact on the plane is to be seen as exact
   const Source source{vertex_point(mesh, seed)};
   return distance(mesh, std::span(&source, 1), options).distance;
 }
