@@ -66,22 +66,28 @@ def vertices(values: npt.ArrayLike) -> Floats:
 
 
 def faces(values: npt.ArrayLike) -> npt.NDArray[np.uint32]:
-    """(m, 3) uint32: int32 and uint32 in C order are used as they are, other integers converted."""
+    """(m, 3) uint32: int32 and uint32 in C order are used as they are, other integers converted.
+
+    Numbers of 32 bits are not looked at here: the mesh does that, and negative ones then read as too high to exist.
+    """
     array = any_array(values, "faces")
     if array.size == 0:
         return np.zeros((0, 3), dtype=np.uint32)
     if array.dtype.kind not in "iu":
         raise TypeError(f"faces: integers are needed, not {array.dtype}")
     columns(array, 3, "faces")
-    low, high = array.min(), array.max()
-    if low < 0 or high > np.iinfo(np.int32).max:
-        bad = int(np.argmax((array < 0) | (array > np.iinfo(np.int32).max)))
+    if array.dtype not in (np.int32, np.uint32):
+        check_faces(array)
+        return np.ascontiguousarray(array).astype(np.uint32)
+    return np.ascontiguousarray(array).view(np.uint32)
+
+
+def check_faces(array: npt.NDArray[Any]) -> None:
+    """Throws for a number that no vertex can have, with the number."""
+    most = np.iinfo(np.int32).max
+    if array.size and (array.min() < 0 or array.max() > most):
+        bad = int(np.argmax((array < 0) | (array > most)))
         raise BrushfireError(f"face {bad // 3} names vertex {array.flat[bad]}, which cannot exist", "invalid_mesh")
-    return (
-        np.ascontiguousarray(array).astype(np.uint32, copy=False)
-        if array.dtype != np.int32
-        else (np.ascontiguousarray(array).view(np.uint32))
-    )
 
 
 def offsets(values: npt.ArrayLike, count: int) -> Floats:

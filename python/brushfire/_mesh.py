@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +24,16 @@ from brushfire._regions import Regions
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
+
+
+@contextlib.contextmanager
+def _named(faces: npt.NDArray[np.uint32]) -> Iterator[None]:
+    """An error about numbers that were negative names them so."""
+    try:
+        yield
+    except BrushfireError:
+        _arrays.check_faces(faces.view(np.int32))
+        raise
 
 
 def methods() -> tuple[str, ...]:
@@ -88,7 +100,9 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
     _finder: _core.NearestPointFinder | None = None
 
     def __init__(self, vertices: npt.ArrayLike, faces: npt.ArrayLike) -> None:
-        self._mesh = _core.make_mesh(_arrays.vertices(vertices), _arrays.faces(faces))
+        f = _arrays.faces(faces)
+        with _named(f):
+            self._mesh = _core.make_mesh(_arrays.vertices(vertices), f)
 
     @classmethod
     def _of(cls, core: _core.Mesh) -> Mesh:
@@ -113,6 +127,7 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         """
         f = _arrays.faces(faces)
         triples = _arrays.triples(lengths, "lengths")
+        _arrays.check_faces(f.view(np.int32))
         count = int(f.max()) + 1 if f.size and vertex_count is None else int(vertex_count or 0)
         if count < 0:
             raise BrushfireError(f"vertex_count: {count} is negative")
