@@ -9,6 +9,7 @@ own, everything is in the solve. Converting the arrays to the number type that t
 
 import json
 import sys
+from functools import partial
 from time import process_time
 
 import numpy as np
@@ -141,7 +142,62 @@ class Igl:
         return result
 
 
+class PyVista:
+    """VTK's Dijkstra over edges, which pyvista's geodesic() runs: distances along edges."""
+
+    def __init__(self, vertices, faces):
+        import pyvista
+
+        self.pyvista, self.vertices = pyvista, vertices
+        self.cells = np.column_stack([np.full(len(faces), 3), faces]).ravel()
+
+    def set_up(self):
+        self.mesh = self.pyvista.PolyData(self.vertices, self.cells)
+
+    def solve(self, source):
+        from vtkmodules.vtkFiltersModeling import vtkDijkstraGraphGeodesicPath
+
+        self.path = vtkDijkstraGraphGeodesicPath()
+        self.path.SetInputData(self.mesh)
+        self.path.SetStartVertex(source)
+        self.path.SetEndVertex((source + 1) % self.mesh.n_points)
+        self.path.StopWhenEndReachedOff()
+        self.path.Update()
+
+    def distances(self, _):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkCommonCore import vtkDoubleArray
+
+        weights = vtkDoubleArray()
+        self.path.GetCumulativeWeights(weights)
+        return vtk_to_numpy(weights)
+
+
+class Brushfire:
+    """This library through its Python package, by one of its methods."""
+
+    def __init__(self, vertices, faces, **options):
+        import brushfire
+
+        self.brushfire, self.options = brushfire, options
+        self.vertices, self.faces = vertices, faces
+
+    def set_up(self):
+        self.solver = self.brushfire.Mesh(self.vertices, self.faces).solver()
+        self.solver.distance(0, max_distance=0, **self.options)  # builds all, reaches the source
+
+    def solve(self, source):
+        return self.solver.distance(source, **self.options)
+
+    def distances(self, result):
+        return result
+
+
 PEERS = {
+    "brushfire": Brushfire,
+    "brushfire-exact": partial(Brushfire, method="exact"),
+    "brushfire-nk": partial(Brushfire, method="novotni-klein"),
+    "brushfire-nk-float": partial(Brushfire, method="novotni-klein", precision="float32"),
     "meshlib": MeshLib,
     "pymeshlab": PyMeshLab,
     "gc-fmm": GeometryCentralMarching,
@@ -149,6 +205,7 @@ PEERS = {
     "pygeodesic": PyGeodesic,
     "gdist": Gdist,
     "igl-exact": Igl,
+    "pyvista": PyVista,
 }
 
 
