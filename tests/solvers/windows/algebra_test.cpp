@@ -5,6 +5,7 @@
 #include <brushfire/solvers/windows/detail/merge.h>
 #include <brushfire/solvers/windows/detail/propagate.h>
 #include <brushfire/solvers/windows/detail/ridge.h>
+#include <brushfire/solvers/windows/detail/sweep.h>
 
 #include <gtest/gtest.h>
 
@@ -260,6 +261,97 @@ TEST(Algebra, AMergedWindowLiesBelowBothAndItsSlackReachesThem) {
     ASSERT_LE(m.slack, budget.share * minimum_of(m) * (1 + 1e-12));
   }
   EXPECT_GT(merged_count, count() / 50);
+}
+
+TEST(Algebra, WindowsThatOverlapAreMergedWithoutAskingWhereTheyCross) {
+  Random random(10);
+  int merged_count = 0;
+  for (int i = 0; i < count(); ++i) {
+    const double length = random.log_uniform(0.1, 10);
+    std::vector<Window> pair(2);
+    pair[0] = random.window(length);
+    pair[1] = pair[0];
+    pair[1].source.x += random.uniform(-0.3, 0.3) * length;
+    pair[1].source.y *= random.uniform(0.8, 1.2);
+    pair[1].sigma += random.uniform(-0.1, 0.1) * length;
+    for (Window& w : pair) {
+      w.kind = WindowKind::Circular;
+      w.b0 = 0;
+      w.b1 = length;
+      w.slack = random.uniform(0, 1e-3);
+    }
+    if (value_at(pair[0], 0) > value_at(pair[1], 0)) std::swap(pair[0], pair[1]);
+    Window &a = pair[0], &b = pair[1];
+    a.b1 = random.uniform(0.5, 1) * length;
+    b.b0 = random.uniform(0, 0.5) * length;
+    for (Window& w : pair) {
+      w.d0 = value_at(w, w.b0);
+      w.d1 = value_at(w, w.b1);
+    }
+    if (!(value_at(a, b.b0) < b.d0 && a.d1 > value_at(b, a.b1))) continue;
+    const double joint = random.uniform(b.b0, a.b1);
+    const MergeBudget budget{0.2, 1.0};
+    Window m = b;
+    if (!merge_into(a, m, {joint, value_at(a, joint), value_at(b, joint)}, 0, budget)) continue;
+    ++merged_count;
+    const double close = 64 * kEpsilon * std::max(a.d0, b.d1);
+    ASSERT_EQ(m.b0, a.b0);
+    ASSERT_EQ(m.b1, b.b1);
+    ASSERT_NEAR(value_at(m, m.b0), a.d0, close) << "seed 10, pair " << i;  // (M2)
+    ASSERT_NEAR(value_at(m, m.b1), b.d1, close) << "seed 10, pair " << i;
+    for (int s = 0; s <= 100; ++s) {
+      const double x = m.b0 + (m.b1 - m.b0) * s / 100;
+      for (const Window& w : pair) {
+        if (x < w.b0 || x > w.b1) continue;
+        ASSERT_LE(value_at(m, x), value_at(w, x) + close) << "seed 10, pair " << i;  // (M1)
+      }
+      const Window& w = x <= joint ? a : b;
+      ASSERT_GE(value_at(m, x) + m.slack, value_at(w, x) + w.slack - close) << "seed 10, pair " << i;  // (M3)
+    }
+    ASSERT_LE(m.slack, budget.share * minimum_of(m) * (1 + 1e-12));
+  }
+  EXPECT_GT(merged_count, count() / 200);
+}
+
+TEST(Algebra, ASweepThatMergesNothingTrimsAsTheEnvelopeDoes) {
+  Random random(11);
+  int swept = 0;
+  for (int i = 0; i < count() / 20; ++i) {
+    const double length = random.log_uniform(0.1, 10);
+    std::vector<Window> all(static_cast<std::size_t>(2 + random.below(4)));
+    for (Window& w : all) {
+      w = random.window(length);
+      w.kind = WindowKind::Circular;
+      w.d0 = value_at(w, w.b0);
+      w.d1 = value_at(w, w.b1);
+    }
+    std::vector<Window> left = all;
+    std::sort(left.begin(), left.end(), [](const Window& a, const Window& b) { return a.b0 < b.b0; });
+    Sweep sweep(std::span<Window>(left), [](const Window&, const Window&, const Joint&) { return false; });
+    const bool done = sweep();
+    left.resize(sweep.count());
+    swept += done;
+    for (std::size_t k = 1; done && k < left.size(); ++k) ASSERT_LE(left[k - 1].b1, left[k].b0) << i;
+    for (int s = 0; s <= 50; ++s) {
+      const double x = length * random.uniform(0, 1);
+      double least = kInfinity, kept = kInfinity, end = kInfinity;
+      for (const Window& w : all) {
+        if (x >= w.b0 && x <= w.b1) least = std::min(least, value_at(w, x));
+        end = std::min({end, std::abs(x - w.b0), std::abs(x - w.b1)});
+      }
+      for (const Window& w : left) {
+        if (x >= w.b0 && x <= w.b1) kept = std::min(kept, value_at(w, x));
+      }
+      if (end < 4 * kSliver * 100) continue;
+      if (least == kInfinity) {
+        ASSERT_EQ(kept, kInfinity);
+      } else {
+        ASSERT_LE(kept, least + 4 * tie(least)) << "seed 11, list " << i << ", x " << x;
+        ASSERT_GE(kept, least - 4 * tie(least)) << "seed 11, list " << i << ", x " << x;
+      }
+    }
+  }
+  EXPECT_GT(swept, count() / 100);
 }
 
 TEST(Algebra, MergingTwoPartsOfOneWindowGivesItBackAndCostsRounding) {

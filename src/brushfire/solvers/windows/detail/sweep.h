@@ -1,6 +1,7 @@
 // Trimming and merging in one pass: the few windows of an edge in a run with a tolerance.
 #pragma once
 
+#include <brushfire/solvers/windows/detail/merge.h>
 #include <brushfire/solvers/windows/detail/ridge.h>
 #include <brushfire/solvers/windows/detail/window.h>
 
