@@ -14,7 +14,7 @@ namespace {
 constexpr double kMergeRounding = 16 * std::numeric_limits<double>::epsilon();
 // The share of a merge's loss at the joint by which the distance is expected to lie above the merged value (measured;
 // no proof hangs on it).
-constexpr double kExpectedLoss = 0.6;
+constexpr double kExpectedLoss = 0.68;
 
 }  // namespace
 
