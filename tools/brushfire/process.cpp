@@ -1,7 +1,7 @@
 // Processor time and memory, as Linux tells them; on other systems what is portable.
 #include "process.h"
 
-#include <time.h>
+#include <ctime>
 
 #include <algorithm>
 #include <fstream>

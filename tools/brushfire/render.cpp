@@ -72,7 +72,7 @@ int whole(const std::optional<double>& value, int otherwise, int low, int high, 
 }
 
 // The scale of the distances (or other values), and the scale of the errors.
-enum : std::size_t { kValues = 0, kErrors = 1 };
+constexpr std::size_t kValues = 0, kErrors = 1;
 
 void set_range(const std::string& text, const char* what, ColorScale& scale) {
   if (text.empty()) return;

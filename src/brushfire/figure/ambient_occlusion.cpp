@@ -81,7 +81,7 @@ class Scene {
     const Vec3 centre = 0.5 * low + 0.5 * high, half = 0.5 * high - 0.5 * low;
     const double extent = std::max({half.x, half.y, half.z});
     scale_ = extent > 0 ? 1 / extent : 1;
-    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     points_ = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                           sizeof(Vec3f), mesh.vertex_count()));
     void* faces =
