@@ -151,12 +151,16 @@ std::vector<Index> breadth_first_order(const Mesh& mesh) {
 
 // Faces by the least place of their vertices: a counting sort.
 std::vector<Index> order_faces(std::span<const Face> faces, std::span<const Index> rank) {
-  const auto key = [&](const Face& t) { return std::min({rank[t[0]], rank[t[1]], rank[t[2]]}); };
+  UninitializedArray<Index> key(faces.size());
   std::vector<Index> start(rank.size() + 1, 0);
-  for (const Face& t : faces) ++start[key(t) + 1];
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Face& t = faces[f];
+    key[f] = std::min({rank[t[0]], rank[t[1]], rank[t[2]]});
+    ++start[key[f] + 1];
+  }
   for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
   std::vector<Index> order(faces.size());
-  for (Index f = 0; f < faces.size(); ++f) order[start[key(faces[f])]++] = f;
+  for (Index f = 0; f < faces.size(); ++f) order[start[key[f]]++] = f;
   return order;
 }
 
