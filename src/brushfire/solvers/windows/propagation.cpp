@@ -87,6 +87,7 @@ class WindowEngine final : public Engine {
     values_.resize(mesh.vertex_count());
     touched_.reserve(mesh.vertex_count());
     light_.resize(mesh.vertex_count());
+    touched_.reserve(mesh.vertex_count());
   }
 
   bool lists_touched() const override { return true; }
