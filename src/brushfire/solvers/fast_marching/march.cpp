@@ -87,7 +87,7 @@ BRUSHFIRE_INLINE void make_offers(const RingBlock<T>& block, const LaneLinks& li
   Ends<T> a, b;
   Offers<T> offers;
   alignas(64) T inverse_a[kLanes], inverse_b[kLanes], length_b[kLanes];
-  alignas(64) bool any_order_a[kLanes], any_order_b[kLanes];
+  alignas(64) T any_order_a[kLanes], any_order_b[kLanes];  // 1: yes; of the width of the rest
   for (Index k = 0; k < kLanes; ++k) {
     const Index end = block.end[k];
     a.value[k] = s.front_at[end].value;
@@ -106,15 +106,15 @@ BRUSHFIRE_INLINE void make_offers(const RingBlock<T>& block, const LaneLinks& li
     b.root[k] = a.root[second];
     length_b[k] = block.length[second];
     inverse_b[k] = inverse_a[second];
-    any_order_a[k] = links.any_order_first(k);
-    any_order_b[k] = links.any_order_second(k);
+    any_order_a[k] = links.any_order_first(k) ? T(1) : T(0);
+    any_order_b[k] = links.any_order_second(k) ? T(1) : T(0);
   }
   for (Index k = 0; k < kLanes; ++k) {
     const T la = block.length[k], lb = length_b[k], dot = block.dot[k], cross = block.cross[k];
     const T ia = inverse_a[k], ib = inverse_b[k], over_a = a.root[k], over_b = b.root[k];
-    const Update<T> to_a = Front::update(UpdateTriangle<T>{lb, ib, dot * ib, cross * ib, la, any_order_a[k]},
+    const Update<T> to_a = Front::update(UpdateTriangle<T>{lb, ib, dot * ib, cross * ib, la, any_order_a[k] != 0},
                                          turn.value - over_b, b.support[k] - over_b);
-    const Update<T> to_b = Front::update(UpdateTriangle<T>{la, ia, dot * ia, cross * ia, lb, any_order_b[k]},
+    const Update<T> to_b = Front::update(UpdateTriangle<T>{la, ia, dot * ia, cross * ia, lb, any_order_b[k] != 0},
                                          turn.value - over_a, a.support[k] - over_a);
     // Along the edge the vertex passes on its own root.
     offers.value[k] = to_a.through ? over_b + to_a.value : turn.value + la;
