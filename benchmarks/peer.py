@@ -196,8 +196,8 @@ class Brushfire:
 PEERS = {
     "brushfire": Brushfire,
     "brushfire-exact": partial(Brushfire, method="exact"),
-    "brushfire-nk": partial(Brushfire, method="novotni-klein"),
-    "brushfire-nk-float": partial(Brushfire, method="novotni-klein", precision="float32"),
+    "brushfire-nk": partial(Brushfire, method="novotni-klein", precision="float64"),
+    "brushfire-nk-float": partial(Brushfire, method="novotni-klein"),
     "meshlib": MeshLib,
     "pymeshlab": PyMeshLab,
     "gc-fmm": GeometryCentralMarching,

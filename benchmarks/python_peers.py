@@ -35,7 +35,7 @@ TIME_SOLVER = HERE.parent / "build" / "benchmark" / "benchmarks" / "time_solver"
 FIELDS = {
     "brushfire": "brushfire, tolerance 1e-3 (default)",
     "brushfire-exact": "brushfire, exact",
-    "brushfire-nk": "brushfire, novotni-klein",
+    "brushfire-nk": "brushfire, novotni-klein, float64",
     "brushfire-nk-float": "brushfire, novotni-klein, float32",
     "meshlib": "meshlib",
     "pymeshlab": "pymeshlab",
@@ -49,7 +49,7 @@ FIELDS = {
 OURS = {
     "exact": {"method": "exact"},
     "tolerance 1e-3": {"tolerance": 1e-3},
-    "novotni-klein": {"method": "novotni-klein"},
+    "novotni-klein, float64": {"method": "novotni-klein", "precision": "float64"},
     "novotni-klein, float32": {"method": "novotni-klein", "precision": "float32"},
 }
 RADII = {10242: (4.0, 8.0, 20.0), 32492: (2.0, 4.0, 8.0, 12.0)}  # by vertices; mm

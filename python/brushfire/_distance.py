@@ -115,8 +115,8 @@ class Distances:
             vertex is at most this; in [0, 0.1], 0 is exact.
         :param bound: for method ``"windows"``: ``"lower"`` gives values never above the distance, ``"upper"`` never below
             it, ``"estimate"`` (the default) values in between.
-        :param precision: of the marching methods: ``"float32"``, the default, is faster and good for about 6 digits of
-            their values, ``"float64"`` for all. Other methods ignore it.
+        :param precision: in which the marching methods compute: ``"float32"``, the default, is faster and good for about 6
+            digits, ``"float64"`` for all. Other methods ignore it.
         :param offset: the value that the front starts with, one number or one per source; finite, may be negative.
         :param max_distance: what is farther reads +inf; the run costs what it reaches.
         :param targets: where only some distances are needed; the solver may stop as soon as it has them.
