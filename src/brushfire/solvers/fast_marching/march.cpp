@@ -44,9 +44,9 @@ struct Candidates {
   alignas(64) T root[kRoom];
   Index count = 0;
 
-  BRUSHFIRE_INLINE void add(Index w, T offer, T passed) {
+  BRUSHFIRE_INLINE void add_if(bool wanted, Index w, T offer, T passed) {
     end[count] = w, value[count] = offer, root[count] = passed;
-    ++count;
+    count += wanted ? 1u : 0u;
   }
 };
 
@@ -126,18 +126,25 @@ BRUSHFIRE_INLINE void make_offers(const RingBlock<T>& block, const LaneLinks& li
     if constexpr (kLabelled) return (offer <= old) & (offer < kNever);  // equal values may go to another label
     return offer < old * kNews<T>;
   };
+  // Each side takes the better one of the offers of its two triangles.
+  alignas(64) T returned[kLanes], returned_root[kLanes], improves_a[kLanes], improves_b[kLanes];
   for (Index k = 0; k < kLanes; ++k) {
-    // Each side takes the better one of the offers of its two triangles.
     const Index back = links.back(k);
-    if (back != k && offers.value_b[back] < offers.value[k]) {
-      offers.value[k] = offers.value_b[back];
-      offers.root[k] = offers.root_b[back];
-    }
-    if (lowers(offers.value[k], a.value[k])) candidates.add(block.end[k], offers.value[k], offers.root[k]);
+    returned[k] = back != k ? offers.value_b[back] : kNever;
+    returned_root[k] = offers.root_b[back];
   }
   for (Index k = 0; k < kLanes; ++k) {
-    if (!lowers(offers.value_b[k], b.value[k])) continue;
-    candidates.add(block.end[links.second(k)], offers.value_b[k], offers.root_b[k]);
+    const bool takes = returned[k] < offers.value[k];
+    offers.root[k] = takes ? returned_root[k] : offers.root[k];
+    offers.value[k] = takes ? returned[k] : offers.value[k];
+    improves_a[k] = lowers(offers.value[k], a.value[k]) ? T(1) : T(0);
+    improves_b[k] = lowers(offers.value_b[k], b.value[k]) ? T(1) : T(0);
+  }
+  for (Index k = 0; k < kLanes; ++k) {
+    candidates.add_if(improves_a[k] != 0, block.end[k], offers.value[k], offers.root[k]);
+  }
+  for (Index k = 0; k < kLanes; ++k) {
+    if (improves_b[k] != 0) candidates.add_if(true, block.end[links.second(k)], offers.value_b[k], offers.root_b[k]);
   }
 }
 
@@ -250,7 +257,7 @@ BRUSHFIRE_AVX2 void make_offers8(const RingBlock<float>& block, const LaneLinks&
   store(passed, root_b);
   for (std::uint32_t more = lower_b; more != 0; more &= more - 1) {
     const Index k = static_cast<Index>(std::countr_zero(more));
-    candidates.add(block.end[lanes.second(k)], offered[k], passed[k]);
+    candidates.add_if(true, block.end[lanes.second(k)], offered[k], passed[k]);
   }
 }
 
