@@ -115,7 +115,7 @@ class RingBuilder {
     rings_.layout.block_offset.resize(count + 1);
     patches_.resize(count);
     plain_sides_.resize(count);
-    LaneWriter<T> lanes(none_, count + count / 4);
+    LaneWriter<T> lanes(none_, count + count / 2);  // what is not written costs nothing
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
     __builtin_cpu_supports("avx2") ? fill_avx2(lanes) : fill_all(lanes);
 #else
