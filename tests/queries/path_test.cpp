@@ -3,8 +3,7 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 
-#include "support/path_checker.h"
-#include "support/random_points.h"
+#include "support/good_paths.h"
 #include "support/shared_meshes.h"
 
 #include <gtest/gtest.h>
@@ -14,38 +13,14 @@
 namespace brushfire {
 namespace {
 
-void expect_good_paths(const Mesh& mesh, int pairs, unsigned seed, const std::string& name) {
-  PathFinder finder(mesh);
-  DistanceSolver solver(mesh);
-  std::mt19937 random(seed);
-  for (int i = 0; i < pairs; ++i) {
-    const SurfacePoint from = test::any_point(mesh, random), to = test::any_point(mesh, random);
-    const SurfacePath path = finder.between(from, to);
-    ASSERT_EQ(test::judge(mesh, path), "") << name << ", pair " << i << ", seed " << seed;
-    DistanceOptions options;
-    options.method = Method::Exact;
-    options.targets = {to};
-    const Source source{from};
-    const double d = solver.distance(std::span(&source, 1), options).target_distance[0];
-    if (d == kInfinity) {
-      ASSERT_TRUE(path.points.empty()) << name << ", pair " << i;
-      ASSERT_EQ(path.length, kInfinity);
-      continue;
-    }
-    const double room = 1e-10 * std::max(d, 1e-3 * mesh.unit());
-    ASSERT_NEAR(path.length, d, room) << name << ", pair " << i << ", seed " << seed;
-    ASSERT_NEAR(finder.between(to, from).length, d, room) << name << ", pair " << i << " reversed";
-  }
-}
-
 TEST(Path, OnShapesIsJudgedGoodAndAsLongAsTheFieldSays) {
-  expect_good_paths(shapes::plane(9, 7).mesh(), 60, 1, "plane");
-  expect_good_paths(shapes::cube(3).mesh(), 60, 2, "cube");
-  expect_good_paths(shapes::saddle(10).mesh(), 60, 3, "saddle");
-  expect_good_paths(shapes::torus(20, 10).mesh(), 60, 4, "torus");
-  expect_good_paths(shapes::folded_sphere(3).mesh(), 60, 5, "folded sphere");
-  expect_good_paths(shapes::book(5, 4, 4).mesh(), 60, 6, "book");
-  expect_good_paths(shapes::noise_terrain(20, 20, 0.5).mesh(), 60, 7, "terrain");
+  test::expect_good_paths(shapes::plane(9, 7).mesh(), 60, 1, "plane");
+  test::expect_good_paths(shapes::cube(3).mesh(), 60, 2, "cube");
+  test::expect_good_paths(shapes::saddle(10).mesh(), 60, 3, "saddle");
+  test::expect_good_paths(shapes::torus(20, 10).mesh(), 60, 4, "torus");
+  test::expect_good_paths(shapes::folded_sphere(3).mesh(), 60, 5, "folded sphere");
+  test::expect_good_paths(shapes::book(5, 4, 4).mesh(), 60, 6, "book");
+  test::expect_good_paths(shapes::noise_terrain(20, 20, 0.5).mesh(), 60, 7, "terrain");
 }
 
 // On a grid many lines run over vertices exactly, some of them to a target on an edge from a corner of the face beyond.
@@ -68,7 +43,7 @@ TEST(Path, OnScansAndDirtyMeshesIsJudgedGood) {
   BRUSHFIRE_NEEDS_SHARED_DATA();
   for (const std::string& name : test::shared_mesh_names()) {
     const Mesh mesh = test::shared_mesh(name);
-    if (mesh.vertex_count() < 20000) expect_good_paths(mesh, 2, 8, name);
+    if (mesh.vertex_count() < 20000) test::expect_good_paths(mesh, 2, 8, name);
   }
 }
 

@@ -56,6 +56,23 @@ class Random {
     return w;
   }
 
+  // Two windows over the whole edge with their sources side by side, as around a vertex of positive curvature.
+  std::vector<Window> neighbours(double length) {
+    std::vector<Window> pair(2, window(length));
+    pair[1].source.x += uniform(-0.3, 0.3) * length;
+    pair[1].source.y *= uniform(0.8, 1.2);
+    pair[1].sigma += uniform(-0.1, 0.1) * length;
+    for (Window& w : pair) {
+      w.kind = WindowKind::Circular;
+      w.b0 = 0;
+      w.b1 = length;
+      w.d0 = value_at(w, 0);
+      w.d1 = value_at(w, length);
+      w.slack = uniform(0, 1e-3);
+    }
+    return pair;
+  }
+
  private:
   std::mt19937 engine_;
 };
@@ -225,21 +242,7 @@ TEST(Algebra, AMergedWindowLiesBelowBothAndItsSlackReachesThem) {
   int merged_count = 0;
   for (int i = 0; i < count(); ++i) {
     const double length = random.log_uniform(0.1, 10);
-    // Two sources side by side whose windows meet at a ridge, as around a vertex of positive curvature.
-    std::vector<Window> pair(2);
-    pair[0] = random.window(length);
-    pair[1] = pair[0];
-    pair[1].source.x += random.uniform(-0.3, 0.3) * length;
-    pair[1].source.y *= random.uniform(0.8, 1.2);
-    pair[1].sigma += random.uniform(-0.1, 0.1) * length;
-    for (Window& w : pair) {
-      w.kind = WindowKind::Circular;
-      w.b0 = 0;
-      w.b1 = length;
-      w.d0 = value_at(w, 0);
-      w.d1 = value_at(w, length);
-      w.slack = random.uniform(0, 1e-3);
-    }
+    const std::vector<Window> pair = random.neighbours(length);
     const auto parts = envelope(pair);
     if (parts.size() != 2) continue;
     const MergeBudget budget{0.2, 1.0};
@@ -268,18 +271,7 @@ TEST(Algebra, WindowsThatOverlapAreMergedWithoutAskingWhereTheyCross) {
   int merged_count = 0;
   for (int i = 0; i < count(); ++i) {
     const double length = random.log_uniform(0.1, 10);
-    std::vector<Window> pair(2);
-    pair[0] = random.window(length);
-    pair[1] = pair[0];
-    pair[1].source.x += random.uniform(-0.3, 0.3) * length;
-    pair[1].source.y *= random.uniform(0.8, 1.2);
-    pair[1].sigma += random.uniform(-0.1, 0.1) * length;
-    for (Window& w : pair) {
-      w.kind = WindowKind::Circular;
-      w.b0 = 0;
-      w.b1 = length;
-      w.slack = random.uniform(0, 1e-3);
-    }
+    std::vector<Window> pair = random.neighbours(length);
     if (value_at(pair[0], 0) > value_at(pair[1], 0)) std::swap(pair[0], pair[1]);
     Window &a = pair[0], &b = pair[1];
     a.b1 = random.uniform(0.5, 1) * length;

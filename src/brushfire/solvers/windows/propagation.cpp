@@ -16,10 +16,13 @@
 #include <brushfire/solvers/windows/detail/merge.h>
 #include <brushfire/solvers/windows/detail/propagate.h>
 #include <brushfire/solvers/windows/detail/queue.h>
+#include <brushfire/solvers/windows/detail/reading.h>
 #include <brushfire/solvers/windows/detail/record.h>
 #include <brushfire/solvers/windows/detail/ridge.h>
 #include <brushfire/solvers/windows/detail/structure.h>
 #include <brushfire/solvers/windows/detail/sweep.h>
+#include <brushfire/solvers/windows/detail/targets.h>
+#include <brushfire/solvers/windows/detail/vertex_state.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,52 +43,11 @@ constexpr double kSeen = 1e-10;
 // A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
 // directions: limit rays through the corner are known to epsilon / share only.
 constexpr double kNear = 1e-3;
-// The part of a tolerance that is kept back for rounding, so that the promise holds to the letter.
-constexpr double kRounding = 4e-12;
-// What adding the source's offset rounds away.
-constexpr double kOffsetRounding = 8 * std::numeric_limits<double>::epsilon();
-// The relative error of exact runs, measured to be 1e-13 at most.
-constexpr double kExactBound = 1e-12;
-
-// What every window that passes a vertex reads.
-struct VertexValues {
-  double upper = kInfinity;     // length of the shortest real path known
-  double lower = kInfinity;     // least value of the windows that see the vertex, after merging
-  double estimate = kInfinity;  // the least distance that a window expected that saw it, before merging
-};
-
-// What a vertex where paths may bend needs to send light on.
-struct VertexLight {
-  CrossedAt from;           // where its least value came from
-  bool all_around = false;  // sends light in all directions, whatever its faces are like
-  bool waiting = false;     // its value has fallen since it last sent light
-};
-
-// Where light comes from in the end; for runs with several sources.
-struct Origins {
-  Index root = kNoIndex;  // see Ray
-  Index label = kNoIndex;
-};
-
-struct TargetInFace {
-  Index face;
-  Index target;
-  std::array<double, 3> weights;
-};
-
-struct TargetState {
-  double lower = kInfinity;
-  double upper = kInfinity;
-  double estimate = kInfinity;
-  Ray ray;
-};
-
 class WindowEngine final : public Engine {
  public:
   explicit WindowEngine(const Mesh& mesh) : structure_(mesh) {
     if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
     values_.resize(mesh.vertex_count());
-    touched_.reserve(mesh.vertex_count());
     light_.resize(mesh.vertex_count());
     touched_.reserve(mesh.vertex_count());
   }
@@ -106,7 +68,8 @@ class WindowEngine final : public Engine {
     budget_ = budget_of(*problem.options);
     in_lists_ = !merges() && radius_ > kShort * structure_.bucket_width;
     queue_.reset(in_lists_ ? kExactBucket * structure_.bucket_width : structure_.bucket_width);
-    place_targets();
+    targets_.place(problem.targets, structure_);
+    next_target_check_ = problem.targets.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;
     for (const LocatedSource& s : problem.sources) start(s);
     drain();
     finish();
@@ -115,11 +78,6 @@ class WindowEngine final : public Engine {
  private:
   // ---- set-up and reset
 
-  static MergeBudget budget_of(const DistanceOptions& options) {
-    if (options.method == Method::Exact) return {};
-    const double promise = options.tolerance - 1.01 * kRounding;
-    return {std::max(0.0, options.bound == Bound::Estimate ? 2 * promise : promise)};
-  }
   bool merges() const { return budget_.share > 0; }
   bool keeps_rays() const { return problem_->options->keep_paths || problem_->options->keep_windows; }
 
@@ -136,33 +94,9 @@ class WindowEngine final : public Engine {
       for (WindowFace& f : structure_.faces) f.waiting = kNoIndex;
       exact_.clear();
     }
-    for (const TargetInFace& t : targets_in_faces_) structure_.faces[t.face].has_target = false;
-    targets_in_faces_.clear();
+    targets_.clear(structure_);
     kept_.clear();
     memory_.clear();
-  }
-
-  void place_targets() {
-    targets_.assign(problem_->targets.size(), {});
-    for (Index i = 0; i < targets_.size(); ++i) {
-      if (problem_->targets[i].on == PointLocation::On::Vertex) continue;
-      for (const FaceWeights& f : faces_around(structure_.mesh, problem_->targets[i])) {
-        const Index face = structure_.inner_face(f.face);
-        targets_in_faces_.push_back({face, i, f.weights});
-        structure_.faces[face].has_target = true;
-      }
-    }
-    std::sort(targets_in_faces_.begin(), targets_in_faces_.end(), [](const TargetInFace& a, const TargetInFace& b) {
-      return std::tie(a.face, a.target) < std::tie(b.face, b.target);
-    });
-    next_target_check_ = targets_.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;
-  }
-
-  template <class Visit>
-  void for_each_target_in(Index face, Visit&& visit) const {
-    auto t = std::lower_bound(targets_in_faces_.begin(), targets_in_faces_.end(), face,
-                              [](const TargetInFace& a, Index f) { return a.face < f; });
-    for (; t != targets_in_faces_.end() && t->face == face; ++t) visit(*t);
   }
 
   // ---- sources
@@ -217,7 +151,7 @@ class WindowEngine final : public Engine {
       if (is_lit(w) && (w.source.y < 0 || f.double_area == 0)) cross_edge(h, w);
     }
     if (!f.has_target) return;
-    for_each_target_in(at.face, [&](const TargetInFace& t) {
+    targets_.for_each_in(at.face, [&](const TargetInFace& t) {
       const Index k = f.length[0] > 0 ? 0 : 1;
       if (!(f.length[k] > 0)) return;
       std::array<double, 3> step;
@@ -298,7 +232,7 @@ class WindowEngine final : public Engine {
   void narrow_radius() {
     next_target_check_ = field_->updates + targets_.size() + 256;
     double farthest = 0;
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
+    for (Index i = 0; i < targets_.size(); ++i) {
       const PointLocation& at = problem_->targets[i];
       const bool vertex = at.on == PointLocation::On::Vertex;
       farthest = std::max(farthest, vertex ? values_[structure_.inner_vertex(at.vertex)].upper : targets_[i].upper);
@@ -560,7 +494,7 @@ class WindowEngine final : public Engine {
   }
 
   void reach_targets(Index h, const Frame& frame, const WindowColumns& w, Index count) {
-    for_each_target_in(h / 3, [&](const TargetInFace& t) {
+    targets_.for_each_in(h / 3, [&](const TargetInFace& t) {
       const Vec2 p = in_frame(frame, h % 3, t.weights);
       for (Index i = 0; i < count; ++i) {
         const Arrival there = arrival(w.window(i), p);
@@ -620,7 +554,7 @@ class WindowEngine final : public Engine {
       offer(apex, at.value, ray, false);
     }
     if (f.has_target) {
-      for_each_target_in(h / 3, [&](const TargetInFace& t) {
+      targets_.for_each_in(h / 3, [&](const TargetInFace& t) {
         const Arrival there = arrival(w, in_frame(frame, h % 3, t.weights));
         offer_target(t.target, there.value, w.slack, w.lift, ray, there.detour <= kSeen * there.value);
       });
@@ -744,7 +678,7 @@ class WindowEngine final : public Engine {
       if (bounded) field_->error_bound[outer] = r.bound;
       if (r.value <= radius_) field_->max_error_bound = std::max(field_->max_error_bound, r.relative);
     }
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
+    for (Index i = 0; i < targets_.size(); ++i) {
       const PointLocation& at = problem_->targets[i];
       if (at.on == PointLocation::On::Vertex) continue;  // read off the field
       const TargetState& t = targets_[i];
@@ -755,37 +689,8 @@ class WindowEngine final : public Engine {
     if (keeps_rays()) keep();
   }
 
-  // The value that is given out for lower <= distance <= upper, how far it may be off, and that as a share of the
-  // path's length.
-  struct Reading {
-    double value, bound, relative;
-  };
   Reading read(double lower, double upper, double estimate, Index label) const {
-    const double of_offset = kOffsetRounding * std::abs(start_of(label));
-    if (!merges()) {
-      const double value = std::min(lower, upper);  // they differ by rounding
-      const double length = value - start_of(label);
-      return {value, kExactBound * length + of_offset, kExactBound};
-    }
-    lower = std::min(lower, upper);
-    const double length = lower - start_of(label), rounding = kRounding * length;
-    double value = lower;
-    switch (problem_->options->bound) {
-      case Bound::Lower:
-        break;
-      case Bound::Upper:
-        value = upper;
-        break;
-      case Bound::Estimate: {
-        // Anywhere within t of both ends: there is such a place because upper - lower <= 2 t length.
-        const double reach = 0.5 * budget_.share * length;
-        const double least = std::min(upper - reach, upper), most = std::max(lower + reach, lower);
-        value = std::clamp(std::clamp(estimate, lower, upper), least, std::max(least, most));
-        break;
-      }
-    }
-    const double bound = std::max(value - lower, upper - value) + rounding;
-    return {value, bound + of_offset, length > 0 ? bound / length : 0};
+    return detail::read(lower, upper, estimate, start_of(label), budget_.share, problem_->options->bound);
   }
 
   // With the mesh's own numbers.
@@ -811,29 +716,22 @@ class WindowEngine final : public Engine {
       data->vertices[structure_.outer_vertex(v)] = {values_[v].lower, label_of(v), outer(rays_[v])};
     }
     data->targets.assign(problem_->targets.begin(), problem_->targets.end());
-    for (const TargetState& t : targets_) {
+    for (Index i = 0; i < targets_.size(); ++i) {
+      const TargetState& t = targets_[i];
       data->target.push_back({t.lower, t.lower < kInfinity ? label_of(t.ray.root) : kNoIndex, outer(t.ray)});
     }
     data->exact = !merges();
     data->all_points = problem_->options->keep_windows;
     if (data->all_points) {
-      data->first_kept.assign(mesh.halfedge_count() + std::size_t{1}, 0);
-      for (const KeptWindow& k : kept_) ++data->first_kept[k.halfedge + 1];
-      for (std::size_t h = 0; h < mesh.halfedge_count(); ++h) data->first_kept[h + 1] += data->first_kept[h];
-      std::vector<std::size_t> fill(data->first_kept.begin(), data->first_kept.end() - 1);
-      data->kept.resize(kept_.size());
-      for (const KeptWindow& k : kept_) {
-        Window& w = data->kept[fill[k.halfedge]++];
-        w = k.window;
-        w.root = outer_root(w.root);
-      }
+      for (KeptWindow& k : kept_) k.window.root = outer_root(k.window.root);
+      data->keep(kept_);
     }
     field_->windows = std::make_shared<WindowField>(std::move(data));
   }
 
   // Around the corners of a target's face.
   void finish_targets() {
-    for (const TargetInFace& t : targets_in_faces_) {
+    for (const TargetInFace& t : targets_.in_faces()) {
       const std::array<double, 3> d = corner_distances_of({t.face, t.weights});
       for (Index k = 0; k < 3; ++k) {
         const Index v = structure_.faces[t.face].vertex[k];
@@ -877,8 +775,7 @@ class WindowEngine final : public Engine {
   std::vector<Window> taken_;
   std::vector<Window> on_edge_;  // of those, with their source on the edge
   std::vector<KeptWindow> kept_;
-  std::vector<TargetInFace> targets_in_faces_;  // by face
-  std::vector<TargetState> targets_;
+  Targets targets_;
   std::vector<Index> chain_;
   MergeBudget budget_;
   const Problem* problem_ = nullptr;

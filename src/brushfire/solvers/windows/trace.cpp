@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -85,7 +86,8 @@ class Tracer {
     // the right sheet over a non-manifold edge from the others within a few faces.
     const double left = value_ - so_far + kAgreement * value_;
     if (is_above(mesh_.from(h), left + x) || is_above(mesh_.to(h), left + length - x)) return false;
-    if (so_far - at.length <= kSamePlace * value_ && has_passed(h, so_far)) return false;
+    const bool may_come_again = so_far - at.length <= kSamePlace * value_ || branched_;
+    if (may_come_again && has_passed(h, x, at.source, so_far)) return false;
     SurfacePoint crossing{Mesh::face_of(h), {0, 0, 0}};
     crossing.weights[next3(h % 3)] = x / length;
     crossing.weights[h % 3] = 1 - x / length;
@@ -95,6 +97,7 @@ class Tracer {
     // A root on the edge itself is kept there: faces without area beyond need to know.
     const double above = root_is_here ? 0 : -at.source.y;
     const auto opposite = mesh_.opposite();
+    branched_ = branched_ || opposite[opposite[h]] != h;
     for (Index g = opposite[h]; g != h; g = opposite[g]) {
       const bool turned = mesh_.from(g) == mesh_.to(h);
       Position next{g, {turned ? length - at.source.x : at.source.x, above}, {turned ? length - x : x, 0}, so_far};
@@ -108,12 +111,16 @@ class Tracer {
     return false;
   }
 
-  // Through faces without area a ray may come round to where it was without any progress.
-  bool has_passed(Index h, double so_far) {
-    const bool passed = std::any_of(passed_.begin(), passed_.end(), [&](const auto& p) {
-      return p.first == h && std::abs(p.second - so_far) <= kSamePlace * value_;
+  // Through faces without area a ray may come round to where it was without any progress; over edges of many faces it
+  // comes to the same place on many ways, twice as many at each such edge.
+  bool has_passed(Index h, double x, Vec2 source, double so_far) {
+    const auto same = [&](double a, double b) { return std::abs(a - b) <= kSamePlace * value_; };
+    const auto [begin, end] = passed_.equal_range(h);
+    const bool passed = std::any_of(begin, end, [&](const auto& p) {
+      return same(p.second.so_far, so_far) && same(p.second.x, x) && same(p.second.source.x, source.x) &&
+             same(p.second.source.y, source.y);
     });
-    if (!passed) passed_.push_back({h, so_far});
+    if (!passed) passed_.insert({h, {x, source, so_far}});
     return passed;
   }
 
@@ -194,8 +201,14 @@ class Tracer {
     Position position;
     std::size_t points;
   };
-  std::vector<std::pair<Index, double>> passed_;  // halfedges crossed without progress, and where on the ray
-  std::vector<Open> open_;                        // sheets of non-manifold edges that are still to be tried
+  struct Crossed {
+    double x;
+    Vec2 source;
+    double so_far;
+  };
+  std::unordered_multimap<Index, Crossed> passed_;  // by halfedge: where a ray may come again
+  bool branched_ = false;                           // over an edge of many faces
+  std::vector<Open> open_;                          // sheets of non-manifold edges that are still to be tried
 };
 
 // Straight to a corner of the face or to a source in it, if the value says that this may be; else no points.

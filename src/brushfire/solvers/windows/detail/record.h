@@ -6,6 +6,7 @@
 #include <brushfire/solvers/windows/detail/face.h>
 #include <brushfire/solvers/windows/detail/window.h>
 
+#include <span>
 #include <vector>
 
 namespace brushfire::detail {
@@ -41,6 +42,9 @@ struct WindowFieldData {
   std::vector<PointRecord> target;      // [targets]
   std::vector<std::size_t> first_kept;  // [halfedge_count + 1] where all_points
   std::vector<Window> kept;             // by halfedge
+
+  // Sets the last two.
+  void keep(std::span<const KeptWindow> windows);
 };
 
 // A point of a face in the frame of the face's halfedge k; weights by corner.

@@ -1,0 +1,28 @@
+// What a run knows of a vertex, in three arrays: apart, so that the hot one stays small.
+#pragma once
+
+#include <brushfire/solvers/windows/detail/fan.h>
+
+namespace brushfire::detail {
+
+// What every window that passes a vertex reads.
+struct VertexValues {
+  double upper = kInfinity;     // length of the shortest real path known
+  double lower = kInfinity;     // least value of the windows that see the vertex, after merging
+  double estimate = kInfinity;  // the least distance that a window expected that saw it, before merging
+};
+
+// What a vertex where paths may bend needs to send light on.
+struct VertexLight {
+  CrossedAt from;           // where its least value came from
+  bool all_around = false;  // sends light in all directions, whatever its faces are like
+  bool waiting = false;     // its value has fallen since it last sent light
+};
+
+// Where light comes from in the end; for runs with several sources.
+struct Origins {
+  Index root = kNoIndex;  // see Ray
+  Index label = kNoIndex;
+};
+
+}  // namespace brushfire::detail
