@@ -40,6 +40,23 @@ TEST(ThreadTeam, WhatALoopWroteIsVisibleToTheNext) {
   EXPECT_EQ(sum, 200u * (256u * 257u / 2));
 }
 
+TEST(ThreadTeam, LoopsInQuickSuccessionMissNoIndexWhetherThreadsSleepOrYieldInBetween) {
+  for (const auto idle : {ThreadTeam::Idle::Sleeps, ThreadTeam::Idle::Yields}) {
+    ThreadTeam team(5, idle);
+    std::vector<std::uint64_t> sums(16, 0);
+    constexpr std::uint64_t kLoops = 3000;
+    for (std::uint64_t loop = 0; loop < kLoops; ++loop) {
+      const std::size_t count = loop % (sums.size() + 1);
+      team.run(count, [&](unsigned, std::size_t i) { sums[i] += loop; });
+    }
+    std::vector<std::uint64_t> expected(sums.size(), 0);
+    for (std::uint64_t loop = 0; loop < kLoops; ++loop) {
+      for (std::size_t i = 0; i < loop % (sums.size() + 1); ++i) expected[i] += loop;
+    }
+    EXPECT_EQ(sums, expected);
+  }
+}
+
 TEST(ThreadTeam, ThrowsTheExceptionOfTheLowestIndexAndCanBeUsedAgain) {
   ThreadTeam team(4);
   for (int round = 0; round < 50; ++round) {

@@ -1,4 +1,4 @@
-// The thread team: a generation counter says that there is a new loop, a count of the busy says that it is over.
+// The thread team: one word says which loop it is, whether it can still be joined, and how many have.
 #include <brushfire/core/parallel.h>
 
 #include <brushfire/core/error.h>
@@ -15,6 +15,7 @@
 #define BRUSHFIRE_HAS_THREADS 0
 #else
 #define BRUSHFIRE_HAS_THREADS 1
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <system_error>
@@ -71,30 +72,112 @@ void finish(const Loop& loop, const Failure& failure) {
 
 #if BRUSHFIRE_HAS_THREADS
 
+namespace {
+
+// What all threads of a team agree on, in one word: the number of the loop, whether it can be joined, and how many
+// helpers have joined it and not left yet.
+class LoopWord {
+ public:
+  static constexpr std::uint64_t kOpen = 1, kHelper = 2, kLoop = std::uint64_t{1} << 24;
+
+  // For the caller. No helper is in a loop when the next one is opened.
+  void open() { word_.store((word_.load(std::memory_order_relaxed) | (kLoop - 1)) + 1 + kOpen); }
+  void close() { word_.fetch_and(~kOpen); }
+  bool busy() const { return (word_.load() & (kLoop - 1)) >= kHelper; }
+
+  // For helpers. `seen`: the last loop that this one took part in or came too late for.
+  bool is_news(std::uint64_t seen) const { return word_.load() / kLoop != seen; }
+  bool join(std::uint64_t& seen) {
+    std::uint64_t now = word_.load();
+    while (now / kLoop != seen && (now & kOpen) != 0) {
+      if (word_.compare_exchange_weak(now, now + kHelper)) {
+        seen = now / kLoop;
+        return true;
+      }
+    }
+    seen = now / kLoop;
+    return false;
+  }
+  // True for the last one to leave a closed loop.
+  bool leave() { return ((word_.fetch_sub(kHelper) - kHelper) & (kLoop - 1)) == 0; }
+
+ private:
+  std::atomic<std::uint64_t> word_{0};
+};
+
+// Looks for a tenth of a millisecond whether `done`, and lets other threads run in between.
+template <class Done>
+bool comes_soon(const Done& done) {
+  constexpr int kLooks = 256;  // between two glances at the clock
+  constexpr std::chrono::microseconds kPatience{100};
+  const auto begin = std::chrono::steady_clock::now();
+  do {
+    for (int i = 0; i < kLooks; ++i) {
+      if (done()) return true;
+      if (i % 16 == 15) std::this_thread::yield();
+    }
+  } while (std::chrono::steady_clock::now() - begin < kPatience);
+  return false;
+}
+
+}  // namespace
+
 struct ThreadTeam::State {
+  explicit State(Idle idle) : yields(idle == Idle::Yields) {}
+
+  LoopWord word;
+  Loop* loop = nullptr;  // valid for those who have joined
+  std::atomic<bool> quit{false};
+  const bool yields;
+
   std::mutex mutex;
   std::condition_variable wake, done;
-  std::uint64_t generation = 0;  // of the loop that runs or ran last
-  std::size_t busy = 0;          // helpers that have not finished it
-  bool quit = false;
-  Loop* loop = nullptr;
-  Failure failure;
+  std::atomic<std::size_t> sleepers{0};  // on `wake`
+  std::atomic<bool> caller_sleeps{false};
+  Failure failure;  // with the mutex
   std::vector<std::thread> helpers;
 
   void help(unsigned worker) {
     std::uint64_t seen = 0;
-    std::unique_lock lock(mutex);
-    while (true) {
-      wake.wait(lock, [&] { return quit || generation != seen; });
-      if (quit) return;
-      seen = generation;
-      Loop& current = *loop;
-      lock.unlock();
-      Failure mine = work(current, worker);
-      lock.lock();
-      keep_first(failure, std::move(mine));
-      if (--busy == 0) done.notify_one();
+    while (wait_for_loop(seen)) {
+      if (!word.join(seen)) continue;
+      Failure mine = work(*loop, worker);
+      if (mine.exception) {
+        const std::lock_guard lock(mutex);
+        keep_first(failure, std::move(mine));
+      }
+      if (word.leave() && caller_sleeps.load()) {
+        const std::lock_guard lock(mutex);
+        done.notify_one();
+      }
     }
+  }
+
+  // False when the team is dissolved.
+  bool wait_for_loop(std::uint64_t seen) {
+    const auto called = [&] { return quit.load() || word.is_news(seen); };
+    if (!(yields && comes_soon(called))) {
+      std::unique_lock lock(mutex);
+      ++sleepers;  // before the last look: who opens a loop looks for sleepers afterwards
+      wake.wait(lock, called);
+      --sleepers;
+    }
+    return !quit.load();
+  }
+
+  void call() {
+    if (sleepers.load() == 0) return;
+    const std::lock_guard lock(mutex);
+    wake.notify_all();
+  }
+
+  void wait_for_helpers() {
+    const auto over = [&] { return !word.busy(); };
+    if (over() || (yields && comes_soon(over))) return;
+    std::unique_lock lock(mutex);
+    caller_sleeps.store(true);
+    done.wait(lock, over);
+    caller_sleeps.store(false);
   }
 };
 
@@ -102,7 +185,7 @@ unsigned thread_count(unsigned requested) noexcept {
   return std::max(1u, requested == 0 ? std::thread::hardware_concurrency() : requested);
 }
 
-ThreadTeam::ThreadTeam(unsigned threads) : state_(std::make_unique<State>()) {
+ThreadTeam::ThreadTeam(unsigned threads, Idle idle) : state_(std::make_unique<State>(idle)) {
   State& s = *state_;
   try {
     for (unsigned worker = 1; worker < thread_count(threads); ++worker) {
@@ -114,11 +197,8 @@ ThreadTeam::ThreadTeam(unsigned threads) : state_(std::make_unique<State>()) {
 }
 
 ThreadTeam::~ThreadTeam() {
-  {
-    const std::lock_guard lock(state_->mutex);
-    state_->quit = true;
-  }
-  state_->wake.notify_all();
+  state_->quit.store(true);
+  state_->call();
   for (std::thread& t : state_->helpers) t.join();
 }
 
@@ -127,19 +207,19 @@ unsigned ThreadTeam::size() const noexcept { return static_cast<unsigned>(state_
 void ThreadTeam::run(std::size_t count, const Body& body, const CancelToken* cancel) {
   Loop loop{count, &body, cancel};
   State& s = *state_;
-  {
-    const std::lock_guard lock(s.mutex);
+  const bool together = count > 1 && !s.helpers.empty();
+  if (together) {
     s.loop = &loop;
-    s.failure = {};
-    s.busy = s.helpers.size();
-    ++s.generation;
+    s.word.open();
+    s.call();
   }
-  s.wake.notify_all();
   Failure failure = work(loop, 0);
-  std::unique_lock lock(s.mutex);
-  s.done.wait(lock, [&] { return s.busy == 0; });
-  keep_first(failure, std::move(s.failure));
-  lock.unlock();
+  if (together) {
+    s.word.close();
+    s.wait_for_helpers();
+    const std::lock_guard lock(s.mutex);
+    keep_first(failure, std::exchange(s.failure, {}));
+  }
   finish(loop, failure);
 }
 
@@ -148,7 +228,7 @@ void ThreadTeam::run(std::size_t count, const Body& body, const CancelToken* can
 struct ThreadTeam::State {};
 
 unsigned thread_count(unsigned) noexcept { return 1; }
-ThreadTeam::ThreadTeam(unsigned) {}
+ThreadTeam::ThreadTeam(unsigned, Idle) {}
 ThreadTeam::~ThreadTeam() = default;
 unsigned ThreadTeam::size() const noexcept { return 1; }
 

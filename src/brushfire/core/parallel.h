@@ -4,6 +4,7 @@
 #include <brushfire/core/progress.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -12,14 +13,17 @@ namespace brushfire {
 // The threads that a caller's number means: 0 is one per processor; at least 1, and 1 where there are no threads.
 unsigned thread_count(unsigned requested) noexcept;
 
-// A fixed number of threads, the calling one among them, for one loop after the other. Between loops the others block;
-// nobody spins. Where the platform has no threads (WebAssembly without them) everything runs in the caller.
+// A fixed number of threads, the calling one among them, for one loop after the other. Where the platform has no
+// threads (WebAssembly without them) everything runs in the caller.
 class ThreadTeam {
  public:
   // worker < size() numbers the thread, index the piece of work.
   using Body = std::function<void(unsigned worker, std::size_t index)>;
+  // What threads do that have nothing to do. Sleeps: they block. Yields: for the first tenth of a millisecond they look
+  // for the next loop again and again and let others run in between, for loops of microseconds in quick succession.
+  enum class Idle : std::uint8_t { Sleeps, Yields };
 
-  explicit ThreadTeam(unsigned threads);
+  explicit ThreadTeam(unsigned threads, Idle idle = Idle::Sleeps);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
@@ -28,7 +32,8 @@ class ThreadTeam {
 
   // Calls body once for every index in [0, count), and returns when all are done. The indices are given out one by
   // one, ascending; who gets which is left to chance, so whatever body computes must depend on the index alone, and
-  // the result is then the same for any number of threads. The caller is worker 0 and works too.
+  // the result is then the same for any number of threads. The caller is worker 0 and works too; threads that have not
+  // come by the time all indices are given out are not waited for.
   //
   // When a body throws, or `cancel` is set, no further index is given out; once the running ones are done the exception
   // of the lowest index is thrown, or else Error(Cancelled). Everything written in a body is visible afterwards.

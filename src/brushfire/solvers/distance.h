@@ -57,6 +57,7 @@ struct DistanceOptions {
   std::vector<SurfacePoint> targets;       // where there are any, the solver may stop once all of them are final
   bool keep_paths = false;                 // fill DistanceField::windows, for paths to vertices and targets (exact)
   bool keep_windows = false;               // the same for every surface point: all windows are kept, some kB a vertex
+  unsigned threads = 1;                    // for this one field; 0: one per processor. The result does not depend on it
   Progress progress;                       // called now and then; may be empty
   const CancelToken* cancel = nullptr;     // polled now and then; may be null
 };
