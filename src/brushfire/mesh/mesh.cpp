@@ -5,6 +5,7 @@
 #include <brushfire/core/planar.h>
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
+#include <brushfire/mesh/detail/face_geometry.h>
 #include <brushfire/mesh/detail/report.h>
 
 #include <algorithm>
@@ -47,6 +48,12 @@ class Lazy {
 
 namespace {
 
+using detail::double_area_of;
+using detail::edges_of;
+using detail::length_of;
+using detail::lengths_of;
+using detail::scaled_difference;
+
 struct Geometry {
   UninitializedArray<double> lengths;       // [halfedge_count]
   UninitializedArray<double> double_areas;  // [face_count]
@@ -73,38 +80,6 @@ constexpr double kLargestUnit = 0x1p1000;
 // 2^k with 2^k <= x < 2^(k+1), within the bounds of units; 1 for 0.
 double power_of_two_below(double x) {
   return x > 0 ? std::clamp(std::ldexp(1.0, std::ilogb(x)), kSmallestUnit, kLargestUnit) : 1.0;
-}
-
-// The length of a vector whose squares may vanish.
-double length_of(Vec3 e) {
-  const double squared = dot(e, e);
-  if (squared > 0x1p-900) return std::sqrt(squared);
-  constexpr double kUp = 0x1p500;
-  return norm(kUp * e) / kUp;
-}
-
-// Twice the area from the two shorter edges: rounding of a cross product grows with the product of the lengths.
-double double_area_of(const std::array<Vec3, 3>& edge, const double* length) {
-  std::size_t longest = length[1] > length[0] ? 1 : 0;
-  longest = length[2] > length[longest] ? 2 : longest;
-  return length_of(cross(edge[(longest + 1) % 3], edge[(longest + 2) % 3]));
-}
-
-// scale * (b - a). Rounding of a difference is symmetric, so both sides of an edge get the same length to the bit.
-Vec3 scaled_difference(Vec3 a, Vec3 b, double scale) {
-  const Vec3 e = b - a;
-  if (std::isfinite(e.x) && std::isfinite(e.y) && std::isfinite(e.z)) return scale * e;
-  return (2 * scale) * (0.5 * b - 0.5 * a);  // coordinates near the largest double on both sides of zero
-}
-
-// The edges of a face, scaled.
-std::array<Vec3, 3> edges_of(std::span<const Vec3> positions, const Face& t, double scale) {
-  const Vec3 a = positions[t[0]], b = positions[t[1]], c = positions[t[2]];
-  return {scaled_difference(a, b, scale), scaled_difference(b, c, scale), scaled_difference(c, a, scale)};
-}
-
-std::array<double, 3> lengths_of(const std::array<Vec3, 3>& edge) {
-  return {length_of(edge[0]), length_of(edge[1]), length_of(edge[2])};
 }
 
 // The mean length of the edges of every `stride`-th face, and the greatest coordinate there. Measured in units of that,
@@ -152,8 +127,8 @@ Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<cons
   g.double_areas.resize(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const std::array<Vec3, 3> edge = edges_of(positions, faces[f], 1 / unit);
-    double* const length = &g.lengths[3 * f];
-    for (std::size_t k = 0; k < 3; ++k) length[k] = length_of(edge[k]);
+    const std::array<double, 3> length = lengths_of(edge);
+    std::copy(length.begin(), length.end(), &g.lengths[3 * f]);
     g.double_areas[f] = double_area_of(edge, length);
   }
   return g;
@@ -428,10 +403,8 @@ Mesh::FaceGeometry Mesh::face_geometry(Index f) const {
     return {{g.lengths[3 * f], g.lengths[3 * f + 1], g.lengths[3 * f + 2]}, g.double_areas[f]};
   }
   const std::array<Vec3, 3> edge = edges_of(d.arrays->positions, d.arrays->faces[f], 1 / d.get_unit());
-  FaceGeometry g;
-  for (std::size_t k = 0; k < 3; ++k) g.lengths[k] = length_of(edge[k]);
-  g.double_area = double_area_of(edge, g.lengths.data());
-  return g;
+  const std::array<double, 3> lengths = lengths_of(edge);
+  return {lengths, double_area_of(edge, lengths)};
 }
 
 Index Mesh::neighbour(Index h) const {

@@ -6,6 +6,7 @@
 #include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -30,18 +31,20 @@ inline float front_bend(const Patch& own, const Patch& around) {
   return around.area > 0 ? kStep * around.deficit / around.area * std::sqrt(own.area) : 0;
 }
 
-// atan2(y, x) for y >= 0 to 2e-8 and rounding, without branches; 0 for (0, 0).
+// Of the arc tangent, by odd powers from the highest on.
 // Based on: Abramowitz, Stegun (1964), Handbook of Mathematical Functions, 4.4.49.
+inline constexpr std::array kAngleSeries{0.0028662257,  -0.0161657367, 0.0429096138,
+                                         -0.0752896400, 0.1065626393,  -0.1420889944,
+                                         0.1999355085,  -0.3333314528, 1.0};
+
+// atan2(y, x) for y >= 0 to 2e-8 and rounding, without branches; 0 for (0, 0).
 template <class T>
 BRUSHFIRE_INLINE T quick_angle(T x, T y) {
   const T ax = std::abs(x);
   const T larger = ax > y ? ax : y, smaller = ax > y ? y : ax;
   const T t = smaller / (larger > 0 ? larger : 1), u = t * t;
-  T p = T(0.0028662257);
-  for (const double c :
-       {-0.0161657367, 0.0429096138, -0.0752896400, 0.1065626393, -0.1420889944, 0.1999355085, -0.3333314528, 1.0}) {
-    p = p * u + static_cast<T>(c);
-  }
+  T p = static_cast<T>(kAngleSeries.front());
+  for (std::size_t i = 1; i < kAngleSeries.size(); ++i) p = p * u + static_cast<T>(kAngleSeries[i]);
   const T octant = p * t;
   const T quadrant = y > ax ? T(0.5 * kPi) - octant : octant;
   return x < 0 ? T(kPi) - quadrant : quadrant;

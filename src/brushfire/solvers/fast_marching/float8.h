@@ -29,6 +29,16 @@ struct Float8 {
   BRUSHFIRE_AVX2_INLINE friend Float8 operator|(Float8 a, Float8 b) { return {_mm256_or_ps(a.v, b.v)}; }
 };
 
+// Eight numbers of type T.
+template <class T>
+struct LanesOf;
+template <>
+struct LanesOf<float> {
+  using Type = Float8;
+};
+template <class T>
+using Lanes = typename LanesOf<T>::Type;
+
 BRUSHFIRE_AVX2_INLINE Float8 all(float x) { return {_mm256_set1_ps(x)}; }
 BRUSHFIRE_AVX2_INLINE Float8 load(const float* from) { return {_mm256_load_ps(from)}; }
 BRUSHFIRE_AVX2_INLINE void store(float* to, Float8 a) { _mm256_store_ps(to, a.v); }
@@ -41,8 +51,29 @@ BRUSHFIRE_AVX2_INLINE Float8 select(Float8 mask, Float8 yes, Float8 no) {
 }
 BRUSHFIRE_AVX2_INLINE std::uint32_t bits(Float8 mask) { return static_cast<std::uint32_t>(_mm256_movemask_ps(mask.v)); }
 
+BRUSHFIRE_AVX2_INLINE Float8 magnitude(Float8 a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
+
 // Lane k of the result: lane index[k] % 8 of a.
 BRUSHFIRE_AVX2_INLINE Float8 permuted(Float8 a, __m256i index) { return {_mm256_permutevar8x32_ps(a.v, index)}; }
+// What permuted() wants for an index; the first argument tells for which numbers.
+BRUSHFIRE_AVX2_INLINE __m256i index_for(Float8, __m256i index) { return index; }
+// A mask of integers as one of such numbers.
+BRUSHFIRE_AVX2_INLINE Float8 wide_mask(Float8, __m256i mask) { return {_mm256_castsi256_ps(mask)}; }
+
+BRUSHFIRE_AVX2_INLINE __m256 rounded(__m256d low, __m256d high) {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(low)), _mm256_cvtpd_ps(high), 1);
+}
+// The columns of eight rows x y z *, rounded.
+BRUSHFIRE_AVX2_INLINE void transpose(const __m256d* row, Float8& x, Float8& y, Float8& z) {
+  const __m256 r0 = rounded(row[0], row[4]), r1 = rounded(row[1], row[5]);
+  const __m256 r2 = rounded(row[2], row[6]), r3 = rounded(row[3], row[7]);
+  const __m256 xy01 = _mm256_unpacklo_ps(r0, r1), xy23 = _mm256_unpacklo_ps(r2, r3);
+  const __m256 z01 = _mm256_unpackhi_ps(r0, r1), z23 = _mm256_unpackhi_ps(r2, r3);
+  x.v = _mm256_shuffle_ps(xy01, xy23, 0x44);
+  y.v = _mm256_shuffle_ps(xy01, xy23, 0xee);
+  z.v = _mm256_shuffle_ps(z01, z23, 0x44);
+}
+
 // All bits where bit `bit` of the lane is set.
 BRUSHFIRE_AVX2_INLINE Float8 mask_of_bit(__m256i a, int bit) {
   return {_mm256_castsi256_ps(_mm256_srai_epi32(_mm256_slli_epi32(a, 31 - bit), 31))};

@@ -4,7 +4,6 @@
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -65,15 +64,11 @@ class LaneWriter {
     if (!there) add_edge(c.b, c.length_b);
   }
 
-  // The block at hand, for a caller that fills it. Its first `count` sides are used; second[k] is the second side of
-  // triangle k, back[k] the triangle whose second side is k.
-  RingBlock<T>& block() { return blocks_[done_]; }
-  BRUSHFIRE_INLINE void filled(Index count, const Index* second, const Index* back) {
+  // A whole block of which so many sides are used; no other one has been begun.
+  BRUSHFIRE_INLINE void add_block(const RingBlock<T>& block, const LaneLinks& links, Index count) {
+    blocks_[done_] = block;
+    links_[done_] = links;
     count_ = filled_ = count;
-    for (Index k = 0; k < kLanes; ++k) {
-      second_[k] = static_cast<std::uint8_t>(second[k]);
-      links_[done_].links[k] = static_cast<std::uint8_t>(second[k] | back[k] << 4);
-    }
   }
 
   // Completes the block that has been begun; the next one follows it.
@@ -97,12 +92,14 @@ class LaneWriter {
  private:
   void complete() {
     while (count_ < kLanes) add_edge(none_, kInfinity);
+    LaneLinks& lanes = links_[done_];
     std::uint8_t back[kLanes];
     for (Index k = 0; k < kLanes; ++k) back[k] = static_cast<std::uint8_t>(k);
-    for (Index k = kLanes; k-- > 0;) back[second_[k]] = static_cast<std::uint8_t>(second_[k] != k ? k : back[k]);
-    for (Index k = 0; k < kLanes; ++k) {
-      links_[done_].links[k] = static_cast<std::uint8_t>(second_[k] | back[k] << 4);
+    for (Index k = kLanes; k-- > 0;) {
+      const Index second = lanes.second(k);
+      back[second] = static_cast<std::uint8_t>(second != k ? k : back[k]);
     }
+    for (Index k = 0; k < kLanes; ++k) lanes.links[k] = static_cast<std::uint8_t>(lanes.second(k) | back[k] << 4);
   }
 
   static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -122,7 +119,7 @@ class LaneWriter {
     block.length[count_] = static_cast<T>(c.length_a);
     block.dot[count_] = static_cast<T>(c.dot);
     block.cross[count_] = static_cast<T>(c.cross);
-    second_[count_++] = static_cast<std::uint8_t>(second);
+    links_[done_].links[count_++] = static_cast<std::uint8_t>(second);
   }
 
   void grow(std::size_t size) {
@@ -134,7 +131,6 @@ class LaneWriter {
   UninitializedArray<LaneLinks> links_;
   Index none_, done_ = 0;         // blocks that are complete
   Index count_ = 0, filled_ = 0;  // sides of the one at hand, and how many of them came by filled()
-  std::array<std::uint8_t, kLanes> second_{};
 };
 
 }  // namespace brushfire::detail

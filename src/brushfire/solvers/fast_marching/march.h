@@ -4,6 +4,7 @@
 #include <brushfire/core/bucket_queue.h>
 #include <brushfire/core/types.h>
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
+#include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <cstdint>
 #include <functional>
@@ -54,8 +55,6 @@ inline constexpr std::size_t kSlice = 8192;
 template <class T>
 using MarchSlice = std::size_t (*)(const Rings<T>&, MarchState<T>&, std::size_t begin);
 
-// The variant for this processor, or the one that runs on all of them: the same bits.
-enum class Variant : std::uint8_t { Best, Portable };
 template <class T>
 MarchSlice<T> march_slice(FrontModel model, bool labelled, Variant variant = Variant::Best);
 

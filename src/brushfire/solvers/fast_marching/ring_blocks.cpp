@@ -5,6 +5,8 @@
 #include <brushfire/core/planar.h>
 #include <brushfire/solvers/fast_marching/bend.h>
 #include <brushfire/solvers/fast_marching/lane_writer.h>
+#include <brushfire/solvers/fast_marching/obtuse_corners.h>
+#include <brushfire/solvers/fast_marching/plain_fan.h>
 #include <brushfire/solvers/fast_marching/unfold.h>
 #include <brushfire/solvers/fast_marching/vector_target.h>
 
@@ -16,58 +18,20 @@
 namespace brushfire::detail {
 namespace {
 
-// The corners of an inner vertex of few faces that all lie the same way round: corner k lies between the ends a[k] and
-// b[k] of its sides; b[k] is a[second[k]], and a[k] is b[back[k]].
-struct PlainFan {
-  alignas(32) Index a[kLanes];
-  alignas(32) Index b[kLanes];
-  alignas(32) Index second[kLanes];
-  alignas(32) Index back[kLanes];
-  Index count = 0;
-};
-
-// The sides of a fan as vectors.
-template <class T>
-struct Sides {
-  alignas(64) T x[kLanes], y[kLanes], z[kLanes];
-};
-
-// By lane: lengths, products, angles at the vertex.
-template <class T>
-struct FanGeometry {
-  alignas(64) T length[kLanes], dot[kLanes], cross[kLanes], angle[kLanes];
-};
-
-// The halfedges of the obtuse corners of all faces.
-BRUSHFIRE_INLINE std::size_t find_obtuse(std::span<const Vec3> positions, std::span<const Face> faces, double scale,
-                                         UninitializedArray<Index>& obtuse) {
-  std::size_t count = 0;
-  for (Index f = 0; f < faces.size(); ++f) {
-    const Face& t = faces[f];
-    const Vec3 a = positions[t[0]], b = positions[t[1]], c = positions[t[2]];
-    const Vec3 ab = scale * (b - a), bc = scale * (c - b), ca = scale * (a - c);
-    const Index h = obtuse_corner({dot(ab, ab), dot(bc, bc), dot(ca, ca)}, f);
-    obtuse[count] = h;  // written always, kept where wanted: there is no telling which faces are
-    count += h != kNoIndex;
-  }
-  return count;
-}
-
-// The corners of a face that follow each of its corners.
-constexpr std::array<std::array<std::uint8_t, 2>, 3> kOthers{{{1, 2}, {2, 0}, {0, 1}}};
-
 template <class T>
 class RingBuilder {
  public:
-  explicit RingBuilder(const Mesh& mesh)
+  RingBuilder(const Mesh& mesh, Variant variant)
       : mesh_(mesh),
+        variant_(variant),
         faces_(mesh.faces()),
-        positions_(mesh.positions()),
-        corner_offsets_(mesh.corner_offsets()),
-        corners_(mesh.all_corners()),
-        scale_(1 / mesh.unit()),
-        may_be_plain_(mesh.has_positions() && !mesh.has_slits()),
-        none_(mesh.vertex_count()) {}
+        fans_{mesh.positions(),
+              mesh.faces(),
+              mesh.corner_offsets(),
+              mesh.all_corners(),
+              1 / mesh.unit(),
+              mesh.vertex_count(),
+              mesh.has_positions() && !mesh.has_slits()} {}
 
   Rings<T> build() {
     unfold_obtuse_corners();
@@ -79,9 +43,12 @@ class RingBuilder {
 
  private:
   void unfold_obtuse_corners() {
-    for (const Index h : obtuse_corners()) {
+    const Unfolder unfolder(mesh_);
+    const UninitializedArray<Index> obtuse = obtuse_corners();
+    unfolded_.reserve(2 * obtuse.size());  // most are split by one vertex; what is not written costs nothing
+    for (const Index h : obtuse) {
       if (!mesh_.is_face_usable(Mesh::face_of(h))) continue;
-      const Unfolding result = unfold_obtuse_corner(mesh_, h, unfolded_);
+      const Unfolding result = unfolder.unfold(h, unfolded_);
       rings_.layout.longest_unfolding = std::max(rings_.layout.longest_unfolding, result.crossed);
       if (!result.split) unsplit_.push_back(h);
     }
@@ -98,7 +65,12 @@ class RingBuilder {
     UninitializedArray<Index> obtuse(mesh_.face_count() + std::size_t{1});
     std::size_t count = 0;
     if (mesh_.has_positions()) {
-      count = find_obtuse(positions_, faces_, scale_, obtuse);
+#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
+      count = in_registers() ? find_obtuse4(fans_.positions, faces_, fans_.scale, obtuse.data())
+                             : find_obtuse(fans_.positions, faces_, fans_.scale, 0, obtuse.data());
+#else
+      count = find_obtuse(fans_.positions, faces_, fans_.scale, 0, obtuse.data());
+#endif
     } else {
       for (Index f = 0; f < mesh_.face_count(); ++f) {
         const auto [a, b, c] = mesh_.face_geometry(f).lengths;
@@ -115,11 +87,15 @@ class RingBuilder {
     rings_.layout.block_offset.resize(count + 1);
     patches_.resize(count);
     plain_sides_.resize(count);
-    LaneWriter<T> lanes(none_, count + count / 2);  // what is not written costs nothing
+    LaneWriter<T> lanes(fans_.none, count + count / 2);  // what is not written costs nothing
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-    __builtin_cpu_supports("avx2") ? fill_avx2(lanes) : fill_all(lanes);
+    if (in_registers()) {
+      fill<FanInRegisters<T>>(lanes);
+    } else {
+      fill<FanInLoops<T>>(lanes);
+    }
 #else
-    fill_all(lanes);
+    fill<FanInLoops<T>>(lanes);
 #endif
     rings_.layout.block_offset[count] = lanes.blocks_done();
     lanes.take(rings_.blocks, rings_.layout.links);
@@ -127,123 +103,37 @@ class RingBuilder {
   }
 
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-  [[gnu::target("avx2,bmi,lzcnt")]] void fill_avx2(LaneWriter<T>& lanes) { fill_all(lanes); }
+  bool in_registers() const { return variant_ == Variant::Best && __builtin_cpu_supports("avx2"); }
 #endif
 
-  BRUSHFIRE_INLINE void fill_all(LaneWriter<T>& lanes) {
-    for (Index v = 0; v < none_; ++v) {
-      rings_.layout.block_offset[v] = lanes.blocks_done();
-      if (!fill_plain(v, lanes)) fill_any(v, lanes);
-      for (Index e = first_of_[v]; e != kNoIndex; e = next_of_[e]) lanes.add_unfolded(unfolded_corner(e));
-      lanes.finish();
+  template <class Fan>
+  void fill(LaneWriter<T>& lanes) {
+    PlainFans<T> fans;
+    for (Index first = 0; first < fans_.none; first += kFans) {
+      const Index count = std::min(kFans, fans_.none - first);
+      Fan::fill(fans_, first, count, fans);
+      for (Index i = 0; i < count; ++i) {
+        const Index v = first + i;
+        rings_.layout.block_offset[v] = lanes.blocks_done();
+        if (fans.plain[i]) {
+          lanes.add_block(fans.block[i], fans.links[i], faces_at(v));
+          note_plain(v, fans.angle[i], fans.area[i], fans.length[i]);
+        } else {
+          fill_any(v, lanes);
+        }
+        for (Index e = first_of_[v]; e != kNoIndex; e = next_of_[e]) lanes.add_unfolded(unfolded_corner(e));
+        lanes.finish();
+      }
     }
   }
 
-  // The common case, all lanes at once. False where this vertex is none.
-  BRUSHFIRE_INLINE bool fill_plain(Index v, LaneWriter<T>& lanes) {
-    PlainFan fan;
-    if (!find_plain_fan(v, fan)) return false;
-    Sides<T> sides;
-    measure_sides(v, fan, sides);
-    FanGeometry<T> geometry;
-    if (!measure_fan(sides, fan, geometry)) return false;
+  Index faces_at(Index v) const { return fans_.corner_offsets[v + 1] - fans_.corner_offsets[v]; }
 
-    constexpr T kNever = std::numeric_limits<T>::infinity(), kNone = std::numeric_limits<T>::quiet_NaN();
-    RingBlock<T>& block = lanes.block();
-    T angle = 0, area = 0, length = 0;
-    for (Index k = 0; k < kLanes; ++k) {
-      const bool used = k < fan.count;
-      block.end[k] = used ? fan.a[k] : none_;
-      block.length[k] = used ? geometry.length[k] : kNever;
-      block.dot[k] = used ? geometry.dot[k] : kNone;
-      block.cross[k] = geometry.cross[k];
-    }
-    for (Index k = 0; k < kLanes; ++k) {  // 0 in unused lanes
-      angle += geometry.angle[k];
-      area += geometry.cross[k];
-      length += geometry.length[k];
-    }
-    lanes.filled(fan.count, fan.second, fan.back);
+  void note_plain(Index v, T angle, T area, T length) {
     sum_of_lengths_ += static_cast<double>(length);
     const double deficit = 2 * kPi - static_cast<double>(angle);
     patches_[v] = {std::abs(deficit) < kFlat<T> ? 0.0f : static_cast<float>(deficit), static_cast<float>(area / 6)};
-    plain_sides_[v] = static_cast<std::uint8_t>(fan.count);
-    return true;
-  }
-
-  // False where v is not the middle of such a fan.
-  BRUSHFIRE_INLINE bool find_plain_fan(Index v, PlainFan& fan) const {
-    const Index begin = corner_offsets_[v], count = corner_offsets_[v + 1] - begin;
-    fan.count = count;
-    if (count > kLanes || count < 3 || !may_be_plain_) return false;
-    for (Index k = 0; k < kLanes; ++k) fan.a[k] = kNoIndex, fan.b[k] = kNoIndex - 1;
-    for (Index k = 0; k < count; ++k) {
-      const Index h = corners_[begin + k], f = h / 3;
-      const std::array<std::uint8_t, 2> others = kOthers[h - 3 * f];
-      fan.a[k] = faces_[f][others[0]];
-      fan.b[k] = faces_[f][others[1]];
-    }
-    // Every side is the first of one corner and the second of another one.
-    alignas(32) Index second[kLanes]{}, back[kLanes]{}, found[kLanes]{};
-    for (Index j = 0; j < kLanes; ++j) {
-      for (Index k = 0; k < kLanes; ++k) {
-        second[k] += fan.a[j] == fan.b[k] ? j : 0u;
-        found[k] += fan.a[j] == fan.b[k] ? 1u : 0u;
-        back[k] += fan.a[k] == fan.b[j] ? j : 0u;
-        found[k] += fan.a[k] == fan.b[j] ? 16u : 0u;
-      }
-    }
-    Index wrong = 0;
-    for (Index k = 0; k < kLanes; ++k) {
-      wrong |= found[k] ^ (k < count ? 17u : 0u);
-      wrong |= (fan.a[k] == v) | (fan.b[k] == v) | (fan.a[k] == fan.b[k]) ? 1u : 0u;
-    }
-    for (Index k = 0; k < kLanes; ++k) fan.second[k] = k < count ? second[k] : k;
-    for (Index k = 0; k < kLanes; ++k) fan.back[k] = k < count ? back[k] : k;
-    return wrong == 0;
-  }
-
-  // Sides of length 0 in lanes that are not used.
-  BRUSHFIRE_INLINE void measure_sides(Index v, const PlainFan& fan, Sides<T>& sides) const {
-    const Vec3 at = positions_[v];
-    for (Index k = 0; k < kLanes; ++k) {
-      const Vec3 side = scale_ * (positions_[k < fan.count ? fan.a[k] : v] - at);
-      sides.x[k] = static_cast<T>(side.x), sides.y[k] = static_cast<T>(side.y), sides.z[k] = static_cast<T>(side.z);
-    }
-  }
-
-  // False where squares may have vanished.
-  BRUSHFIRE_INLINE static bool measure_fan(const Sides<T>& e, const PlainFan& fan, FanGeometry<T>& g) {
-    Sides<T> f;
-    alignas(64) T squared[kLanes], squared_b[kLanes];
-    for (Index k = 0; k < kLanes; ++k) squared[k] = e.x[k] * e.x[k] + e.y[k] * e.y[k] + e.z[k] * e.z[k];
-    for (Index k = 0; k < kLanes; ++k) {
-      const Index b = fan.second[k];
-      f.x[k] = e.x[b], f.y[k] = e.y[b], f.z[k] = e.z[b];
-      squared_b[k] = squared[b];
-    }
-    for (Index k = 0; k < kLanes; ++k) {
-      const T gx = f.x[k] - e.x[k], gy = f.y[k] - e.y[k], gz = f.z[k] - e.z[k];
-      const T aa = squared[k], bb = squared_b[k], cc = gx * gx + gy * gy + gz * gz;
-      g.length[k] = std::sqrt(aa);
-      g.dot[k] = e.x[k] * f.x[k] + e.y[k] * f.y[k] + e.z[k] * f.z[k];
-      // Of the two shorter edges: rounding of a cross product grows with the product of the lengths.
-      const bool third_longest = (cc >= aa) & (cc >= bb), first_longest = !third_longest & (aa >= bb);
-      const T ux = first_longest ? f.x[k] : e.x[k], wx = third_longest ? f.x[k] : gx;
-      const T uy = first_longest ? f.y[k] : e.y[k], wy = third_longest ? f.y[k] : gy;
-      const T uz = first_longest ? f.z[k] : e.z[k], wz = third_longest ? f.z[k] : gz;
-      const T cx = uy * wz - uz * wy, cy = uz * wx - ux * wz, cz = ux * wy - uy * wx;
-      g.cross[k] = std::sqrt(cx * cx + cy * cy + cz * cz);
-    }
-    for (Index k = 0; k < kLanes; ++k) g.angle[k] = quick_angle(g.dot[k], g.cross[k]);
-    // Not so small that squares and fourth powers lose their digits; infinite differences are not in order either.
-    constexpr T kSmallest = std::is_same_v<T, float> ? T(0x1p-60) : T(0x1p-400);
-    Index wrong = 0;
-    for (Index k = 0; k < kLanes; ++k) {
-      const bool fine = (squared[k] >= kSmallest) & (squared[k] <= std::numeric_limits<T>::max());
-      wrong |= (k < fan.count) & !fine ? 1u : 0u;
-    }
-    return wrong == 0;
+    plain_sides_[v] = static_cast<std::uint8_t>(faces_at(v));
   }
 
   // Any vertex: boundaries, more faces than lanes, faces that are mirrored, doubled or degenerate, lengths only.
@@ -370,12 +260,9 @@ class RingBuilder {
   }
 
   const Mesh& mesh_;
+  Variant variant_;
   std::span<const Face> faces_;
-  std::span<const Vec3> positions_;
-  std::span<const Index> corner_offsets_, corners_;
-  double scale_;
-  bool may_be_plain_;
-  Index none_;  // the end of sides that are not there
+  FanMesh fans_;
   double sum_of_lengths_ = 0;
   Rings<T> rings_;
   std::vector<UnfoldedTriangle> unfolded_;
@@ -389,11 +276,11 @@ class RingBuilder {
 }  // namespace
 
 template <class T>
-Rings<T> build_rings(const Mesh& mesh) {
-  return RingBuilder<T>(mesh).build();
+Rings<T> build_rings(const Mesh& mesh, Variant variant) {
+  return RingBuilder<T>(mesh, variant).build();
 }
 
-template Rings<float> build_rings<float>(const Mesh& mesh);
-template Rings<double> build_rings<double>(const Mesh& mesh);
+template Rings<float> build_rings<float>(const Mesh& mesh, Variant variant);
+template Rings<double> build_rings<double>(const Mesh& mesh, Variant variant);
 
 }  // namespace brushfire::detail

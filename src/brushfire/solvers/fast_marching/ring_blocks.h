@@ -3,6 +3,7 @@
 
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -53,9 +54,9 @@ struct Rings {
 
 // O(vertices + faces), and what the unfolding of obtuse corners takes. The mesh should be in a local order.
 template <class T>
-Rings<T> build_rings(const Mesh& mesh);
+Rings<T> build_rings(const Mesh& mesh, Variant variant = Variant::Best);
 
-extern template Rings<float> build_rings<float>(const Mesh& mesh);
-extern template Rings<double> build_rings<double>(const Mesh& mesh);
+extern template Rings<float> build_rings<float>(const Mesh& mesh, Variant variant);
+extern template Rings<double> build_rings<double>(const Mesh& mesh, Variant variant);
 
 }  // namespace brushfire::detail

@@ -6,6 +6,7 @@
 #include <brushfire/mesh/mesh.h>
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace brushfire::detail {
@@ -18,10 +19,11 @@ struct UnfoldedTriangle {
   Vec2 at_first, at_second;
 };
 
+inline constexpr double kRightAngle = 1e-9;  // rounding of coordinates tilts right angles by less than this
+
 // The halfedge that names the obtuse corner of face f, kNoIndex where there is none (right angles, up to rounding, are
 // not obtuse). squared_length[k]: of halfedge 3f + k.
 inline Index obtuse_corner(const std::array<double, 3>& squared_length, Index f) {
-  constexpr double kRightAngle = 1e-9;  // rounding of coordinates tilts right angles by less than this
   const auto [aa, bb, cc] = squared_length;
   // Only the corner across the longest edge can be.
   const double ab = aa >= bb ? aa : bb, most = ab >= cc ? ab : cc;
@@ -35,9 +37,27 @@ struct Unfolding {
   bool split = false;  // false: it ended at a boundary, a non-manifold edge or after kMaxUnfolded faces
 };
 
-// Splits the obtuse angle at the corner of halfedge h into acute ones: unrolls faces behind the opposite edge, one by
-// one, until a vertex appears that splits it, and the same with what is left of the angle. Appends the triangles.
-Unfolding unfold_obtuse_corner(const Mesh& mesh, Index h, std::vector<UnfoldedTriangle>& triangles);
+// Unrolls faces, one corner after the other.
+class Unfolder {
+ public:
+  explicit Unfolder(const Mesh& mesh);
+
+  // Splits the obtuse angle at the corner of halfedge h into acute ones: unrolls faces behind the opposite edge, one by
+  // one, until a vertex appears that splits it, and the same with what is left of the angle. Appends the triangles.
+  Unfolding unfold(Index h, std::vector<UnfoldedTriangle>& triangles) const;
+
+ private:
+  Mesh::FaceGeometry geometry(Index f) const;
+  Index neighbour(Index h) const;  // Mesh::neighbour()
+
+  const Mesh& mesh_;
+  // What it looks up itself, where the mesh has positions and no slits.
+  bool plain_;
+  std::span<const Vec3> positions_;
+  std::span<const Face> faces_;
+  std::span<const Index> corner_offsets_, corners_;
+  double scale_;
+};
 
 inline constexpr int kMaxUnfolded = 64;
 

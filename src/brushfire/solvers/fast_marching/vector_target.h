@@ -3,6 +3,8 @@
 
 #include <brushfire/core/inline.h>
 
+#include <cstdint>
+
 // Functions marked [[gnu::target(...)]] may only call what is BRUSHFIRE_INLINE, or not vectorised, and are entered
 // after
 // __builtin_cpu_supports() has said yes. Products are not contracted: both variants give the same bits.
@@ -11,6 +13,9 @@
 #endif
 
 namespace brushfire::detail {
+
+// The variant for this processor, or the one that runs on all of them: the same bits.
+enum class Variant : std::uint8_t { Best, Portable };
 
 // Asks for the cache line at `address`, which may be anywhere.
 BRUSHFIRE_INLINE void prefetch(const void* address) {

@@ -1,0 +1,364 @@
+// The triangles around an ordinary inner vertex, eight at a time: in loops that compilers turn into vector instructions
+// as far as these go, or in registers. Both give the same bits.
+#pragma once
+
+#include <brushfire/core/planar.h>
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/fast_marching/bend.h>
+#include <brushfire/solvers/fast_marching/double8.h>
+#include <brushfire/solvers/fast_marching/float8.h>
+#include <brushfire/solvers/fast_marching/ring_blocks.h>
+#include <brushfire/solvers/fast_marching/vector_target.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace brushfire::detail {
+
+// What of a mesh it takes. Plain: with positions, and without slits.
+struct FanMesh {
+  std::span<const Vec3> positions;
+  std::span<const Face> faces;
+  std::span<const Index> corner_offsets, corners;
+  double scale = 1;  // 1 / unit
+  Index none = 0;    // the end of sides that are not there
+  bool plain = false;
+};
+
+// Vertices are taken some at a time: what one of them waits for, another one computes meanwhile.
+inline constexpr Index kFans = 16;
+
+// The fans of vertices that follow each other; what is said of a vertex that is not the middle of such a fan is void.
+template <class T>
+struct PlainFans {
+  RingBlock<T> block[kFans];
+  LaneLinks links[kFans];
+  // Of the triangles, the sums: their angles at the vertex, twice their areas, their first sides.
+  T angle[kFans], area[kFans], length[kFans];
+  bool plain[kFans];
+};
+
+// Not so small that squares and fourth powers lose their digits.
+template <class T>
+inline constexpr T kSmallestSquare = std::is_same_v<T, float> ? T(0x1p-60) : T(0x1p-400);
+
+// In loops.
+template <class T>
+class FanInLoops {
+ public:
+  // The fans of vertices first .. first + count - 1; count <= kFans.
+  BRUSHFIRE_INLINE static void fill(const FanMesh& mesh, Index first, Index count, PlainFans<T>& fans) {
+    for (Index i = 0; i < count; ++i) fans.plain[i] = fill_one(mesh, first + i, i, fans);
+  }
+
+ private:
+  BRUSHFIRE_INLINE static bool fill_one(const FanMesh& mesh, Index v, Index i, PlainFans<T>& fans) {
+    Fan fan;
+    if (!find(mesh, v, fan)) return false;
+    Sides sides;
+    measure_sides(mesh, v, fan, sides);
+    Geometry g;
+    if (!measure(sides, fan, g)) return false;
+    constexpr T kNever = std::numeric_limits<T>::infinity(), kNone = std::numeric_limits<T>::quiet_NaN();
+    RingBlock<T>& block = fans.block[i];
+    for (Index k = 0; k < kLanes; ++k) {
+      const bool used = k < fan.count;
+      block.end[k] = used ? fan.a[k] : mesh.none;
+      block.length[k] = used ? g.length[k] : kNever;
+      block.dot[k] = used ? g.dot[k] : kNone;
+      block.cross[k] = g.cross[k];
+      fans.links[i].links[k] = static_cast<std::uint8_t>(fan.second[k] | fan.back[k] << 4);
+    }
+    fans.angle[i] = fans.area[i] = fans.length[i] = 0;
+    for (Index k = 0; k < kLanes; ++k) {  // 0 in unused lanes
+      fans.angle[i] += g.angle[k];
+      fans.area[i] += g.cross[k];
+      fans.length[i] += g.length[k];
+    }
+    return true;
+  }
+
+  // Corner k lies between the ends a[k] and b[k] of its sides; b[k] is a[second[k]], and a[k] is b[back[k]].
+  struct Fan {
+    alignas(32) Index a[kLanes];
+    alignas(32) Index b[kLanes];
+    alignas(32) Index second[kLanes];
+    alignas(32) Index back[kLanes];
+    Index count = 0;
+  };
+
+  // The sides as vectors.
+  struct Sides {
+    alignas(64) T x[kLanes], y[kLanes], z[kLanes];
+  };
+
+  // By lane: lengths, products, angles at the vertex.
+  struct Geometry {
+    alignas(64) T length[kLanes], dot[kLanes], cross[kLanes], angle[kLanes];
+  };
+
+  BRUSHFIRE_INLINE static bool find(const FanMesh& mesh, Index v, Fan& fan) {
+    const Index begin = mesh.corner_offsets[v], count = mesh.corner_offsets[v + 1] - begin;
+    fan.count = count;
+    if (count > kLanes || count < 3 || !mesh.plain) return false;
+    for (Index k = 0; k < kLanes; ++k) fan.a[k] = kNoIndex, fan.b[k] = kNoIndex - 1;
+    for (Index k = 0; k < count; ++k) {
+      const Index h = mesh.corners[begin + k], f = h / 3;
+      fan.a[k] = mesh.faces[f][h - 3 * f == 2 ? 0 : h - 3 * f + 1];
+      fan.b[k] = mesh.faces[f][h - 3 * f == 0 ? 2 : h - 3 * f - 1];
+    }
+    // Every side is the first of one corner and the second of another one.
+    alignas(32) Index second[kLanes]{}, back[kLanes]{}, found[kLanes]{};
+    for (Index j = 0; j < kLanes; ++j) {
+      for (Index k = 0; k < kLanes; ++k) {
+        second[k] += fan.a[j] == fan.b[k] ? j : 0u;
+        found[k] += fan.a[j] == fan.b[k] ? 1u : 0u;
+        back[k] += fan.a[k] == fan.b[j] ? j : 0u;
+        found[k] += fan.a[k] == fan.b[j] ? 16u : 0u;
+      }
+    }
+    Index wrong = 0;
+    for (Index k = 0; k < kLanes; ++k) {
+      wrong |= found[k] ^ (k < count ? 17u : 0u);
+      wrong |= (fan.a[k] == v) | (fan.b[k] == v) | (fan.a[k] == fan.b[k]) ? 1u : 0u;
+    }
+    for (Index k = 0; k < kLanes; ++k) fan.second[k] = k < count ? second[k] : k;
+    for (Index k = 0; k < kLanes; ++k) fan.back[k] = k < count ? back[k] : k;
+    return wrong == 0;
+  }
+
+  // Of length 0 in lanes that are not used.
+  BRUSHFIRE_INLINE static void measure_sides(const FanMesh& mesh, Index v, const Fan& fan, Sides& sides) {
+    const Vec3 at = mesh.positions[v];
+    for (Index k = 0; k < kLanes; ++k) {
+      const Vec3 side = mesh.scale * (mesh.positions[k < fan.count ? fan.a[k] : v] - at);
+      sides.x[k] = static_cast<T>(side.x), sides.y[k] = static_cast<T>(side.y), sides.z[k] = static_cast<T>(side.z);
+    }
+  }
+
+  // False where squares may have vanished.
+  BRUSHFIRE_INLINE static bool measure(const Sides& e, const Fan& fan, Geometry& g) {
+    Sides f;
+    alignas(64) T squared[kLanes], squared_b[kLanes];
+    for (Index k = 0; k < kLanes; ++k) squared[k] = e.x[k] * e.x[k] + e.y[k] * e.y[k] + e.z[k] * e.z[k];
+    for (Index k = 0; k < kLanes; ++k) {
+      const Index b = fan.second[k];
+      f.x[k] = e.x[b], f.y[k] = e.y[b], f.z[k] = e.z[b];
+      squared_b[k] = squared[b];
+    }
+    for (Index k = 0; k < kLanes; ++k) {
+      const T gx = f.x[k] - e.x[k], gy = f.y[k] - e.y[k], gz = f.z[k] - e.z[k];
+      const T aa = squared[k], bb = squared_b[k], cc = gx * gx + gy * gy + gz * gz;
+      g.length[k] = std::sqrt(aa);
+      g.dot[k] = e.x[k] * f.x[k] + e.y[k] * f.y[k] + e.z[k] * f.z[k];
+      // Of the two shorter edges: rounding of a cross product grows with the product of the lengths.
+      const bool third_longest = (cc >= aa) & (cc >= bb), first_longest = !third_longest & (aa >= bb);
+      const T ux = first_longest ? f.x[k] : e.x[k], wx = third_longest ? f.x[k] : gx;
+      const T uy = first_longest ? f.y[k] : e.y[k], wy = third_longest ? f.y[k] : gy;
+      const T uz = first_longest ? f.z[k] : e.z[k], wz = third_longest ? f.z[k] : gz;
+      const T cx = uy * wz - uz * wy, cy = uz * wx - ux * wz, cz = ux * wy - uy * wx;
+      g.cross[k] = std::sqrt(cx * cx + cy * cy + cz * cz);
+    }
+    for (Index k = 0; k < kLanes; ++k) g.angle[k] = quick_angle(g.dot[k], g.cross[k]);
+    // Infinite differences are not in order either.
+    Index wrong = 0;
+    for (Index k = 0; k < kLanes; ++k) {
+      const bool fine = (squared[k] >= kSmallestSquare<T>)&(squared[k] <= std::numeric_limits<T>::max());
+      wrong |= (k < fan.count) & !fine ? 1u : 0u;
+    }
+    return wrong == 0;
+  }
+};
+
+#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
+
+// In registers: the same operations in the same order.
+template <class T>
+class FanInRegisters {
+  using V = Lanes<T>;
+
+ public:
+  BRUSHFIRE_AVX2 static void fill(const FanMesh& mesh, Index first, Index count, PlainFans<T>& fans) {
+    if (mesh.corners.size() > std::numeric_limits<std::int32_t>::max()) {  // indices in registers are signed
+      return FanInLoops<T>::fill(mesh, first, count, fans);
+    }
+    Work work[kFans];
+    for (Index i = 0; i < count; ++i) fans.plain[i] = find(mesh, first + i, work[i]);
+    for (Index i = 0; i < count; ++i) {
+      if (fans.plain[i]) measure_sides(mesh, first + i, work[i]);
+    }
+    for (Index i = 0; i < count; ++i) {
+      if (fans.plain[i]) fans.plain[i] = measure(work[i]);
+    }
+    for (Index i = 0; i < count; ++i) {
+      if (fans.plain[i]) finish(mesh, work[i], i, fans);
+    }
+  }
+
+ private:
+  struct Ends {
+    alignas(32) Index a[kLanes];
+    alignas(32) Index b[kLanes];
+  };
+
+  // What is known of one fan in between.
+  struct Work {
+    Ends ends;
+    Index count;
+    __m256i second, back;
+    V x, y, z, length, dot, cross;
+  };
+
+  BRUSHFIRE_AVX2_INLINE static __m256i used_lanes(Index count) {
+    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    return _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(count)), lane);
+  }
+
+  BRUSHFIRE_AVX2_INLINE static bool find(const FanMesh& mesh, Index v, Work& work) {
+    const Index begin = mesh.corner_offsets[v], count = mesh.corner_offsets[v + 1] - begin;
+    if (count > kLanes || count < 3 || !mesh.plain) return false;
+    const __m256i used = used_lanes(count);
+    work.count = count;
+    work.ends = ends_of(mesh, begin, used);
+    return find_links(v, work.ends, used, work.second, work.back);
+  }
+
+  BRUSHFIRE_AVX2_INLINE static void finish(const FanMesh& mesh, const Work& work, Index i, PlainFans<T>& fans) {
+    const __m256i used = used_lanes(work.count), none = _mm256_set1_epi32(static_cast<int>(mesh.none));
+    const __m256i a = _mm256_load_si256(reinterpret_cast<const __m256i*>(work.ends.a));
+    const V in_use = wide_mask(V{}, used);
+    RingBlock<T>& block = fans.block[i];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(block.end), _mm256_blendv_epi8(none, a, used));
+    store(block.length, select(in_use, work.length, all(std::numeric_limits<T>::infinity())));
+    store(block.dot, select(in_use, work.dot, all(std::numeric_limits<T>::quiet_NaN())));
+    store(block.cross, work.cross);
+    store_links(work.second, work.back, fans.links[i]);
+    fans.angle[i] = sum(angle_of(work.dot, work.cross));
+    fans.area[i] = sum(work.cross);
+    fans.length[i] = sum(work.length);
+  }
+
+  // No vertices, and different ones, in lanes that are not used.
+  BRUSHFIRE_AVX2_INLINE static Ends ends_of(const FanMesh& mesh, Index begin, __m256i used) {
+    const auto* flat = reinterpret_cast<const int*>(mesh.faces.data());
+    const __m256i h = _mm256_maskload_epi32(reinterpret_cast<const int*>(mesh.corners.data() + begin), used);
+    // h / 3, of the even lanes and of the odd ones.
+    const __m256i inverse = _mm256_set1_epi64x(0xaaaaaaab);
+    const __m256i even = _mm256_srli_epi64(_mm256_mul_epu32(h, inverse), 33);
+    const __m256i odd = _mm256_srli_epi64(_mm256_mul_epu32(_mm256_srli_epi64(h, 32), inverse), 33);
+    const __m256i face = _mm256_or_si256(even, _mm256_slli_epi64(odd, 32));
+    const __m256i corner = _mm256_sub_epi32(h, _mm256_add_epi32(face, _mm256_slli_epi32(face, 1)));
+    const __m256i one = _mm256_set1_epi32(1), three = _mm256_set1_epi32(3);
+    const __m256i is_last = _mm256_cmpeq_epi32(corner, _mm256_set1_epi32(2));
+    const __m256i is_first = _mm256_cmpeq_epi32(corner, _mm256_setzero_si256());
+    const __m256i next = _mm256_sub_epi32(_mm256_add_epi32(h, one), _mm256_and_si256(is_last, three));
+    const __m256i previous = _mm256_add_epi32(_mm256_sub_epi32(h, one), _mm256_and_si256(is_first, three));
+    const __m256i a = _mm256_i32gather_epi32(flat, next, 4), b = _mm256_i32gather_epi32(flat, previous, 4);
+    const __m256i no_index = _mm256_set1_epi32(-1), neither = _mm256_set1_epi32(-2);
+    Ends ends;
+    _mm256_store_si256(reinterpret_cast<__m256i*>(ends.a), _mm256_blendv_epi8(no_index, a, used));
+    _mm256_store_si256(reinterpret_cast<__m256i*>(ends.b), _mm256_blendv_epi8(neither, b, used));
+    return ends;
+  }
+
+  // False where not every side is the first of one corner and the second of another one.
+  BRUSHFIRE_AVX2_INLINE static bool find_links(Index v, const Ends& ends, __m256i used, __m256i& second,
+                                               __m256i& back) {
+    const __m256i a = _mm256_load_si256(reinterpret_cast<const __m256i*>(ends.a));
+    const __m256i b = _mm256_load_si256(reinterpret_cast<const __m256i*>(ends.b));
+    // Sets of lanes, a bit for each: where b[k] is some a[j], and where a[k] is some b[j].
+    __m256i firsts = _mm256_setzero_si256(), seconds = firsts;
+    for (Index j = 0; j < kLanes; ++j) {
+      const __m256i bit = _mm256_set1_epi32(1 << j);
+      const __m256i a_j = _mm256_set1_epi32(static_cast<int>(ends.a[j]));
+      const __m256i b_j = _mm256_set1_epi32(static_cast<int>(ends.b[j]));
+      firsts = _mm256_or_si256(firsts, _mm256_and_si256(_mm256_cmpeq_epi32(a_j, b), bit));
+      seconds = _mm256_or_si256(seconds, _mm256_and_si256(_mm256_cmpeq_epi32(b_j, a), bit));
+    }
+    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), at = _mm256_set1_epi32(static_cast<int>(v));
+    __m256i wrong = _mm256_or_si256(_mm256_cmpeq_epi32(a, at), _mm256_cmpeq_epi32(b, at));
+    wrong = _mm256_or_si256(wrong, _mm256_cmpeq_epi32(a, b));
+    wrong = _mm256_or_si256(wrong, _mm256_or_si256(not_one(firsts), not_one(seconds)));
+    second = _mm256_blendv_epi8(lane, number_of(firsts), used);
+    back = _mm256_blendv_epi8(lane, number_of(seconds), used);
+    return _mm256_testz_si256(wrong, used) != 0;
+  }
+
+  // Whether a set has no, or more than one member.
+  BRUSHFIRE_AVX2_INLINE static __m256i not_one(__m256i set) {
+    const __m256i zero = _mm256_setzero_si256(), less = _mm256_add_epi32(set, _mm256_set1_epi32(-1));
+    const __m256i is_one = _mm256_cmpeq_epi32(_mm256_and_si256(set, less), zero);
+    return _mm256_or_si256(_mm256_cmpeq_epi32(set, zero), _mm256_xor_si256(is_one, _mm256_set1_epi32(-1)));
+  }
+
+  // Of the one member: the exponent.
+  BRUSHFIRE_AVX2_INLINE static __m256i number_of(__m256i set) {
+    const __m256i exponent = _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(set)), 23);
+    return _mm256_sub_epi32(exponent, _mm256_set1_epi32(127));
+  }
+
+  BRUSHFIRE_AVX2_INLINE static void measure_sides(const FanMesh& mesh, Index v, Work& work) {
+    const __m256i three = _mm256_setr_epi64x(-1, -1, -1, 0);
+    const auto* positions = reinterpret_cast<const double*>(mesh.positions.data());
+    const __m256d at = _mm256_maskload_pd(positions + 3 * std::size_t{v}, three), scale = _mm256_set1_pd(mesh.scale);
+    __m256d side[kLanes];
+    for (Index k = 0; k < kLanes; ++k) {
+      const std::size_t a = k < work.count ? work.ends.a[k] : v;
+      side[k] = _mm256_mul_pd(scale, _mm256_sub_pd(_mm256_maskload_pd(positions + 3 * a, three), at));
+    }
+    transpose(side, work.x, work.y, work.z);
+  }
+
+  // False where squares may have vanished.
+  BRUSHFIRE_AVX2_INLINE static bool measure(Work& work) {
+    const V x = work.x, y = work.y, z = work.z, squared = x * x + y * y + z * z;
+    const auto second = index_for(V{}, work.second);
+    const V fx = permuted(x, second), fy = permuted(y, second), fz = permuted(z, second);
+    const V gx = fx - x, gy = fy - y, gz = fz - z;
+    const V aa = squared, bb = permuted(squared, second), cc = gx * gx + gy * gy + gz * gz;
+    work.length = square_root(aa);
+    work.dot = x * fx + y * fy + z * fz;
+    const V third_longest = (aa <= cc) & (bb <= cc), first_before = bb <= aa;  // longest, but for the third
+    const V ux = select(third_longest, x, select(first_before, fx, x)), wx = select(third_longest, fx, gx);
+    const V uy = select(third_longest, y, select(first_before, fy, y)), wy = select(third_longest, fy, gy);
+    const V uz = select(third_longest, z, select(first_before, fz, z)), wz = select(third_longest, fz, gz);
+    const V cx = uy * wz - uz * wy, cy = uz * wx - ux * wz, cz = ux * wy - uy * wx;
+    work.cross = square_root(cx * cx + cy * cy + cz * cz);
+    const V fine = (all(kSmallestSquare<T>) <= squared) & (squared <= all(std::numeric_limits<T>::max()));
+    return (bits(wide_mask(V{}, used_lanes(work.count))) & ~bits(fine)) == 0;
+  }
+
+  // quick_angle().
+  BRUSHFIRE_AVX2_INLINE static V angle_of(V x, V y) {
+    const V ax = magnitude(x), zero = all(T(0)), one = all(T(1));
+    const V larger = greater(ax, y), smaller = lesser(y, ax);
+    const V t = smaller / select(zero < larger, larger, one), u = t * t;
+    V p = all(static_cast<T>(kAngleSeries.front()));
+    for (std::size_t i = 1; i < kAngleSeries.size(); ++i) p = p * u + all(static_cast<T>(kAngleSeries[i]));
+    const V octant = p * t;
+    const V quadrant = select(ax < y, all(T(0.5 * kPi)) - octant, octant);
+    return select(x < zero, all(T(kPi)) - quadrant, quadrant);
+  }
+
+  BRUSHFIRE_AVX2_INLINE static void store_links(__m256i second, __m256i back, LaneLinks& links) {
+    const __m256i both = _mm256_or_si256(second, _mm256_slli_epi32(back, 4));
+    const __m128i words = _mm_packus_epi32(_mm256_castsi256_si128(both), _mm256_extracti128_si256(both, 1));
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(links.links), _mm_packus_epi16(words, words));
+  }
+
+  // In the order of the lanes.
+  BRUSHFIRE_AVX2_INLINE static T sum(V numbers) {
+    alignas(64) T number[kLanes];
+    store(number, numbers);
+    T sum = 0;
+    for (const T n : number) sum += n;
+    return sum;
+  }
+};
+
+#endif
+
+}  // namespace brushfire::detail
