@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <functional>
-#include <queue>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace brushfire::detail {
 namespace {
@@ -19,7 +19,7 @@ class Dijkstra final : public Engine {
   bool lists_touched() const override { return true; }
 
   void solve(const Problem& problem, DistanceField& field) override {
-    queue_ = {};
+    heap_.clear();
     touched_ = problem.touched;
     for (const LocatedSource& s : problem.sources) start(s, field);
     march(problem, field);
@@ -34,7 +34,8 @@ class Dijkstra final : public Engine {
       if (touched_ && field.source[v] == kNoIndex) touched_->push_back(v);
       field.distance[v] = value;
       field.source[v] = label;
-      queue_.emplace(value, label, v);
+      heap_.emplace_back(value, label, v);
+      std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
     }
   }
 
@@ -50,9 +51,10 @@ class Dijkstra final : public Engine {
 
   void march(const Problem& problem, DistanceField& field) {
     constexpr std::uint64_t kPollInterval = 4096;
-    while (!queue_.empty()) {
-      const auto [value, label, v] = queue_.top();
-      queue_.pop();
+    while (!heap_.empty()) {
+      std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+      const auto [value, label, v] = heap_.back();
+      heap_.pop_back();
       if (value != field.distance[v] || label != field.source[v]) continue;
       if (value > problem.max_distance) break;
       if (++field.updates % kPollInterval == 0 && problem.options->cancel && problem.options->cancel->cancelled()) {
@@ -82,7 +84,7 @@ class Dijkstra final : public Engine {
 
   Mesh mesh_;
   std::vector<Index>* touched_ = nullptr;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  std::vector<Entry> heap_;  // its memory stays from run to run
 };
 
 }  // namespace
