@@ -59,7 +59,7 @@ Run connectivity() {
 }
 
 Run order() {
-  return [mesh = scan()] { return static_cast<double>(vertex_locality_order(mesh).back()); };
+  return [mesh = scan()] { return static_cast<double>(vertex_locality_order(mesh).vertices.back()); };
 }
 
 // Rings, or whatever else the method builds before its first field.

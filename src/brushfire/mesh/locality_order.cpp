@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace brushfire {
 namespace {
@@ -72,15 +73,21 @@ constexpr std::array<TwoSteps, 24 * 64> kTwoSteps = [] {
   return steps;
 }();
 
-// Spreads the lower two bits of x three apart.
-constexpr unsigned spread(unsigned x) { return (x & 1) | (x & 2) << 2; }
+// Cells along one axis with their bits three apart.
+constexpr std::array<std::uint32_t, 1 << kHilbertBits> kSpread = [] {
+  std::array<std::uint32_t, 1 << kHilbertBits> spread{};
+  for (std::uint32_t x = 0; x < spread.size(); ++x) {
+    for (int bit = 0; bit < kHilbertBits; ++bit) spread[x] |= (x >> bit & 1u) << 3 * bit;
+  }
+  return spread;
+}();
 
 // A place on the curve and a vertex there, as one number that sorts by the place.
 using Keyed = std::uint64_t;
 constexpr int kKeyBits = 3 * kHilbertBits;
 
 // The vertices by their keys, equal ones in the order given. `items` is used up.
-std::vector<Index> radix_sorted(UninitializedArray<Keyed>& items) {
+VertexOrder radix_sorted(UninitializedArray<Keyed>& items) {
   constexpr int kDigitBits = 10, kDigits = kKeyBits / kDigitBits;
   static_assert(kKeyBits % kDigitBits == 0 && kKeyBits <= 32);
   const auto digit = [](Keyed k, int i) { return (k >> (32 + i * kDigitBits)) & ((1 << kDigitBits) - 1); };
@@ -89,7 +96,9 @@ std::vector<Index> radix_sorted(UninitializedArray<Keyed>& items) {
     for (int i = 0; i < kDigits; ++i) ++start[static_cast<std::size_t>(i)][digit(k, i)];
   }
   UninitializedArray<Keyed> other(items.size());
-  std::vector<Index> order(items.size());
+  VertexOrder order;
+  order.vertices.resize(items.size());
+  order.vertex_rank.resize(items.size());
   for (int i = 0; i < kDigits; ++i) {
     auto& place = start[static_cast<std::size_t>(i)];
     Index sum = 0;
@@ -98,13 +107,17 @@ std::vector<Index> radix_sorted(UninitializedArray<Keyed>& items) {
       for (const Keyed k : items) other[place[digit(k, i)]++] = k;
       items.swap(other);
     } else {
-      for (const Keyed k : items) order[place[digit(k, i)]++] = static_cast<Index>(k);
+      for (const Keyed k : items) {
+        const Index v = static_cast<Index>(k), at = place[digit(k, i)]++;
+        order.vertices[at] = v;
+        order.vertex_rank[v] = at;
+      }
     }
   }
   return order;
 }
 
-std::vector<Index> hilbert_order(std::span<const Vec3> positions) {
+VertexOrder hilbert_order(std::span<const Vec3> positions) {
   Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
   for (const Vec3& p : positions) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -128,13 +141,15 @@ std::vector<Index> hilbert_order(std::span<const Vec3> positions) {
   return radix_sorted(items);
 }
 
-std::vector<Index> breadth_first_order(const Mesh& mesh) {
-  std::vector<Index> order;
+VertexOrder breadth_first_order(const Mesh& mesh) {
+  VertexOrder result;
+  UninitializedArray<Index>& order = result.vertices;
   order.reserve(mesh.vertex_count());
-  std::vector<bool> seen(mesh.vertex_count(), false);
+  result.vertex_rank.assign(mesh.vertex_count(), kNoIndex);
   const auto visit = [&](Index v) {
-    if (!seen[v]) order.push_back(v);
-    seen[v] = true;
+    if (result.vertex_rank[v] != kNoIndex) return;
+    result.vertex_rank[v] = static_cast<Index>(order.size());
+    order.push_back(v);
   };
   std::size_t next = 0;
   for (Index first = 0; first < mesh.vertex_count(); ++first) {
@@ -146,32 +161,18 @@ std::vector<Index> breadth_first_order(const Mesh& mesh) {
       }
     }
   }
-  return order;
-}
-
-// Faces by the least place of their vertices: a counting sort.
-std::vector<Index> order_faces(std::span<const Face> faces, std::span<const Index> rank) {
-  UninitializedArray<Index> key(faces.size());
-  std::vector<Index> start(rank.size() + 1, 0);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const Face& t = faces[f];
-    key[f] = std::min({rank[t[0]], rank[t[1]], rank[t[2]]});
-    ++start[key[f] + 1];
-  }
-  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-  std::vector<Index> order(faces.size());
-  for (Index f = 0; f < faces.size(); ++f) order[start[key[f]]++] = f;
-  return order;
+  return result;
 }
 
 }  // namespace
 
 std::uint64_t detail::hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  const std::uint32_t octants_of_all = kSpread[x] | kSpread[y] << 1 | kSpread[z] << 2;
   std::uint64_t index = 0;
   unsigned state = 0;
   static_assert(kHilbertBits % 2 == 0);
-  for (int bit = kHilbertBits - 2; bit >= 0; bit -= 2) {
-    const unsigned octants = spread(x >> bit) | spread(y >> bit) << 1 | spread(z >> bit) << 2;
+  for (int bit = 3 * (kHilbertBits - 2); bit >= 0; bit -= 6) {
+    const unsigned octants = octants_of_all >> bit & 63u;
     const TwoSteps step = kTwoSteps[state * 64 + octants];
     index = index << 6 | step.places;
     state = step.next_state;
@@ -179,8 +180,22 @@ std::uint64_t detail::hilbert_index(std::uint32_t x, std::uint32_t y, std::uint3
   return index;
 }
 
-std::vector<Index> vertex_locality_order(const Mesh& mesh) {
+VertexOrder vertex_locality_order(const Mesh& mesh) {
   return mesh.has_positions() ? hilbert_order(mesh.positions()) : breadth_first_order(mesh);
+}
+
+// By the least place of a face's vertices: a counting sort.
+UninitializedArray<Index> face_ranks(std::span<const Face> faces, std::span<const Index> vertex_rank) {
+  UninitializedArray<Index> rank(faces.size());  // first the key, then what becomes of it
+  std::vector<Index> start(vertex_rank.size() + 1, 0);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Face& t = faces[f];
+    rank[f] = std::min({vertex_rank[t[0]], vertex_rank[t[1]], vertex_rank[t[2]]});
+    ++start[rank[f] + 1];
+  }
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  for (Index& r : rank) r = start[r]++;
+  return rank;
 }
 
 bool is_local(const Mesh& mesh) {
@@ -198,11 +213,10 @@ bool is_local(const Mesh& mesh) {
 }
 
 LocalityOrder locality_order(const Mesh& mesh) {
-  LocalityOrder result;
-  result.vertices = vertex_locality_order(mesh);
-  result.vertex_rank.resize(result.vertices.size());
-  for (Index i = 0; i < result.vertices.size(); ++i) result.vertex_rank[result.vertices[i]] = i;
-  result.faces = order_faces(mesh.faces(), result.vertex_rank);
+  LocalityOrder result{vertex_locality_order(mesh), {}};
+  const UninitializedArray<Index> rank = face_ranks(mesh.faces(), result.vertex_rank);
+  result.faces.resize(rank.size());
+  for (Index f = 0; f < rank.size(); ++f) result.faces[rank[f]] = f;
   return result;
 }
 

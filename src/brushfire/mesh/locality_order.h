@@ -4,17 +4,20 @@
 #pragma once
 
 #include <brushfire/core/types.h>
+#include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
 
 #include <span>
-#include <vector>
 
 namespace brushfire {
 
-struct LocalityOrder {
-  std::vector<Index> vertices;     // [vertex_count] the vertex at each place: new number to old
-  std::vector<Index> vertex_rank;  // [vertex_count] the place of each vertex: old number to new
-  std::vector<Index> faces;        // [face_count] new to old, by the least place of a face's vertices, then by number
+struct VertexOrder {
+  UninitializedArray<Index> vertices;     // [vertex_count] the vertex at each place: new number to old
+  UninitializedArray<Index> vertex_rank;  // [vertex_count] the place of each vertex: old number to new
+};
+
+struct LocalityOrder : VertexOrder {
+  UninitializedArray<Index> faces;  // [face_count] new to old, by the least place of a face's vertices, then by number
 };
 
 // Along a Hilbert curve through the bounding cube of the positions (2^10 cells a side); breadth first, from the lowest
@@ -22,8 +25,9 @@ struct LocalityOrder {
 // faces): a radix sort.
 LocalityOrder locality_order(const Mesh& mesh);
 
-// Its `vertices` alone.
-std::vector<Index> vertex_locality_order(const Mesh& mesh);
+// Its vertices alone, and its faces from old to new, once the vertices are known.
+VertexOrder vertex_locality_order(const Mesh& mesh);
+UninitializedArray<Index> face_ranks(std::span<const Face> faces, std::span<const Index> vertex_rank);
 
 // Whether the numbers that a mesh has will do: nearly all edges, and faces that follow each other, join vertices with
 // near numbers. Looks at some thousand faces.

@@ -355,7 +355,7 @@ Mesh Mesh::for_a_while() const {
 }
 
 Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> vertex_rank,
-                      std::span<const Index> face_order) const {
+                      std::span<const Index> face_rank) const {
   const Arrays& old = *data_->arrays;
   auto arrays = std::make_shared<Arrays>();
   arrays->vertex_count = old.vertex_count;
@@ -364,20 +364,20 @@ Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> ve
   for (std::size_t i = 0; i < arrays->positions.size(); ++i) arrays->positions[i] = old.positions[vertices[i]];
   arrays->faces.resize(old.faces.size());
   arrays->input_lengths.resize(old.input_lengths.size());
-  for (std::size_t f = 0; f < arrays->faces.size(); ++f) {
-    const Face& t = old.faces[face_order[f]];
-    arrays->faces[f] = {vertex_rank[t[0]], vertex_rank[t[1]], vertex_rank[t[2]]};
-    if (has_positions()) continue;
-    for (std::size_t k = 0; k < 3; ++k) arrays->input_lengths[3 * f + k] = unit() * lengths()[3 * face_order[f] + k];
+  for (std::size_t f = 0; f < old.faces.size(); ++f) {
+    const Face& t = old.faces[f];
+    arrays->faces[face_rank[f]] = {vertex_rank[t[0]], vertex_rank[t[1]], vertex_rank[t[2]]};
+  }
+  if (!has_positions()) {
+    for (std::size_t f = 0; f < old.faces.size(); ++f) {
+      const std::size_t from = 3 * f, to = 3 * std::size_t{face_rank[f]};
+      for (std::size_t k = 0; k < 3; ++k) arrays->input_lengths[to + k] = unit() * lengths()[from + k];
+    }
   }
   auto data = std::make_shared<Data>();
   data->arrays = std::move(arrays);
   data->unit.set(unit());
-  if (has_slits()) {
-    std::vector<Index> rank(face_order.size());
-    for (Index f = 0; f < rank.size(); ++f) rank[face_order[f]] = f;
-    for (const Index h : data_->slits) data->slits.push_back(3 * rank[h / 3] + h % 3);
-  }
+  for (const Index h : data_->slits) data->slits.push_back(3 * face_rank[h / 3] + h % 3);
   return Mesh(std::move(data));
 }
 

@@ -57,9 +57,10 @@ class Mesh {
   Mesh with_slits(std::span<const Index> halfedges) const;
 
   // The same mesh under other numbers: vertex i is vertex vertices[i] of this one, with vertex_rank the inverse, and
-  // face f is face faces[f]; corners keep their order in their faces. The same unit(). All must be permutations.
+  // face f of this one gets number face_rank[f]; corners keep their order in their faces. The same unit(). All must be
+  // permutations.
   Mesh renumbered(std::span<const Index> vertices, std::span<const Index> vertex_rank,
-                  std::span<const Index> faces) const;
+                  std::span<const Index> face_rank) const;
 
   Index vertex_count() const noexcept;
   Index face_count() const noexcept;

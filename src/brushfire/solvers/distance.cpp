@@ -93,7 +93,7 @@ void finish(const Mesh& mesh, std::span<const PointLocation> targets, const Dist
   finish_targets(unit, targets, options, field);
   field.method = options.method;
   field.reached = 0;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+  for (std::size_t v = 0; v < field.distance.size(); ++v) {
     double& d = field.distance[v];
     if (d == kInfinity) continue;
     d *= unit;

@@ -112,6 +112,23 @@ BRUSHFIRE_AVX2_INLINE void transpose(const __m256d* row, Double8& x, Double8& y,
   transpose4(row + 4, x.high, y.high, z.high);
 }
 
+// The sums over four lanes of a, b and c, in their order, added to `sum`.
+BRUSHFIRE_AVX2_INLINE __m256d add_lanes4(__m256d sum, __m256d a, __m256d b, __m256d c) {
+  const __m256d zero = _mm256_setzero_pd();
+  const __m256d ab0 = _mm256_unpacklo_pd(a, b), ab1 = _mm256_unpackhi_pd(a, b);  // lanes 0 and 2, 1 and 3
+  const __m256d c0 = _mm256_unpacklo_pd(c, zero), c1 = _mm256_unpackhi_pd(c, zero);
+  sum = _mm256_add_pd(sum, _mm256_permute2f128_pd(ab0, c0, 0x20));
+  sum = _mm256_add_pd(sum, _mm256_permute2f128_pd(ab1, c1, 0x20));
+  sum = _mm256_add_pd(sum, _mm256_permute2f128_pd(ab0, c0, 0x31));
+  return _mm256_add_pd(sum, _mm256_permute2f128_pd(ab1, c1, 0x31));
+}
+BRUSHFIRE_AVX2_INLINE std::array<double, 4> sums_of(Double8 a, Double8 b, Double8 c) {
+  const __m256d low = add_lanes4(_mm256_setzero_pd(), a.low, b.low, c.low);
+  std::array<double, 4> sums;
+  _mm256_storeu_pd(sums.data(), add_lanes4(low, a.high, b.high, c.high));
+  return sums;
+}
+
 }  // namespace brushfire::detail
 
 #endif

@@ -34,11 +34,10 @@ class LocalMesh {
  public:
   explicit LocalMesh(const Mesh& mesh) : mesh_(mesh) {
     if (is_local(mesh)) return;
-    LocalityOrder order = locality_order(mesh);
-    mesh_ = mesh.renumbered(order.vertices, order.vertex_rank, order.faces);
+    VertexOrder order = vertex_locality_order(mesh);
+    face_rank_ = face_ranks(mesh.faces(), order.vertex_rank);
+    mesh_ = mesh.renumbered(order.vertices, order.vertex_rank, face_rank_);
     vertex_ = std::move(order.vertices);
-    face_rank_.resize(order.faces.size());
-    for (Index f = 0; f < face_rank_.size(); ++f) face_rank_[order.faces[f]] = f;
   }
 
   const Mesh& mesh() const { return mesh_; }
@@ -60,7 +59,7 @@ class LocalMesh {
 
  private:
   Mesh mesh_;
-  std::vector<Index> vertex_;            // [vertex_count] the caller's numbers; empty: the same
+  UninitializedArray<Index> vertex_;     // [vertex_count] the caller's numbers; empty: the same
   UninitializedArray<Index> face_rank_;  // [face_count] the number here of each of the caller's faces
 };
 
@@ -242,7 +241,8 @@ class Marcher {
     field.updates = state_.pops;
     field.beyond_radius = 0;
     if (state_.touched_most() && !problem.touched) {
-      for (Index place = 0; place < mesh_.vertex_count(); ++place) write(problem, place, field);
+      const Index count = mesh_.vertex_count();
+      for (Index place = 0; place < count; ++place) write(problem, place, field);
     } else {
       for (const Index place : state_.touched) write(problem, place, field);
     }

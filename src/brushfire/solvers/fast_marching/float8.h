@@ -74,6 +74,21 @@ BRUSHFIRE_AVX2_INLINE void transpose(const __m256d* row, Float8& x, Float8& y, F
   z.v = _mm256_shuffle_ps(z01, z23, 0x44);
 }
 
+// The sums over the lanes of a, b and c, in their order.
+BRUSHFIRE_AVX2_INLINE std::array<float, 4> sums_of(Float8 a, Float8 b, Float8 c) {
+  // By lane: a, b, c and 0; lanes 0 and 4, 1 and 5 and so on.
+  const __m256 ab0 = _mm256_unpacklo_ps(a.v, b.v), ab2 = _mm256_unpackhi_ps(a.v, b.v);
+  const __m256 c0 = _mm256_unpacklo_ps(c.v, _mm256_setzero_ps()), c2 = _mm256_unpackhi_ps(c.v, _mm256_setzero_ps());
+  const __m256 lane[] = {_mm256_shuffle_ps(ab0, c0, 0x44), _mm256_shuffle_ps(ab0, c0, 0xee),
+                         _mm256_shuffle_ps(ab2, c2, 0x44), _mm256_shuffle_ps(ab2, c2, 0xee)};
+  __m128 sum = _mm_setzero_ps();
+  for (const __m256 l : lane) sum = _mm_add_ps(sum, _mm256_castps256_ps128(l));
+  for (const __m256 l : lane) sum = _mm_add_ps(sum, _mm256_extractf128_ps(l, 1));
+  std::array<float, 4> sums;
+  _mm_storeu_ps(sums.data(), sum);
+  return sums;
+}
+
 // All bits where bit `bit` of the lane is set.
 BRUSHFIRE_AVX2_INLINE Float8 mask_of_bit(__m256i a, int bit) {
   return {_mm256_castsi256_ps(_mm256_srai_epi32(_mm256_slli_epi32(a, 31 - bit), 31))};

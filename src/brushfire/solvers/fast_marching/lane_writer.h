@@ -4,6 +4,7 @@
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -53,13 +54,12 @@ class LaneWriter {
 
   // An unfolded triangle, whose second side may be one of those that are there. It offers values to its first end.
   void add_unfolded(const Corner& c) {
-    Index second = 0;
-    while (second < count_ && !is_second_side(second, c)) ++second;
-    if (count_ + (second == count_ ? 2 : 1) > kLanes) {
+    Index second = second_side(c);
+    if (count_ + (second == kLanes ? 2 : 1) > kLanes) {
       finish();
-      second = 0;
+      second = kLanes;
     }
-    const bool there = second < count_;
+    const bool there = second < kLanes;
     add_triangle(c, there ? second : count_ + 1);
     if (!there) add_edge(c.b, c.length_b);
   }
@@ -74,7 +74,7 @@ class LaneWriter {
   // Completes the block that has been begun; the next one follows it.
   BRUSHFIRE_INLINE void finish() {
     if (count_ == 0) return;
-    if (count_ != filled_) complete();
+    complete();
     count_ = filled_ = 0;
     if (++done_ == blocks_.size()) grow(done_ + done_ / 2);
   }
@@ -90,36 +90,46 @@ class LaneWriter {
   }
 
  private:
+  // Of a whole block the rest is blank already.
   void complete() {
-    while (count_ < kLanes) add_edge(none_, kInfinity);
-    LaneLinks& lanes = links_[done_];
-    std::uint8_t back[kLanes];
-    for (Index k = 0; k < kLanes; ++k) back[k] = static_cast<std::uint8_t>(k);
-    for (Index k = kLanes; k-- > 0;) {
-      const Index second = lanes.second(k);
-      back[second] = static_cast<std::uint8_t>(second != k ? k : back[k]);
-    }
-    for (Index k = 0; k < kLanes; ++k) lanes.links[k] = static_cast<std::uint8_t>(lanes.second(k) | back[k] << 4);
+    while (filled_ == 0 && count_ < kLanes) add_edge(none_, kInfinity);
   }
+
+  // No triangles.
+  static constexpr LaneLinks kAlone = {{0x00, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77}};
 
   static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
   void add_triangle(const Corner& c, Index second) { set(c, second); }
 
-  // Lengths of unfolded sides are computed another way than those of edges.
-  bool is_second_side(Index k, const Corner& c) const {
+  // The side that ends where the second one of c does, at that length (those of unfolded sides are computed another way
+  // than those of edges); kLanes: none.
+  Index second_side(const Corner& c) const {
+    if (count_ == 0) return kLanes;
     constexpr T kSame = 16 * std::numeric_limits<T>::epsilon();
     const RingBlock<T>& block = blocks_[done_];
-    return block.end[k] == c.b && std::abs(block.length[k] - static_cast<T>(c.length_b)) <= kSame * block.length[k];
+    std::uint32_t sides = 0;  // whose ends are that one; all are looked at, as there is no telling which it is
+    for (Index k = 0; k < kLanes; ++k) sides |= (block.end[k] == c.b ? 1u : 0u) << k;
+    for (; sides != 0; sides &= sides - 1) {
+      const auto k = static_cast<Index>(std::countr_zero(sides));
+      if (std::abs(block.length[k] - static_cast<T>(c.length_b)) <= kSame * block.length[k]) return k;
+    }
+    return kLanes;
   }
 
   void set(const Corner& c, Index second) {
     RingBlock<T>& block = blocks_[done_];
+    if (count_ == 0) std::fill_n(block.end, kLanes, none_), links_[done_] = kAlone;
     block.end[count_] = c.a;
     block.length[count_] = static_cast<T>(c.length_a);
     block.dot[count_] = static_cast<T>(c.dot);
     block.cross[count_] = static_cast<T>(c.cross);
-    links_[done_].links[count_++] = static_cast<std::uint8_t>(second);
+    LaneLinks& links = links_[done_];
+    links.links[count_] = static_cast<std::uint8_t>((links.links[count_] & 0xf0) | second);
+    if (second != count_ && links.back(second) == second) {
+      links.links[second] = static_cast<std::uint8_t>(links.second(second) | count_ << 4);
+    }
+    ++count_;
   }
 
   void grow(std::size_t size) {

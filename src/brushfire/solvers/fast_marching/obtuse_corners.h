@@ -9,12 +9,12 @@
 
 namespace brushfire::detail {
 
-// Writes the halfedges of the obtuse corners of faces `first` and following, and returns how many there are. There must
+// Writes the halfedges of the obtuse corners of faces `begin` to `end` - 1, and returns how many there are. There must
 // be room for one more than there are.
 BRUSHFIRE_INLINE std::size_t find_obtuse(std::span<const Vec3> positions, std::span<const Face> faces, double scale,
-                                         std::size_t first, Index* obtuse) {
+                                         std::size_t begin, std::size_t end, Index* obtuse) {
   std::size_t count = 0;
-  for (std::size_t f = first; f < faces.size(); ++f) {
+  for (std::size_t f = begin; f < end; ++f) {
     const Face& t = faces[f];
     const Vec3 a = positions[t[0]], b = positions[t[1]], c = positions[t[2]];
     const Vec3 ab = scale * (b - a), bc = scale * (c - b), ca = scale * (a - c);
@@ -34,15 +34,18 @@ BRUSHFIRE_AVX2_INLINE __m256d squares4(const __m256d* row) {
   return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(x, x), _mm256_mul_pd(y, y)), _mm256_mul_pd(z, z));
 }
 
-// The same for all faces. Of the two cases of obtuse_corner(), by lane: whether the first edge is no shorter than the
+// The same. Of the two cases of obtuse_corner(), by lane: whether the first edge is no shorter than the
 // second, and whether the longer one of these is no shorter than the third.
 BRUSHFIRE_AVX2 inline std::size_t find_obtuse4(std::span<const Vec3> positions, std::span<const Face> faces,
-                                               double scale, Index* obtuse) {
+                                               double scale, std::size_t begin, std::size_t end, Index* obtuse) {
   const __m256i three = _mm256_setr_epi64x(-1, -1, -1, 0);
   const auto* const numbers = reinterpret_cast<const double*>(positions.data());
   const __m256d scales = _mm256_set1_pd(scale), less = _mm256_set1_pd(1 - kRightAngle);
-  std::size_t count = 0, f = 0;
-  for (; f + 4 <= faces.size(); f += 4) {
+  constexpr std::size_t kAhead = 64;
+  std::size_t count = 0, f = begin;
+  for (; f + 4 <= end; f += 4) {
+    const std::size_t soon = faces[f][0] + kAhead;  // a vertex of faces that come soon, in a local order
+    if (soon < positions.size()) prefetch(&positions[soon]);
     __m256d ab[4], bc[4], ca[4];
     for (std::size_t k = 0; k < 4; ++k) {
       const Face& t = faces[f + k];
@@ -69,7 +72,7 @@ BRUSHFIRE_AVX2 inline std::size_t find_obtuse4(std::span<const Vec3> positions, 
       count += is_obtuse >> k & 1u;
     }
   }
-  return count + find_obtuse(positions, faces, scale, f, obtuse + count);
+  return count + find_obtuse(positions, faces, scale, f, end, obtuse + count);
 }
 
 #endif

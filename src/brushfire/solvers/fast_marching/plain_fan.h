@@ -182,10 +182,8 @@ class FanInRegisters {
 
  public:
   BRUSHFIRE_AVX2 static void fill(const FanMesh& mesh, Index first, Index count, PlainFans<T>& fans) {
-    if (mesh.corners.size() > std::numeric_limits<std::int32_t>::max()) {  // indices in registers are signed
-      return FanInLoops<T>::fill(mesh, first, count, fans);
-    }
     Work work[kFans];
+    prefetch_after(mesh, first + count);
     for (Index i = 0; i < count; ++i) fans.plain[i] = find(mesh, first + i, work[i]);
     for (Index i = 0; i < count; ++i) {
       if (fans.plain[i]) measure_sides(mesh, first + i, work[i]);
@@ -217,6 +215,16 @@ class FanInRegisters {
     return _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(count)), lane);
   }
 
+  // What vertices soon will need: where they are, and the last one of their faces. The others have been needed before.
+  BRUSHFIRE_AVX2_INLINE static void prefetch_after(const FanMesh& mesh, Index v) {
+    constexpr Index kAhead = 3 * kFans;
+    if (mesh.none < v + kAhead + kFans) return;
+    for (Index i = v + kAhead; i < v + kAhead + kFans; ++i) {
+      prefetch(&mesh.positions[i]);
+      if (mesh.corner_offsets[i + 1] > 0) prefetch(&mesh.faces[mesh.corners[mesh.corner_offsets[i + 1] - 1] / 3]);
+    }
+  }
+
   BRUSHFIRE_AVX2_INLINE static bool find(const FanMesh& mesh, Index v, Work& work) {
     const Index begin = mesh.corner_offsets[v], count = mesh.corner_offsets[v + 1] - begin;
     if (count > kLanes || count < 3 || !mesh.plain) return false;
@@ -236,27 +244,37 @@ class FanInRegisters {
     store(block.dot, select(in_use, work.dot, all(std::numeric_limits<T>::quiet_NaN())));
     store(block.cross, work.cross);
     store_links(work.second, work.back, fans.links[i]);
-    fans.angle[i] = sum(angle_of(work.dot, work.cross));
-    fans.area[i] = sum(work.cross);
-    fans.length[i] = sum(work.length);
+    const std::array<T, 4> sums = sums_of(angle_of(work.dot, work.cross), work.cross, work.length);
+    fans.angle[i] = sums[0], fans.area[i] = sums[1], fans.length[i] = sums[2];
   }
+
+  // The two other corners of a face, from each of its corners on: where their bytes are.
+  static constexpr std::array<std::array<std::uint8_t, 16>, 3> kOthers{
+      {{4, 5, 6, 7, 8, 9, 10, 11}, {8, 9, 10, 11, 0, 1, 2, 3}, {0, 1, 2, 3, 4, 5, 6, 7}}};
 
   // No vertices, and different ones, in lanes that are not used.
   BRUSHFIRE_AVX2_INLINE static Ends ends_of(const FanMesh& mesh, Index begin, __m256i used) {
-    const auto* flat = reinterpret_cast<const int*>(mesh.faces.data());
     const __m256i h = _mm256_maskload_epi32(reinterpret_cast<const int*>(mesh.corners.data() + begin), used);
     // h / 3, of the even lanes and of the odd ones.
     const __m256i inverse = _mm256_set1_epi64x(0xaaaaaaab);
     const __m256i even = _mm256_srli_epi64(_mm256_mul_epu32(h, inverse), 33);
     const __m256i odd = _mm256_srli_epi64(_mm256_mul_epu32(_mm256_srli_epi64(h, 32), inverse), 33);
     const __m256i face = _mm256_or_si256(even, _mm256_slli_epi64(odd, 32));
-    const __m256i corner = _mm256_sub_epi32(h, _mm256_add_epi32(face, _mm256_slli_epi32(face, 1)));
-    const __m256i one = _mm256_set1_epi32(1), three = _mm256_set1_epi32(3);
-    const __m256i is_last = _mm256_cmpeq_epi32(corner, _mm256_set1_epi32(2));
-    const __m256i is_first = _mm256_cmpeq_epi32(corner, _mm256_setzero_si256());
-    const __m256i next = _mm256_sub_epi32(_mm256_add_epi32(h, one), _mm256_and_si256(is_last, three));
-    const __m256i previous = _mm256_add_epi32(_mm256_sub_epi32(h, one), _mm256_and_si256(is_first, three));
-    const __m256i a = _mm256_i32gather_epi32(flat, next, 4), b = _mm256_i32gather_epi32(flat, previous, 4);
+    const __m256i first = _mm256_add_epi32(face, _mm256_slli_epi32(face, 1));
+    alignas(32) Index first_of[kLanes], corner_of[kLanes];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(first_of), first);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(corner_of), _mm256_sub_epi32(h, first));
+    const auto* const flat = reinterpret_cast<const int*>(mesh.faces.data());
+    const __m128i three = _mm_setr_epi32(-1, -1, -1, 0);
+    __m128i pair[kLanes];
+    for (Index k = 0; k < kLanes; ++k) {
+      const auto* const others = reinterpret_cast<const __m128i*>(kOthers[corner_of[k]].data());
+      pair[k] = _mm_shuffle_epi8(_mm_maskload_epi32(flat + first_of[k], three), _mm_loadu_si128(others));
+    }
+    const __m128i a01 = _mm_unpacklo_epi32(pair[0], pair[1]), a23 = _mm_unpacklo_epi32(pair[2], pair[3]);
+    const __m128i a45 = _mm_unpacklo_epi32(pair[4], pair[5]), a67 = _mm_unpacklo_epi32(pair[6], pair[7]);
+    const __m256i a = _mm256_set_m128i(_mm_unpacklo_epi64(a45, a67), _mm_unpacklo_epi64(a01, a23));
+    const __m256i b = _mm256_set_m128i(_mm_unpackhi_epi64(a45, a67), _mm_unpackhi_epi64(a01, a23));
     const __m256i no_index = _mm256_set1_epi32(-1), neither = _mm256_set1_epi32(-2);
     Ends ends;
     _mm256_store_si256(reinterpret_cast<__m256i*>(ends.a), _mm256_blendv_epi8(no_index, a, used));
@@ -347,15 +365,6 @@ class FanInRegisters {
     const __m256i both = _mm256_or_si256(second, _mm256_slli_epi32(back, 4));
     const __m128i words = _mm_packus_epi32(_mm256_castsi256_si128(both), _mm256_extracti128_si256(both, 1));
     _mm_storel_epi64(reinterpret_cast<__m128i*>(links.links), _mm_packus_epi16(words, words));
-  }
-
-  // In the order of the lanes.
-  BRUSHFIRE_AVX2_INLINE static T sum(V numbers) {
-    alignas(64) T number[kLanes];
-    store(number, numbers);
-    T sum = 0;
-    for (const T n : number) sum += n;
-    return sum;
   }
 };
 

@@ -11,12 +11,30 @@
 #include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <type_traits>
 #include <utility>
 
 namespace brushfire::detail {
 namespace {
+
+// Items in pieces of a size that allocators keep at hand: memory that is touched for the first time is slow.
+template <class Item>
+class Pieces {
+ public:
+  std::size_t size() const { return size_; }
+  Item& operator[](std::size_t i) { return pieces_[i / kPiece][i % kPiece]; }
+  void push_back(const Item& item) {
+    if (size_ == pieces_.size() * kPiece) pieces_.emplace_back(kPiece);
+    (*this)[size_++] = item;
+  }
+
+ private:
+  static constexpr std::size_t kPiece = 1024;
+  std::vector<UninitializedArray<Item>> pieces_;
+  std::size_t size_ = 0;
+};
 
 template <class T>
 class RingBuilder {
@@ -44,48 +62,72 @@ class RingBuilder {
  private:
   void unfold_obtuse_corners() {
     const Unfolder unfolder(mesh_);
-    const UninitializedArray<Index> obtuse = obtuse_corners();
-    unfolded_.reserve(2 * obtuse.size());  // most are split by one vertex; what is not written costs nothing
-    for (const Index h : obtuse) {
-      if (!mesh_.is_face_usable(Mesh::face_of(h))) continue;
-      const Unfolding result = unfolder.unfold(h, unfolded_);
-      rings_.layout.longest_unfolding = std::max(rings_.layout.longest_unfolding, result.crossed);
-      if (!result.split) unsplit_.push_back(h);
+    constexpr std::size_t kAtOnce = 2048;  // faces that stay in a cache
+    std::array<Index, kAtOnce + 1> obtuse;
+    for (std::size_t begin = 0; begin < faces_.size(); begin += kAtOnce) {
+      const std::size_t count = find_obtuse(begin, std::min(begin + kAtOnce, faces_.size()), obtuse.data());
+      for (const Index h : std::span(obtuse).first(count)) unfold(unfolder, h);
     }
-    // Lists by vertex. Every triangle is in two: as 2t in that of `first`, as 2t + 1 in that of `second`.
     first_of_.assign(mesh_.vertex_count(), kNoIndex);
-    next_of_.resize(2 * unfolded_.size());
-    for (Index e = static_cast<Index>(next_of_.size()); e-- > 0;) {
-      const UnfoldedTriangle& t = unfolded_[e / 2];
-      next_of_[e] = std::exchange(first_of_[e % 2 == 0 ? t.first : t.second], e);
+    for (Index e = static_cast<Index>(2 * unfolded_.size()); e-- > 0;) {
+      Unfolded& t = unfolded_[e / 2];
+      t.next[e % 2] = std::exchange(first_of_[t.end[e % 2]], e);
     }
   }
 
-  UninitializedArray<Index> obtuse_corners() const {
-    UninitializedArray<Index> obtuse(mesh_.face_count() + std::size_t{1});
-    std::size_t count = 0;
+  // What the ends of an unfolded triangle's edge need of it, and lists by vertex: every triangle is in two, as 2t in
+  // that of its first end, as 2t + 1 in that of the second.
+  struct Unfolded {
+    Index corner;                  // the vertex whose corner was unfolded
+    std::array<Index, 2> end;      // the others
+    std::array<Index, 2> next;     // in the list of each; kNoIndex: none
+    std::array<T, 2> length, dot;  // from each end to the corner; that side times the edge
+    T between, cross;              // the length of the edge; twice the area
+  };
+
+  static Unfolded measured(const UnfoldedTriangle& t) {
+    const Vec2 along = t.at_second - t.at_first;
+    return {t.corner_vertex,
+            {t.first, t.second},
+            {},
+            {static_cast<T>(norm(t.at_first)), static_cast<T>(norm(t.at_second))},
+            {static_cast<T>(brushfire::dot(t.at_first, t.at_first - t.at_second)),
+             static_cast<T>(brushfire::dot(t.at_second, along))},
+            static_cast<T>(norm(along)),
+            static_cast<T>(std::abs(brushfire::cross(t.at_first, t.at_second)))};
+  }
+
+  void unfold(const Unfolder& unfolder, Index h) {
+    if (!mesh_.is_face_usable(Mesh::face_of(h))) return;
+    triangles_.clear();
+    const Unfolding result = unfolder.unfold(h, triangles_);
+    rings_.layout.longest_unfolding = std::max(rings_.layout.longest_unfolding, result.crossed);
+    if (!result.split) unsplit_.push_back(h);
+    for (const UnfoldedTriangle& t : triangles_) unfolded_.push_back(measured(t));
+  }
+
+  // The obtuse corners of some faces; returns how many.
+  std::size_t find_obtuse(std::size_t begin, std::size_t end, Index* obtuse) const {
     if (mesh_.has_positions()) {
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-      count = in_registers() ? find_obtuse4(fans_.positions, faces_, fans_.scale, obtuse.data())
-                             : find_obtuse(fans_.positions, faces_, fans_.scale, 0, obtuse.data());
-#else
-      count = find_obtuse(fans_.positions, faces_, fans_.scale, 0, obtuse.data());
+      if (in_registers()) return find_obtuse4(fans_.positions, faces_, fans_.scale, begin, end, obtuse);
 #endif
-    } else {
-      for (Index f = 0; f < mesh_.face_count(); ++f) {
-        const auto [a, b, c] = mesh_.face_geometry(f).lengths;
-        obtuse[count] = obtuse_corner({a * a, b * b, c * c}, f);
-        count += obtuse[count] != kNoIndex;
-      }
+      return detail::find_obtuse(fans_.positions, faces_, fans_.scale, begin, end, obtuse);
     }
-    obtuse.resize(count);
-    return obtuse;
+    std::size_t count = 0;
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto [a, b, c] = mesh_.face_geometry(static_cast<Index>(f)).lengths;
+      obtuse[count] = obtuse_corner({a * a, b * b, c * c}, static_cast<Index>(f));
+      count += obtuse[count] != kNoIndex;
+    }
+    return count;
   }
 
   void fill() {
     const std::size_t count = mesh_.vertex_count();
     rings_.layout.block_offset.resize(count + 1);
-    patches_.resize(count);
+    patches_.resize(count + 1);
+    patches_[count] = {};
     plain_sides_.resize(count);
     LaneWriter<T> lanes(fans_.none, count + count / 2);  // what is not written costs nothing
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
@@ -121,7 +163,12 @@ class RingBuilder {
         } else {
           fill_any(v, lanes);
         }
-        for (Index e = first_of_[v]; e != kNoIndex; e = next_of_[e]) lanes.add_unfolded(unfolded_corner(e));
+        for (Index e = first_of_[v]; e != kNoIndex;) {
+          const Unfolded& t = unfolded_[e / 2];
+          const Index own = e % 2;
+          lanes.add_unfolded({t.corner, t.end[1 - own], t.length[own], t.between, t.dot[own], t.cross});
+          e = t.next[own];
+        }
         lanes.finish();
       }
     }
@@ -215,23 +262,18 @@ class RingBuilder {
 
   bool has_two_faces(Index h) const { return mesh_.neighbour(h) != h; }
 
-  Corner unfolded_corner(Index e) const {
-    const UnfoldedTriangle& t = unfolded_[e / 2];
-    const bool at_first = e % 2 == 0;
-    const Vec2 own = at_first ? t.at_first : t.at_second, other = at_first ? t.at_second : t.at_first;
-    return {t.corner_vertex,   at_first ? t.second : t.first,    norm(own),
-            norm(other - own), brushfire::dot(own, own - other), std::abs(brushfire::cross(t.at_first, t.at_second))};
-  }
-
   // Patches are smoothed once, over the other ends of each vertex's halfedges.
   void bend_fronts() {
     rings_.bend.resize(mesh_.vertex_count());
-    for (Index i = 0; i < mesh_.vertex_count(); ++i) {
+    constexpr Index kAhead = 12;
+    for (Index i = 0; i < fans_.none; ++i) {
+      if (i + kAhead < fans_.none) prefetch(&rings_.blocks[rings_.layout.block_offset[i + kAhead]]);
       Patch around = patches_[i];
       const auto add = [&](const Patch& other) { around.deficit += other.deficit, around.area += other.area; };
       if (plain_sides_[i] > 0) {
-        const RingBlock<T>& block = rings_.blocks[rings_.layout.block_offset[i]];
-        for (Index k = 0; k < plain_sides_[i]; ++k) add(patches_[block.end[k]]);
+        // All lanes, as there is no telling how many are used: no side ends in no patch.
+        const Index* const end = rings_.blocks[rings_.layout.block_offset[i]].end;
+        for (Index k = 0; k < kLanes; ++k) add(patches_[plain_sides_[i] > k ? end[k] : fans_.none]);
       } else {
         for (const Index h : mesh_.corners(i)) add(patches_[mesh_.to(h)]);
       }
@@ -265,9 +307,10 @@ class RingBuilder {
   FanMesh fans_;
   double sum_of_lengths_ = 0;
   Rings<T> rings_;
-  std::vector<UnfoldedTriangle> unfolded_;
+  std::vector<UnfoldedTriangle> triangles_;  // of one corner
+  Pieces<Unfolded> unfolded_;
   std::vector<Index> unsplit_;                    // corners whose unfolding ended early
-  std::vector<Index> first_of_, next_of_;         // lists of unfolded triangles by vertex
+  std::vector<Index> first_of_;                   // [vertex_count] lists of unfolded triangles
   UninitializedArray<Patch> patches_;             // [vertex_count]
   UninitializedArray<std::uint8_t> plain_sides_;  // [vertex_count] of a plain fan; 0 for any other vertex
   std::vector<Corner> loose_, fan_;               // of one vertex

@@ -46,9 +46,12 @@ Index Unfolder::neighbour(Index h) const {
     const Index corner = corners_[i], other = corner / 3, at = corner - 3 * other;
     const Face& t = faces_[other];
     const Index ahead = t[next_corner(at)], back = t[previous_corner(at)];
-    if (((ahead != w) & (back != w)) | (other == f) | (ahead == back) | (ahead == v) | (back == v)) continue;
-    found = ahead == w ? corner : Mesh::previous(corner);
-    ++count;
+    // Without branches: there is no telling which face it is.
+    const bool has_w = (ahead == w) | (back == w), usable = (ahead != back) & (ahead != v) & (back != v);
+    const bool is = has_w & usable & (other != f);
+    const Index edge = ahead == w ? corner : Mesh::previous(corner);
+    found = is ? edge : found;
+    count += is;
   }
   return count == 1 ? found : h;
 }
