@@ -13,9 +13,9 @@
 namespace brushfire {
 namespace {
 
-bool is_permutation(std::vector<Index> order, std::size_t n) {
+bool is_permutation(UninitializedArray<Index> order, std::size_t n) {
   std::sort(order.begin(), order.end());
-  std::vector<Index> expected(n);
+  UninitializedArray<Index> expected(n);
   std::iota(expected.begin(), expected.end(), Index{0});
   return order == expected;
 }
@@ -75,6 +75,30 @@ TEST(LocalityOrder, IsAPermutationOfVerticesAndFacesWithItsInverse) {
     EXPECT_TRUE(is_permutation(order.vertices, mesh.vertex_count()));
     EXPECT_TRUE(is_permutation(order.faces, mesh.face_count()));
     for (Index i = 0; i < mesh.vertex_count(); ++i) EXPECT_EQ(order.vertex_rank[order.vertices[i]], i);
+    const UninitializedArray<Index> rank = face_ranks(mesh.faces(), order.vertex_rank);
+    for (Index f = 0; f < mesh.face_count(); ++f) EXPECT_EQ(order.faces[rank[f]], f);
+  }
+}
+
+TEST(LocalityOrder, ARenumberedMeshIsTheSameMesh) {
+  const std::vector<Index> slits{7, 40};
+  const Mesh scanned = shuffled(shapes::folded_sphere(2), 4).mesh();
+  for (const Mesh& mesh : {scanned, without_positions(scanned), scanned.with_slits(slits)}) {
+    const LocalityOrder order = locality_order(mesh);
+    const UninitializedArray<Index> rank = face_ranks(mesh.faces(), order.vertex_rank);
+    const Mesh other = mesh.renumbered(order.vertices, order.vertex_rank, rank);
+    EXPECT_EQ(other.unit(), mesh.unit());
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+      const Index there = 3 * rank[h / 3] + h % 3;
+      EXPECT_EQ(order.vertices[other.from(there)], mesh.from(h));
+      EXPECT_EQ(other.length(there), mesh.length(h));
+      const Index across = mesh.opposite()[h];
+      EXPECT_EQ(other.opposite()[there], 3 * rank[across / 3] + across % 3);
+    }
+    if (!mesh.has_positions()) continue;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      EXPECT_EQ(other.positions()[v], mesh.positions()[order.vertices[v]]);
+    }
   }
 }
 
