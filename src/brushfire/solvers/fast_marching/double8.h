@@ -69,7 +69,8 @@ BRUSHFIRE_AVX2_INLINE Double8 magnitude(Double8 a) {
 struct DoubleIndex {
   __m256i low, high;
 
-  BRUSHFIRE_AVX2_INLINE static DoubleIndex of(__m256i index) {
+  BRUSHFIRE_AVX2_INLINE static DoubleIndex of(__m256i any) {
+    const __m256i index = _mm256_and_si256(any, _mm256_set1_epi32(7));
     const __m256i low = _mm256_cvtepu32_epi64(_mm256_castsi256_si128(index));
     const __m256i high = _mm256_cvtepu32_epi64(_mm256_extracti128_si256(index, 1));
     return {pairs(low), pairs(high)};

@@ -89,11 +89,6 @@ BRUSHFIRE_AVX2_INLINE std::array<float, 4> sums_of(Float8 a, Float8 b, Float8 c)
   return sums;
 }
 
-// All bits where bit `bit` of the lane is set.
-BRUSHFIRE_AVX2_INLINE Float8 mask_of_bit(__m256i a, int bit) {
-  return {_mm256_castsi256_ps(_mm256_srai_epi32(_mm256_slli_epi32(a, 31 - bit), 31))};
-}
-
 // For each set of lanes, their numbers: one after the other, from the lowest byte on.
 inline constexpr std::array<std::uint64_t, 256> kPacking = [] {
   std::array<std::uint64_t, 256> packing{};

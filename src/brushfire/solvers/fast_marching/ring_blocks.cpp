@@ -156,6 +156,7 @@ class RingBuilder {
       Fan::fill(fans_, first, count, fans);
       for (Index i = 0; i < count; ++i) {
         const Index v = first + i;
+        prefetch_unfolded(v + kUnfoldedAhead);
         rings_.layout.block_offset[v] = lanes.blocks_done();
         if (fans.plain[i]) {
           lanes.add_block(fans.block[i], fans.links[i], faces_at(v));
@@ -172,6 +173,11 @@ class RingBuilder {
         lanes.finish();
       }
     }
+  }
+
+  static constexpr Index kUnfoldedAhead = 8;
+  void prefetch_unfolded(Index v) {
+    if (v < fans_.none && first_of_[v] != kNoIndex) prefetch(&unfolded_[first_of_[v] / 2]);
   }
 
   Index faces_at(Index v) const { return fans_.corner_offsets[v + 1] - fans_.corner_offsets[v]; }
