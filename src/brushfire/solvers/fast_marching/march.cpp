@@ -103,11 +103,12 @@ BRUSHFIRE_INLINE void relax(const Rings<T>& rings, MarchState<T>& s, Index v, Ca
   }
 }
 
-// What the vertices that come up next will need: first where their blocks are, then the blocks.
+// What the vertices that come up next will need: first where their blocks are, then the blocks, then the values at the
+// ends of the sides in their first ones.
 template <class T>
 BRUSHFIRE_INLINE void prefetch(const Rings<T>& rings, const MarchState<T>& s, const Pile& bucket, std::size_t i) {
 #if defined(__GNUC__)
-  constexpr std::size_t kOffsetsAhead = 12, kBlocksAhead = 5, kCacheLine = 64;
+  constexpr std::size_t kOffsetsAhead = 12, kBlocksAhead = 5, kEndsAhead = 2, kCacheLine = 64;
   if (i + kOffsetsAhead < bucket.size()) {
     const Index v = bucket[i + kOffsetsAhead];
     __builtin_prefetch(&rings.layout.block_offset[v]);
@@ -122,6 +123,12 @@ BRUSHFIRE_INLINE void prefetch(const Rings<T>& rings, const MarchState<T>& s, co
     const char* block = reinterpret_cast<const char*>(rings.blocks.data() + first);
     const char* end = reinterpret_cast<const char*>(rings.blocks.data() + last);
     for (; block < end; block += kCacheLine) __builtin_prefetch(block);
+  }
+  if (i + kEndsAhead < bucket.size()) {
+    const Index first = rings.layout.block_offset[bucket[i + kEndsAhead]];
+    if (first < rings.blocks.size()) {  // vertices without faces have none
+      for (const Index end : rings.blocks[first].end) __builtin_prefetch(&s.front_at[end]);
+    }
   }
 #else
   (void)rings, (void)s, (void)bucket, (void)i;
