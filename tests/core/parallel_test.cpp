@@ -40,8 +40,8 @@ TEST(ThreadTeam, WhatALoopWroteIsVisibleToTheNext) {
   EXPECT_EQ(sum, 200u * (256u * 257u / 2));
 }
 
-TEST(ThreadTeam, LoopsInQuickSuccessionMissNoIndexWhetherThreadsSleepOrYieldInBetween) {
-  for (const auto idle : {ThreadTeam::Idle::Sleeps, ThreadTeam::Idle::Yields}) {
+TEST(ThreadTeam, LoopsInQuickSuccessionMissNoIndexWhetherThreadsSleepOrSpinInBetween) {
+  for (const auto idle : {ThreadTeam::Idle::Sleeps, ThreadTeam::Idle::Spins}) {
     ThreadTeam team(5, idle);
     std::vector<std::uint64_t> sums(16, 0);
     constexpr std::uint64_t kLoops = 3000;

@@ -39,6 +39,20 @@ TEST(Path, ToEdgePointsByEitherNameOverVerticesExactlyIsJudgedGood) {
   }
 }
 
+// A ray that passes a vertex at 1e-9 of an edge goes on from the vertex; the length is counted up to there.
+TEST(Path, PastVerticesOfANearlyFlatGridIsAsLongAsTheStraightLine) {
+  const Mesh mesh = shapes::plane(30, 20, 1, 1e-4).mesh();
+  const Source source{{mesh.face_count() / 2, {0, 0.5, 0.5}}};
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_paths = true;
+  const DistanceField field = distance(mesh, {&source, 1}, options);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const double straight = norm(mesh.positions()[v] - position(mesh, source.point));
+    EXPECT_NEAR(path_to(*field.windows, vertex_point(mesh, v)).length, straight, 1e-13) << "vertex " << v;
+  }
+}
+
 TEST(Path, OnScansAndDirtyMeshesIsJudgedGood) {
   BRUSHFIRE_NEEDS_SHARED_DATA();
   for (const std::string& name : test::shared_mesh_names()) {

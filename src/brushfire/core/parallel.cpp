@@ -105,16 +105,25 @@ class LoopWord {
   std::atomic<std::uint64_t> word_{0};
 };
 
-// Looks for a tenth of a millisecond whether `done`, and lets other threads run in between.
+// Lets the processor's other half work, where there is one.
+void pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__) && defined(__GNUC__)
+  __asm__ volatile("yield");
+#endif
+}
+
+// Looks again and again whether `done`, for as long as going to sleep and waking up again would take.
 template <class Done>
 bool comes_soon(const Done& done) {
-  constexpr int kLooks = 256;  // between two glances at the clock
-  constexpr std::chrono::microseconds kPatience{100};
+  constexpr int kLooks = 64;  // between two glances at the clock
+  constexpr std::chrono::microseconds kPatience{50};
   const auto begin = std::chrono::steady_clock::now();
   do {
     for (int i = 0; i < kLooks; ++i) {
       if (done()) return true;
-      if (i % 16 == 15) std::this_thread::yield();
+      pause();
     }
   } while (std::chrono::steady_clock::now() - begin < kPatience);
   return false;
@@ -123,12 +132,12 @@ bool comes_soon(const Done& done) {
 }  // namespace
 
 struct ThreadTeam::State {
-  explicit State(Idle idle) : yields(idle == Idle::Yields) {}
+  explicit State(Idle idle) : spins(idle == Idle::Spins) {}
 
   LoopWord word;
   Loop* loop = nullptr;  // valid for those who have joined
   std::atomic<bool> quit{false};
-  const bool yields;
+  const bool spins;
 
   std::mutex mutex;
   std::condition_variable wake, done;
@@ -156,7 +165,7 @@ struct ThreadTeam::State {
   // False when the team is dissolved.
   bool wait_for_loop(std::uint64_t seen) {
     const auto called = [&] { return quit.load() || word.is_news(seen); };
-    if (!(yields && comes_soon(called))) {
+    if (!(spins && comes_soon(called))) {
       std::unique_lock lock(mutex);
       ++sleepers;  // before the last look: who opens a loop looks for sleepers afterwards
       wake.wait(lock, called);
@@ -173,7 +182,7 @@ struct ThreadTeam::State {
 
   void wait_for_helpers() {
     const auto over = [&] { return !word.busy(); };
-    if (over() || (yields && comes_soon(over))) return;
+    if (over() || (spins && comes_soon(over))) return;
     std::unique_lock lock(mutex);
     caller_sleeps.store(true);
     done.wait(lock, over);

@@ -19,9 +19,10 @@ class ThreadTeam {
  public:
   // worker < size() numbers the thread, index the piece of work.
   using Body = std::function<void(unsigned worker, std::size_t index)>;
-  // What threads do that have nothing to do. Sleeps: they block. Yields: for the first tenth of a millisecond they look
-  // for the next loop again and again and let others run in between, for loops of microseconds in quick succession.
-  enum class Idle : std::uint8_t { Sleeps, Yields };
+  // What threads do that have nothing to do. Sleeps: they block. Spins: for the first 50 us they look
+  // for the next loop again and again, for loops of microseconds in quick succession. (Yielding instead is cheap on an
+  // idle machine; on a loaded one it gives away milliseconds at a time.)
+  enum class Idle : std::uint8_t { Sleeps, Spins };
 
   explicit ThreadTeam(unsigned threads, Idle idle = Idle::Sleeps);
   ~ThreadTeam();

@@ -267,11 +267,12 @@ TEST(ExactLists, SourcesOnTheEdgeKeepTheirWholeInterval) {
 TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
   Random random(6);
   ExactLists lists;
+  BlockPool blocks;
   Index face = kNoIndex;
   const auto one = [&](Index root) {
     Window w = random.window(1);
     w.root = root;
-    return list_of({w}, lists.blocks());
+    return list_of({w}, blocks);
   };
   lists.put(face, 7, Origin::End, one(3));
   lists.put(face, 6, Origin::Start, one(9));
@@ -279,17 +280,17 @@ TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
   lists.put(face, 7, Origin::Start, one(1));
   Window apex = random.window(1);
   apex.root = 2;
-  lists.put(face, 7, Origin::Apex, apex);
+  lists.put(face, 7, Origin::Apex, apex, blocks);
   EXPECT_EQ(lists.key(face, 7), 0.25) << "the key stays with the halfedge";
   EXPECT_TRUE(lists.empty(face, 8));
-  const WindowList list = lists.take(face, 7);
+  const WindowList list = lists.take(face, 7, blocks);
   ASSERT_EQ(list.size, 3u);
   EXPECT_TRUE(list.ordered);
   for (Index i = 0; i < 3; ++i) EXPECT_EQ(list.block.columns().root[i], i + 1);
   EXPECT_TRUE(lists.empty(face, 7));
   EXPECT_FALSE(lists.empty(face, 6));
   lists.put(face, 6, Origin::Start, one(10));
-  const WindowList twice = lists.take(face, 6);
+  const WindowList twice = lists.take(face, 6, blocks);
   EXPECT_EQ(twice.size, 2u);
   EXPECT_FALSE(twice.ordered) << "two lists of one origin may lie anyhow";
   EXPECT_EQ(face, kNoIndex);

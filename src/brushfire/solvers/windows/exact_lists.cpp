@@ -81,7 +81,7 @@ void ExactLists::put(Index& first, Index h, Origin origin, const WindowList& lis
   }
 }
 
-void ExactLists::put(Index& first, Index h, Origin origin, const Window& w) {
+void ExactLists::put(Index& first, Index h, Origin origin, const Window& w, BlockPool& blocks) {
   for (Index p = find(first, h); p != kNoIndex && parts_[p].halfedge == h; p = parts_[p].next) {
     WindowList& list = parts_[p].list;
     if (parts_[p].origin != origin || list.size == list.block.capacity()) continue;
@@ -90,13 +90,13 @@ void ExactLists::put(Index& first, Index h, Origin origin, const Window& w) {
     return;
   }
   WindowList list;
-  list.block = blocks_.allocate(1);
+  list.block = blocks.allocate(1);
   list.block.columns().set(0, w);
   list.size = 1;
   put(first, h, origin, list);
 }
 
-WindowList ExactLists::take(Index& first, Index h) {
+WindowList ExactLists::take(Index& first, Index h, BlockPool& blocks) {
   Index* link = &first;
   while (parts_[*link].halfedge != h) link = &parts_[*link].next;
   const Index head = *link;
@@ -109,7 +109,7 @@ WindowList ExactLists::take(Index& first, Index h) {
   *link = end;
   WindowList result = parts_[head].list;
   if (last != head) {
-    result = {blocks_.allocate(total), 0, 0, true};
+    result = {blocks.allocate(total), 0, 0, true};
     const WindowColumns all = result.block.columns();
     for (Index p = head; p != end; p = parts_[p].next) {
       const WindowList& part = parts_[p].list;
@@ -117,7 +117,7 @@ WindowList ExactLists::take(Index& first, Index h) {
       result.size += part.size;
       result.age = std::max(result.age, part.age);
       result.ordered = result.ordered && part.ordered && parts_[p].origin != Origin::Anywhere;
-      blocks_.release(part.block);
+      blocks.release(part.block);
     }
   }
   parts_[last].next = free_part_;
@@ -141,7 +141,6 @@ void ExactLists::prefetch_windows(Index first) const {
 void ExactLists::clear() {
   parts_.clear();
   free_part_ = kNoIndex;
-  blocks_.clear();
 }
 
 }  // namespace brushfire::detail

@@ -1,9 +1,18 @@
 // Which faces hold which targets.
 #include <brushfire/solvers/windows/detail/targets.h>
 
+#include <brushfire/solvers/detail/start.h>
+
 #include <tuple>
 
 namespace brushfire::detail {
+
+std::array<double, 3> corner_distances_of(const WindowStructure& structure, const FaceWeights& at) {
+  PointLocation here;
+  here.face = structure.outer_face(at.face);
+  here.weights = at.weights;
+  return corner_distances(structure.mesh, here);
+}
 
 void Targets::place(std::span<const PointLocation> targets, WindowStructure& structure) {
   clear(structure);

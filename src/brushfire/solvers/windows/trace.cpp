@@ -78,9 +78,11 @@ class Tracer {
     const double straight = root_is_here || along == 0 ? at.source.x : across / along;
     const double x = std::clamp(straight, 0.0, length);
     const double so_far = at.length + length_of(at.point.x - x, at.point.y);
-    if (x <= kThroughVertex * length && ends_at_vertex(mesh_.from(h), h % 3, h, at.length, so_far, leg)) return true;
-    if (x >= (1 - kThroughVertex) * length && ends_at_vertex(mesh_.to(h), next3(h % 3), h, at.length, so_far, leg))
-      return true;
+    const auto ends_at_end = [&](Index v, Index corner, double place) {
+      return ends_at_vertex(v, corner, h, at.length, at.length + length_of(at.point.x - place, at.point.y), leg);
+    };
+    if (x <= kThroughVertex * length && ends_at_end(mesh_.from(h), h % 3, 0)) return true;
+    if (x >= (1 - kThroughVertex) * length && ends_at_end(mesh_.to(h), next3(h % 3), length)) return true;
     if (std::abs(straight - x) > kAtRoot * value_) return false;
     // On a shortest path the value here is what is left of it, which bounds the values at the edge's ends: this tells
     // the right sheet over a non-manifold edge from the others within a few faces.

@@ -101,17 +101,15 @@ struct WindowList {
 // (WindowFace::waiting).
 class ExactLists {
  public:
-  BlockPool& blocks() { return blocks_; }
-
   bool empty(Index first, Index h) const { return find(first, h) == kNoIndex; }
   // The key under which h's lists were queued last; infinity before that. Something must wait at h.
   double& key(Index first, Index h) { return parts_[find(first, h)].key; }
 
   // The list waits at h from now on; its block is the caller's no longer.
   void put(Index& first, Index h, Origin origin, const WindowList& list);
-  void put(Index& first, Index h, Origin origin, const Window& w);
+  void put(Index& first, Index h, Origin origin, const Window& w, BlockPool& blocks);
   // All that waits at h as one list, from origin to origin; something must. The caller releases the block.
-  WindowList take(Index& first, Index h);
+  WindowList take(Index& first, Index h, BlockPool& blocks);
 
   void prefetch_list(Index first) const {
     if (first != kNoIndex) prefetch(&parts_[first]);
@@ -136,7 +134,6 @@ class ExactLists {
 
   std::vector<Part> parts_;
   Index free_part_ = kNoIndex;  // freed ones, linked by next
-  BlockPool blocks_;
 };
 
 }  // namespace brushfire::detail

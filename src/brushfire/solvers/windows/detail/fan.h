@@ -63,7 +63,7 @@ inline bool next_in_fan(const WindowStructure& mesh, Index vertex, Index start, 
   const Index entry = mesh.faces[exit / 3].opposite[exit % 3];
   if (entry == exit || entry / 3 == start) return false;
   at.face = entry / 3;
-  at.forwards = mesh.faces[at.face].vertex[entry % 3] == vertex;
+  at.forwards = mesh.is_same(mesh.faces[at.face].vertex[entry % 3], vertex);
   at.corner = at.forwards ? entry % 3 : next3(entry % 3);
   return true;
 }

@@ -3,9 +3,12 @@
 
 namespace brushfire::detail {
 
-inline void prefetch([[maybe_unused]] const void* address) {
+[[gnu::always_inline]] inline void prefetch([[maybe_unused]] const void* address) {
 #if defined(__GNUC__)
   __builtin_prefetch(address);
+  // Without this, GCC takes functions that do nothing but prefetch for functions without effect and drops calls of
+  // them.
+  __asm__ volatile("" : : "r"(address));
 #endif
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace brushfire::detail {
@@ -16,14 +17,15 @@ class EventQueue {
  public:
   EventQueue() : buckets_(kBuckets) {}
 
-  void reset(double width) {
+  // Buckets of this width from number `current` on; later ones may be pushed.
+  void reset(double width, std::int64_t current) {
     if (!empty()) {  // left over from a run that was stopped
       for (Bucket& b : buckets_) b.clear();
       far_.clear();
     }
     buckets_[current_ % kBuckets].clear();  // events that were taken stay until their bucket is done
     inverse_width_ = 1 / width;
-    current_ = 0;
+    current_ = current;
     near_count_ = 0;
     list_position_ = vertex_position_ = 0;
   }
@@ -33,8 +35,6 @@ class EventQueue {
   bool same_bucket(double a, double b) const { return number(a) == number(b); }
   // The bucket of a key.
   std::int64_t turn_of(double key) const { return number(key); }
-  // No event that is still to come was pushed with a key below this one (but for those that were late already).
-  double current_key() const { return static_cast<double>(current_) / inverse_width_; }
 
   void push_list(Index h, double key) { push({key, h, true}, number(key)); }
   void push_list(Index h, double key, std::int64_t turn) { push({key, h, true}, turn); }
@@ -45,23 +45,50 @@ class EventQueue {
     Index index;
     bool is_list;
   };
-  // Takes the next event; the queue must not be empty.
-  Event pop() {
+  // Goes on to the next bucket with events up to number `last`; false where there is none.
+  bool advance_to(std::int64_t last) {
     while (true) {
       Bucket& b = buckets_[current_ % kBuckets];
-      if (list_position_ < b.lists.size()) {
-        --near_count_;
-        return {0, b.lists[list_position_++], true};
-      }
-      if (vertex_position_ < b.vertices.size()) {
-        --near_count_;
-        return {0, b.vertices[vertex_position_++], false};
-      }
+      if (list_position_ < b.lists.size() || vertex_position_ < b.vertices.size()) return true;
       spare_.give(b.lists);
       spare_.give(b.vertices);
       list_position_ = vertex_position_ = 0;
-      advance();
+      if (empty()) current_ = std::max(current_, last);
+      if (current_ >= last) return false;
+      advance(last);
     }
+  }
+  // Takes the next event of the buckets up to number `last`; false where there is none.
+  [[gnu::always_inline]] bool pop(std::int64_t last, Event& event) {
+    do {
+      Bucket& b = buckets_[current_ % kBuckets];
+      if (list_position_ < b.lists.size()) {
+        --near_count_;
+        event = {0, b.lists[list_position_++], true};
+        return true;
+      }
+      if (vertex_position_ < b.vertices.size()) {
+        --near_count_;
+        event = {0, b.vertices[vertex_position_++], false};
+        return true;
+      }
+    } while (advance_to(last));
+    return false;
+  }
+  // The number of the bucket of the next event, and how many events it holds; kNever where there is none.
+  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  struct Next {
+    std::int64_t turn = kNever;
+    std::size_t events = 0;
+  };
+  Next next() const {
+    Next next;
+    for (const Event& e : far_) next.turn = std::min(next.turn, number(e.key));
+    if (near_count_ == 0) return next;
+    std::int64_t n = current_;
+    std::size_t taken = list_position_ + vertex_position_;
+    while (buckets_[n % kBuckets].size() == taken) ++n, taken = 0;
+    return n <= next.turn ? Next{n, buckets_[n % kBuckets].size() - taken} : next;
   }
   // The halfedge of the list event that is `ahead` places behind the next one, where known; for prefetching.
   Index peek_list(std::size_t ahead) const {
@@ -70,9 +97,10 @@ class EventQueue {
   }
 
  private:
-  static constexpr std::int64_t kBuckets = 1 << 12;
+  static constexpr std::int64_t kBuckets = 1 << 10;
   struct Bucket {
     std::vector<Index> lists, vertices;
+    std::size_t size() const { return lists.size() + vertices.size(); }
     void clear() {
       lists.clear();
       vertices.clear();
@@ -117,13 +145,13 @@ class EventQueue {
   }
 
   // The ring of buckets begins anew at multiples of its size, or where the next far event is if the ring is empty.
-  void advance() {
+  void advance(std::int64_t last) {
     ++current_;
     if (far_.empty() || (near_count_ > 0 && current_ % (kBuckets / 2) != 0)) return;
     if (near_count_ == 0) {
       double least = kInfinity;
       for (const Event& e : far_) least = std::min(least, e.key);
-      current_ = std::max(current_, number(least));
+      current_ = std::max(current_, std::min(last, number(least)));
     }
     moving_.swap(far_);
     for (const Event& e : moving_) push(e, number(e.key));

@@ -1,10 +1,12 @@
-// What a run needs to know of the mesh: face records, and at which vertices paths may bend.
+// What a run needs to know of the mesh: face records, at which vertices paths may bend, and the parts of the mesh.
 #pragma once
 
 #include <brushfire/mesh/locality_order.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/windows/detail/face.h>
 
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace brushfire::detail {
@@ -17,22 +19,53 @@ enum class Bend : std::uint8_t { None, Saddle, Boundary, Full };
 
 // Vertices and faces are renumbered so that neighbours are near each other in memory; corners keep their places in
 // their faces. "Inner" numbers are used everywhere in a run, the mesh's own only to and from the caller.
+//
+// The faces are cut into parts, runs of as many consecutive ones, on which threads work side by side. Every part has
+// vertices of its own: a vertex whose faces belong to several parts has an inner number in each of them, and these are
+// its copies. How a mesh is cut depends on nothing but the mesh.
 struct WindowStructure {
-  explicit WindowStructure(const Mesh& mesh);
+  // 2^part_bits faces are a part.
+  explicit WindowStructure(const Mesh& mesh, unsigned part_bits);
 
+  // Copies counted.
   Index vertex_count() const { return static_cast<Index>(bend.size()); }
-  Index inner_vertex(Index v) const { return order.vertex_rank[v]; }
+  Index inner_vertex(Index v) const { return order.vertex_rank[v]; }  // the first of its copies
   Index outer_vertex(Index v) const { return order.vertices[v]; }
   Index inner_face(Index f) const;  // O(log faces): sources and targets ask, the run itself hardly ever
   Index outer_face(Index f) const { return order.faces[f]; }
   Index inner_halfedge(Index h) const { return 3 * inner_face(h / 3) + h % 3; }
   Index outer_halfedge(Index h) const { return 3 * order.faces[h / 3] + h % 3; }
 
-  Mesh mesh;  // the caller's
-  LocalityOrder order;
-  std::vector<WindowFace> faces;  // [face_count]
-  std::vector<Bend> bend;         // [vertex_count]
-  double bucket_width = 1;        // half a typical edge
+  Index part_count() const { return static_cast<Index>(first_vertex.size()) - 1; }
+  Index part_of_face(Index f) const { return f >> part_bits; }
+  Index part_of_vertex(Index v) const;  // O(log parts)
+  bool is_in(Index part, Index v) const { return first_vertex[part] <= v && v < first_vertex[part + 1]; }
+
+  // A vertex with several copies: where it is in `copies`; the copies of one vertex form a ring.
+  struct Copy {
+    Index vertex, next;
+  };
+  // Whether these are copies of the same vertex.
+  bool is_same(Index v, Index w) const { return v == w || (!copies.empty() && outer_vertex(v) == outer_vertex(w)); }
+  // The next copy of the same vertex; kNoIndex where there is one only. O(log copies).
+  Index next_copy(Index v) const;
+  // v's copy in a part; kNoIndex: it has none there.
+  Index copy_in(Index part, Index v) const;
+  std::span<WindowFace> faces_of(Index part);
+
+  Mesh mesh;                        // the caller's
+  LocalityOrder order;              // vertices: [vertex_count()] inner to outer
+  std::vector<WindowFace> faces;    // [face_count]
+  std::vector<Bend> bend;           // [vertex_count()]
+  std::vector<Index> first_vertex;  // [parts + 1]
+  std::vector<Copy> copies;         // ascending
+  unsigned part_bits = 0;
+  double bucket_width = 1;  // half a typical edge
+
+ private:
+  void cut_into_parts();
+  void renumber(const std::vector<Index>& places);
+  void close_rings(const std::vector<std::pair<Index, Index>>& links);
 };
 
 // The angle at corner i.

@@ -24,6 +24,9 @@ struct TargetState {
   Ray ray;
 };
 
+// From a point of an inner face to the face's corners.
+std::array<double, 3> corner_distances_of(const WindowStructure& structure, const FaceWeights& at);
+
 class Targets {
  public:
   // Forgets the targets of the run before and marks the faces of these.

@@ -1,4 +1,5 @@
-// What a run knows of a vertex, in three arrays: apart, so that the hot one stays small.
+// What a run knows of a vertex, in three arrays: apart, so that the hot one stays small. (Of every copy of a vertex:
+// see WindowStructure.)
 #pragma once
 
 #include <brushfire/solvers/windows/detail/fan.h>
@@ -6,11 +7,17 @@
 namespace brushfire::detail {
 
 // What every window that passes a vertex reads.
-struct VertexValues {
+struct alignas(32) VertexValues {
   double upper = kInfinity;     // length of the shortest real path known
   double lower = kInfinity;     // least value of the windows that see the vertex, after merging
   double estimate = kInfinity;  // the least distance that a window expected that saw it, before merging
+  Index next_copy = kNoIndex;   // in another part; the copies of a vertex form a ring. kNoIndex: there is one only
+  bool sent = false;            // among the news that are about to be sent to the other copies
+
+  bool has_copies() const { return next_copy != kNoIndex; }
+  void forget() { *this = {kInfinity, kInfinity, kInfinity, next_copy, false}; }
 };
+static_assert(sizeof(VertexValues) == 32);
 
 // What a vertex where paths may bend needs to send light on.
 struct VertexLight {
