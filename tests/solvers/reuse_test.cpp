@@ -16,7 +16,7 @@ struct Way {
 };
 
 // Queues and what a start looks at.
-constexpr std::size_t kHardlyAny = 12;
+constexpr std::size_t kHardlyAny = 0;
 
 std::string name_of(const Way& way) {
   return std::string(name_of(way.method)) + (way.precision == Precision::Float ? " in float" : " in double");

@@ -108,10 +108,10 @@ class WindowEngine final : public Engine {
       active_part(structure.part_of_vertex(v)).start_at_vertex(v, sigma, root);
       return;
     }
-    for (const FaceWeights& f : faces_around(structure.mesh, s.at)) {
+    for_each_face_around(structure.mesh, s.at, [&](const FaceWeights& f) {
       const Index face = structure.inner_face(f.face);
       active_part(structure.part_of_face(face)).start_in_face({face, f.weights}, sigma, root, benches_.front());
-    }
+    });
   }
 
   // ---- rounds

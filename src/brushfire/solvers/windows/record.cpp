@@ -21,17 +21,8 @@ void WindowFieldData::keep(std::span<const KeptWindow> windows) {
 }
 
 std::vector<FaceWeights> faces_around(const Mesh& mesh, const PointLocation& at) {
-  std::vector<FaceWeights> result{{at.face, at.weights}};
-  if (at.on != PointLocation::On::Edge) return result;
-  const Index h = at.halfedge, from = mesh.from(h);
-  const auto opposite = mesh.opposite();
-  for (Index g = opposite[h]; g != h; g = opposite[g]) {
-    FaceWeights other{Mesh::face_of(g), {0, 0, 0}};
-    const bool same_way = mesh.from(g) == from;
-    other.weights[g % 3] = at.weights[same_way ? h % 3 : next3(h % 3)];
-    other.weights[next3(g % 3)] = at.weights[same_way ? next3(h % 3) : h % 3];
-    result.push_back(other);
-  }
+  std::vector<FaceWeights> result;
+  for_each_face_around(mesh, at, [&](const FaceWeights& f) { result.push_back(f); });
   return result;
 }
 

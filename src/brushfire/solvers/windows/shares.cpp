@@ -2,6 +2,7 @@
 #include <brushfire/solvers/windows/detail/shares.h>
 
 #include <algorithm>
+#include <chrono>
 
 namespace brushfire::detail {
 
@@ -30,6 +31,21 @@ void Shares::deal(const std::vector<Due>& due) {
     if (owner != kNobody) load_[owner] -= d.load;
     load_[least] += d.load;
     owner = least;
+  }
+}
+
+Index Shares::left_over() const {
+  constexpr std::chrono::microseconds kPatience{20};  // what a part takes, more or less
+  const auto begin = std::chrono::steady_clock::now();
+  while (true) {
+    std::size_t count = 0;
+    Index last = kNoIndex;
+    for (const Due& d : *due_) {
+      if (taken_[d.part].load(std::memory_order_relaxed)) continue;
+      ++count;
+      last = d.part;
+    }
+    if (count != 1 || std::chrono::steady_clock::now() - begin > kPatience) return last;
   }
 }
 

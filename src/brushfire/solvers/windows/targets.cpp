@@ -19,11 +19,11 @@ void Targets::place(std::span<const PointLocation> targets, WindowStructure& str
   states_.assign(targets.size(), {});
   for (Index i = 0; i < size(); ++i) {
     if (targets[i].on == PointLocation::On::Vertex) continue;
-    for (const FaceWeights& f : faces_around(structure.mesh, targets[i])) {
+    for_each_face_around(structure.mesh, targets[i], [&](const FaceWeights& f) {
       const Index face = structure.inner_face(f.face);
       in_faces_.push_back({face, i, f.weights});
       structure.faces[face].has_target = true;
-    }
+    });
   }
   std::sort(in_faces_.begin(), in_faces_.end(), [](const TargetInFace& a, const TargetInFace& b) {
     return std::tie(a.face, a.target) < std::tie(b.face, b.target);

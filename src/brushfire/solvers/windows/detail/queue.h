@@ -107,12 +107,14 @@ class EventQueue {
     }
   };
 
-  // Memory of emptied buckets, for the next ones to be filled: few buckets hold events at a time.
+  // Memory of emptied buckets, for the next ones to be filled: few buckets hold events at a time. All are made as large
+  // as the largest was, so that a run like the one before finds room enough whichever it takes.
   class Spare {
    public:
     void give(std::vector<Index>& events) {
       events.clear();
       if (events.capacity() == 0) return;
+      largest_ = std::max(largest_, events.capacity());
       free_.emplace_back();
       free_.back().swap(events);
     }
@@ -120,10 +122,12 @@ class EventQueue {
       if (free_.empty()) return;
       events.swap(free_.back());
       free_.pop_back();
+      events.reserve(largest_);
     }
 
    private:
     std::vector<std::vector<Index>> free_;
+    std::size_t largest_ = 0;
   };
 
   std::int64_t number(double key) const {

@@ -55,6 +55,20 @@ struct FaceWeights {
   Index face;
   std::array<double, 3> weights;
 };
+template <class Visit>
+void for_each_face_around(const Mesh& mesh, const PointLocation& at, Visit&& visit) {
+  visit(FaceWeights{at.face, at.weights});
+  if (at.on != PointLocation::On::Edge) return;
+  const Index h = at.halfedge, from = mesh.from(h);
+  const auto opposite = mesh.opposite();
+  for (Index g = opposite[h]; g != h; g = opposite[g]) {
+    FaceWeights other{Mesh::face_of(g), {0, 0, 0}};
+    const bool same_way = mesh.from(g) == from;
+    other.weights[g % 3] = at.weights[same_way ? h % 3 : next3(h % 3)];
+    other.weights[next3(g % 3)] = at.weights[same_way ? next3(h % 3) : h % 3];
+    visit(other);
+  }
+}
 std::vector<FaceWeights> faces_around(const Mesh& mesh, const PointLocation& at);
 
 }  // namespace brushfire::detail

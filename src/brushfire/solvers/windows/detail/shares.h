@@ -23,19 +23,27 @@ class Shares {
   void reset(std::size_t parts, unsigned threads);
   // The parts of a round, for the threads.
   void deal(const std::vector<Due>& due);
-  // All that falls to `thread` in this round, and then what others have not begun: work(part). For all threads at once.
+  // All that falls to `thread` in this round, and then what others do not come to: work(part). For all threads at once;
+  // when it has returned to one of them, everything has been taken.
   template <class Work>
   void take(unsigned thread, const Work& work) {
-    for (const bool own : {true, false}) {
-      for (const Due& d : *due_) {
-        if ((owner_[d.part] == thread) != own || taken_[d.part].load(std::memory_order_relaxed)) continue;
-        if (!taken_[d.part].exchange(true, std::memory_order_relaxed)) work(d.part);
-      }
+    for (const Due& d : *due_) {
+      if (owner_[d.part] == thread && claim(d.part)) work(d.part);
+    }
+    for (Index p = left_over(); p != kNoIndex; p = left_over()) {
+      if (claim(p)) work(p);
     }
   }
 
  private:
   static constexpr unsigned kNobody = ~0u;
+
+  bool claim(Index part) {
+    return !taken_[part].load(std::memory_order_relaxed) && !taken_[part].exchange(true, std::memory_order_relaxed);
+  }
+  // A part to help out with: its owner has another one to go before it, or does not come. Waits until there is one;
+  // kNoIndex: all are taken.
+  Index left_over() const;
 
   const std::vector<Due>* due_ = nullptr;
   std::vector<unsigned> owner_;           // [parts]
