@@ -54,16 +54,6 @@ struct Result {
   double proven = kInfinity;  // the largest of the fields' own bounds
 };
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::InvalidArgument, what); }
-
-std::size_t whole(const std::optional<double>& value, std::size_t otherwise, std::size_t high, const char* name) {
-  if (!value) return otherwise;
-  if (!(*value >= 1 && *value <= static_cast<double>(high)) || *value != std::floor(*value)) {
-    refuse(std::string(name) + " takes a whole number from 1 to " + std::to_string(high));
-  }
-  return static_cast<std::size_t>(*value);
-}
-
 // Methods that compute in float or double as asked.
 bool has_precision(Method method) { return method == Method::NovotniKlein || method == Method::KimmelSethian; }
 
@@ -81,7 +71,8 @@ DistanceOptions method_of(const std::string& text) {
   } else if (options.method == Method::Windows) {
     const char* end = detail.data() + detail.size();
     const auto [stop, status] = std::from_chars(detail.data(), end, options.tolerance);
-    if (status != std::errc() || stop != end || !(options.tolerance >= 0 && options.tolerance <= kMaxTolerance)) {
+    const bool fits = options.tolerance >= 0 && options.tolerance <= kMaxTolerance;
+    if (status != std::errc() || stop != end || !fits) {
       refuse("'" + text + "': a tolerance is a number from 0 to 0.1");
     }
   } else {
@@ -100,10 +91,10 @@ std::string name_of(const DistanceOptions& options) {
 
 Plan plan_of(const Arguments& a) {
   Plan plan;
-  constexpr std::size_t kMany = 100000, kMostThreads = 1024;
-  plan.source_count = whole(a.source_count, 1, kMany, "--sources");
-  plan.repetitions = whole(a.repeat, 5, kMany, "--repeat");
-  plan.threads = static_cast<unsigned>(whole(a.threads, 1, kMostThreads, "--threads"));
+  constexpr int kMany = 100000, kMostThreads = 1024;
+  plan.source_count = static_cast<std::size_t>(whole_number(a.source_count, 1, 1, kMany, "--sources"));
+  plan.repetitions = static_cast<std::size_t>(whole_number(a.repeat, 5, 1, kMany, "--repeat"));
+  plan.threads = static_cast<unsigned>(whole_number(a.threads, 1, 1, kMostThreads, "--threads"));
   if (a.source_count && !a.sources.empty()) refuse("--sources N chooses vertices, --source names places: give one");
   for (const std::string& text : a.methods) plan.methods.push_back(method_of(text));
   if (!a.methods.empty()) return plan;

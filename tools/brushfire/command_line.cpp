@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <new>
@@ -175,6 +176,17 @@ int CommandLine::run(int argc, const char* const* argv) {
   } catch (const std::exception& e) {
     return fail(kInternal, std::string("internal error: ") + e.what());
   }
+}
+
+void refuse(const std::string& what) { throw Error(ErrorCode::InvalidArgument, what); }
+
+int whole_number(const std::optional<double>& value, int otherwise, int low, int high, const char* option) {
+  if (!value) return otherwise;
+  const bool fits = *value >= low && *value <= high && *value == std::floor(*value);
+  if (!fits) {
+    refuse(std::string(option) + " takes a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  }
+  return static_cast<int>(*value);
 }
 
 std::vector<VerbNames> CommandLine::names() const {

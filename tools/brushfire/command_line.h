@@ -14,14 +14,12 @@
 namespace brushfire::tool {
 
 // How the program ends. Scripts rely on these numbers.
-enum ExitCode : int {
-  kOk = 0,
-  kInternal = 1,     // a bug, no memory, an output that cannot be written
-  kUsage = 2,        // an argument that is not understood or names something that is not in the mesh
-  kBadInput = 3,     // an input file that cannot be read or is not a mesh
-  kUnreachable = 4,  // a target that no source reaches
-  kInterrupted = 130,
-};
+inline constexpr int kOk = 0;
+inline constexpr int kInternal = 1;     // a bug, no memory, an output that cannot be written
+inline constexpr int kUsage = 2;        // an argument that is not understood or names something that is not in the mesh
+inline constexpr int kBadInput = 3;     // an input file that cannot be read or is not a mesh
+inline constexpr int kUnreachable = 4;  // a target that no source reaches
+inline constexpr int kInterrupted = 130;
 
 // Thrown by a verb whose answer is that there is no way: what() says to where.
 class Unreachable : public std::runtime_error {
@@ -29,6 +27,12 @@ class Unreachable : public std::runtime_error {
   explicit Unreachable(const std::string& where)
       : std::runtime_error("no source reaches '" + where + "' (within the radius, if one was given)") {}
 };
+
+// An argument that is not understood: the program ends with `what` on stderr and kUsage.
+[[noreturn]] void refuse(const std::string& what);
+// The value of an option that takes whole numbers from `low` to `high`, or `otherwise` where it was not given. Refuses
+// others.
+int whole_number(const std::optional<double>& value, int otherwise, int low, int high, const char* option);
 
 // One verb, while it is being described: its arguments are bound to variables that its body then reads.
 class Verb {

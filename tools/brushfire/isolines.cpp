@@ -35,8 +35,6 @@ struct Arguments {
   std::optional<double> every, count, curved;
 };
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::InvalidArgument, what); }
-
 void check(const Arguments& a) {
   if (a.sources.empty() == a.scalar_file.empty()) refuse("give --source (the distance from there) or --scalar");
   if (!a.levels.empty() + a.every.has_value() + a.count.has_value() != 1) {

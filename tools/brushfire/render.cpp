@@ -14,6 +14,7 @@
 #include <brushfire/solvers/distance.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -46,8 +47,6 @@ struct Arguments {
   bool error = false, ambient_occlusion = false;
 };
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::InvalidArgument, what); }
-
 // "1024x768", "0,2.5": two numbers and what stands between them.
 std::pair<double, double> two_numbers(const std::string& text, char between, const char* what) {
   const std::size_t at = text.find(between, 1);
@@ -61,14 +60,6 @@ std::pair<double, double> two_numbers(const std::string& text, char between, con
     refuse("'" + text + "': " + what);
   }
   return out;
-}
-
-int whole(const std::optional<double>& value, int otherwise, int low, int high, const char* name) {
-  if (!value) return otherwise;
-  if (!(*value >= low && *value <= high) || *value != std::floor(*value)) {
-    refuse(std::string(name) + " takes a whole number from " + std::to_string(low) + " to " + std::to_string(high));
-  }
-  return static_cast<int>(*value);
 }
 
 // The scale of the distances (or other values), and the scale of the errors.
@@ -101,7 +92,7 @@ RenderOptions options_of(const Arguments& a) {
   options.transparent = a.transparent;
   options.wireframe = a.wireframe;
   options.font = a.font;
-  options.samples = whole(a.samples, options.samples, 1, 8, "--samples");
+  options.samples = whole_number(a.samples, options.samples, 1, 8, "--samples");
   options.camera.up = a.up == "x" ? Axis::X : a.up == "z" ? Axis::Z : Axis::Y;
   if (!a.view.empty()) options.camera = named_view(a.view, options.camera);
   options.camera.azimuth = a.azimuth.value_or(options.camera.azimuth);
@@ -295,12 +286,11 @@ std::pair<double, double> extent_of(const std::vector<Panel>& panels) {
 // The same levels in all panels: N of them evenly between the least and the greatest value, ends left out.
 void add_isolines(const Arguments& a, std::vector<Panel>& panels) {
   constexpr int kDefaultBands = 20;
-  const int count = whole(a.isolines, a.bands ? kDefaultBands : 0, 0, 10000, "--isolines");
+  const int count = whole_number(a.isolines, a.bands ? kDefaultBands : 0, 0, 10000, "--isolines");
   const auto [low, high] = extent_of(panels);
-  if (!(high > low)) return;
   for (Panel& p : panels) {
     if (p.scale != kValues) continue;
-    for (int i = 1; i <= count; ++i) p.isolines.push_back(low + (high - low) * i / (count + 1));
+    p.isolines = levels_between(std::array{low, high}, static_cast<Index>(count));
   }
 }
 
@@ -320,7 +310,8 @@ std::string svg_of(const std::vector<Panel>& panels, const RenderOptions& option
 std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> panels, RenderOptions options,
                                        const Talk& talk) {
   const bool turning = a.turntable.has_value();
-  const int count = turning ? whole(a.turntable, 0, 2, 720, "--turntable") : whole(a.wave, 0, 2, 2000, "--wave");
+  const int count =
+      turning ? whole_number(a.turntable, 0, 2, 720, "--turntable") : whole_number(a.wave, 0, 2, 2000, "--wave");
   const double high = std::max(0.0, extent_of(panels).second);
   const double azimuth = options.camera.azimuth;
   const Progress progress = talk.progress("frames");
@@ -339,7 +330,7 @@ std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> pa
   }
   talk.end_progress();
   constexpr int kFrame = 40;
-  return encode_webp(frames, whole(a.frame_ms, kFrame, 10, 10000, "--frame-ms"));
+  return encode_webp(frames, whole_number(a.frame_ms, kFrame, 10, 10000, "--frame-ms"));
 }
 
 int render_verb(const Arguments& a, const Talk& talk) {

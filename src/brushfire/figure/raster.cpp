@@ -20,8 +20,8 @@ std::int32_t to_grid(double samples) {
 constexpr std::int64_t centre_of(int sample) { return static_cast<std::int64_t>(sample) * kSubsample + kSubsample / 2; }
 
 // The first sample whose centre is at or beyond the coordinate, and the last that is not beyond it.
-int first_sample(std::int32_t x) { return static_cast<int>((x + kSubsample / 2 - 1) >> 8); }
-int last_sample(std::int32_t x) { return static_cast<int>((x - kSubsample / 2) >> 8); }
+int first_sample(std::int32_t x) { return (x + kSubsample / 2 - 1) >> 8; }
+int last_sample(std::int32_t x) { return (x - kSubsample / 2) >> 8; }
 static_assert(kSubsample == 256, "the shifts above divide by it");
 
 // Positive to the left of a -> b in a picture whose y runs down, zero on the line.
@@ -31,12 +31,12 @@ std::int64_t edge_function(const ScreenVertex& a, const ScreenVertex& b, std::in
 
 }  // namespace
 
-Strip::Strip(int columns_, int first_row_, int rows_)
-    : columns(columns_),
-      first_row(first_row_),
-      rows(rows_),
-      depth(static_cast<std::size_t>(columns_) * rows_, -std::numeric_limits<float>::infinity()),
-      face(static_cast<std::size_t>(columns_) * rows_, kNoIndex) {}
+Strip::Strip(int width, int first, int height)
+    : columns(width),
+      first_row(first),
+      rows(height),
+      depth(static_cast<std::size_t>(width) * height, -std::numeric_limits<float>::infinity()),
+      face(static_cast<std::size_t>(width) * height, kNoIndex) {}
 
 std::vector<ScreenVertex> project(std::span<const Vec3> positions, const Projection& projection, int samples) {
   std::vector<ScreenVertex> out(positions.size());

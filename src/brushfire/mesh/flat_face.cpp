@@ -69,7 +69,7 @@ Index common_face(const Mesh& mesh, const PointLocation& a, const PointLocation&
 }
 
 double distance_within(const Mesh& mesh, Index f, const PointLocation& a, const PointLocation& b) {
-  return norm(flat_difference(flat_corners(mesh, f), *weights_in(mesh, a, f), *weights_in(mesh, b, f)));
+  return norm(flat_difference(flat_corners(mesh, f), weights_in(mesh, a, f).value(), weights_in(mesh, b, f).value()));
 }
 
 }  // namespace brushfire

@@ -6,8 +6,7 @@
 
 #include <span>
 
-namespace brushfire {
-namespace detail {
+namespace brushfire::detail {
 
 // A camera made for given points and a given rectangle of pixels.
 class Projection {
@@ -35,5 +34,4 @@ class Projection {
   double scale_ = 1, offset_x_ = 0, offset_y_ = 0;
 };
 
-}  // namespace detail
-}  // namespace brushfire
+}  // namespace brushfire::detail

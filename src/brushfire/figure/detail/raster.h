@@ -15,7 +15,7 @@ struct Strip {
   std::vector<float> depth;  // [rows * columns], -inf: nothing
   std::vector<Index> face;   // kNoIndex: nothing
 
-  Strip(int columns_, int first_row_, int rows_);
+  Strip(int width, int first, int height);  // in samples
   std::size_t at(int column, int row) const {
     return static_cast<std::size_t>(row - first_row) * static_cast<std::size_t>(columns) + column;
   }
