@@ -1,28 +1,23 @@
 // brushfire bench: what its table and its JSON say, and what it refuses.
+#include "in_folder.h"
 #include "program.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 
 namespace brushfire::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-class BenchVerb : public testing::Test {
+class BenchVerb : public InFolder {
  protected:
   void SetUp() override {
-    mesh_ = fs::path(testing::TempDir()) /
-            ("brushfire_bench_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".ply");
-    ASSERT_EQ(run_program({"shape", "torus", "-n", "600", "-o", mesh_.string(), "-q"}).code, 0);
+    ASSERT_EQ(run_program({"shape", "torus", "-n", "600", "-o", path("torus.ply"), "-q"}).code, 0);
   }
-  void TearDown() override { fs::remove(mesh_); }
 
   Ended run(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {"bench", mesh_.string()});
+    arguments.insert(arguments.begin(), {"bench", path("torus.ply")});
     return run_program(arguments);
   }
   // The value of the first such key, read as a number.
@@ -30,9 +25,6 @@ class BenchVerb : public testing::Test {
     const std::size_t at = json.find("\"" + key + "\": ", from);
     return at == std::string::npos ? -1 : std::stod(json.substr(at + key.size() + 4));
   }
-
- private:
-  fs::path mesh_;
 };
 
 TEST_F(BenchVerb, TableHasALineForEveryMethod) {

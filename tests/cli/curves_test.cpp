@@ -1,43 +1,24 @@
 // The verbs path, isolines and render as black boxes.
+#include "in_folder.h"
 #include "program.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace brushfire::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-class Curves : public testing::Test {
+class Curves : public InFolder {
  protected:
   void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("brushfire_curves_" + std::string(test->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    std::ofstream(path("islands.off")) << "OFF\n7 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n"
-                                          "3 0 1 2\n3 0 2 3\n3 4 5 6\n";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  std::string content(const std::string& name) const {
-    std::ifstream in(path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    write("islands.off", "OFF\n7 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 0 2 3\n3 4 5 6\n");
   }
   Ended run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin() + 1, path("islands.off"));
     return run_program(arguments);
   }
-
- private:
-  fs::path folder_;
 };
 
 TEST_F(Curves, PathPrintsItsLength) {

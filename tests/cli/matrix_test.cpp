@@ -1,46 +1,27 @@
 // brushfire matrix: what it writes, and what it refuses.
+#include "in_folder.h"
 #include "program.h"
 
 #include <brushfire/io/npy.h>
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 namespace brushfire::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-class MatrixVerb : public testing::Test {
+class MatrixVerb : public InFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("brushfire_matrix_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::create_directories(folder_);
-    std::ofstream(path("m.off")) << "OFF\n5 2 0\n0 0 0\n3 0 0\n3 4 0\n0 4 0\n9 9 9\n3 0 1 2\n3 0 2 3\n";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void SetUp() override { write("m.off", "OFF\n5 2 0\n0 0 0\n3 0 0\n3 4 0\n0 4 0\n9 9 9\n3 0 1 2\n3 0 2 3\n"); }
   Ended run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"matrix", path("m.off"), "--method", "exact"});
     return run_program(arguments);
   }
-  std::string content(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
- private:
-  fs::path folder_;
 };
 
 TEST_F(MatrixVerb, WritesTheDenseMatrixOfChosenRowsAndColumns) {
-  std::ofstream(path("columns.txt")) << "3 # a corner\n1.5,2,7\nf:0:0,1,0\n";
+  write("columns.txt", "3 # a corner\n1.5,2,7\nf:0:0,1,0\n");
   const Ended ended = run({"--rows", "1,4", "--cols", path("columns.txt"), "--dtype", "float64", "-o", path("d.npy")});
   EXPECT_EQ(ended.code, 0) << ended.err;
   const NpyArray d = read_npy(path("d.npy"));

@@ -17,9 +17,8 @@ struct Surroundings {
   std::string input{};        // its standard input
   bool interrupt = false;     // Ctrl-C after it has read the first half of its input
   std::string stdout_path{};  // where its standard output goes instead of Ended::out
-  bool close_stdout = false;
-  bool broken_pipe =
-      false;  // standard output is a pipe that nobody reads any more  // started without a standard output
+  bool close_stdout = false;  // started without a standard output
+  bool broken_pipe = false;   // standard output is a pipe that nobody reads any more
 };
 
 Ended run_program(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});

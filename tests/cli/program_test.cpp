@@ -1,5 +1,6 @@
 // The program as a black box: exit codes, the two streams, the one line of every error, the keys of the JSON.
 #include "program.h"
+#include "in_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -15,30 +16,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Every test has a folder of its own: a unit square, and the same with a second component and a lone vertex.
-class Program : public testing::Test {
+// A unit square, and the same with a second component and a lone vertex.
+class Program : public InFolder {
  protected:
   void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("brushfire_program_" + std::string(test->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
     write("islands.off",
           "OFF\n8 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n9 9 9\n3 0 1 2\n3 0 2 3\n3 4 5 6\n");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void write(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
-  }
   // What the program said, with the test's folder taken out.
   std::string said(const std::string& text) const {
     std::string out = text;
-    for (std::size_t at; (at = out.find(folder_.string() + "/")) != std::string::npos;) {
-      out.erase(at, folder_.string().size() + 1);
-    }
+    const std::string folder = path("");
+    for (std::size_t at; (at = out.find(folder)) != std::string::npos;) out.erase(at, folder.size());
     return out;
   }
 
@@ -49,9 +40,6 @@ class Program : public testing::Test {
     EXPECT_EQ(said(ended.err), line + "\n");
     EXPECT_EQ(ended.out, "");
   }
-
- private:
-  fs::path folder_;
 };
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -442,8 +430,7 @@ TEST_F(Program, TheReadmeKnowsTheDefaultMethod) {
   const std::string told = run_program({"distance", path("cube.ply"), "-s", "0", "--json"}).out;
   std::smatch method;
   ASSERT_TRUE(std::regex_search(told, method, std::regex("\"method\": \"([a-z0-9-]+)\"")));
-  std::ifstream file(BRUSHFIRE_SOURCE_DIR "/README.md");
-  const std::string readme{std::istreambuf_iterator<char>(file), {}};
+  const std::string readme = read_file(BRUSHFIRE_SOURCE_DIR "/README.md");
   EXPECT_NE(readme.find("| `" + method[1].str() + "` (default) |"), std::string::npos) << method[1];
 }
 

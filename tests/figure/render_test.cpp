@@ -42,6 +42,13 @@ TEST(Render, ColourFollowsTheScalarFromLeftToRight) {
   EXPECT_EQ(image.pixel(0, 0)[0], 255);                       // the margin is background
 }
 
+// How many pixels of the row something dark was drawn on.
+int darkened(const Image& image, const Image& without, int row) {
+  int dark = 0;
+  for (int x = 0; x < image.width; ++x) dark += brightness(image, x, row) < 0.6 * brightness(without, x, row);
+  return dark;
+}
+
 TEST(Render, IsolineIsADarkLineOfItsWidthAtItsLevel) {
   Panel panel = square();
   panel.isolines = {0.5};
@@ -49,9 +56,7 @@ TEST(Render, IsolineIsADarkLineOfItsWidthAtItsLevel) {
   options.line_width = 4;
   const Image image = render_one(panel, options);
   const Image without = render_one(square(), options);
-  int dark = 0;
-  for (int x = 0; x < 200; ++x) dark += brightness(image, x, 77) < 0.6 * brightness(without, x, 77);
-  EXPECT_NEAR(dark, 4, 1);
+  EXPECT_NEAR(darkened(image, without, 77), 4, 1);
   EXPECT_LT(brightness(image, 100, 77), 0.5 * brightness(without, 100, 77));
   EXPECT_EQ(image.pixel(94, 77)[1], without.pixel(94, 77)[1]);
 }
@@ -65,9 +70,7 @@ TEST(Render, IsolinesKeepTheirWidthOnTheScreenWhateverTheSlopeOfTheScalar) {
     options.line_width = 6;
     const Image image = render_one(panel, options);
     const Image without = render_one(square(), options);
-    int dark = 0;
-    for (int x = 0; x < 200; ++x) dark += brightness(image, x, 77) < 0.6 * brightness(without, x, 77);
-    EXPECT_NEAR(dark, 6, 1) << "slope " << slope;
+    EXPECT_NEAR(darkened(image, without, 77), 6, 1) << "slope " << slope;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <brushfire/queries/curved_isolines.h>
 #include <brushfire/solvers/distance.h>
 
+#include "support/holes.h"
 #include "support/path_checker.h"
 
 #include <gtest/gtest.h>
@@ -99,14 +100,8 @@ TEST(CurvedIsolines, NodesEvaluateToTheLevelOnCurvedSurfaces) {
 
 TEST(CurvedIsolines, BendAroundTheCornersOfAHoleAsCirclesAroundThem) {
   // An L: from the far end of one arm, fronts in the other arm are circles around the inner corner.
-  const Shape full = shapes::plane(6, 6, 6, 6);
-  std::vector<Face> faces;
-  for (const Face& t : full.faces) {
-    Vec3 c;
-    for (const Index v : t) c = c + (1.0 / 3) * full.positions[v];
-    if (c.x < 3 || c.y < 3) faces.push_back(t);
-  }
-  const Mesh mesh(full.positions, faces);
+  const Mesh mesh =
+      test::with_faces(shapes::plane(6, 6, 6, 6), [](Vec3 centre) { return centre.x < 3 || centre.y < 3; });
   const DistanceField field = exact_field(mesh, vertex_point(mesh, 6));  // (6, 0)
   const Vec3 corner{3, 3, 0};
   const double to_corner = norm(corner - Vec3{6, 0, 0});

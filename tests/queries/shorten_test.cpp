@@ -4,6 +4,7 @@
 #include <brushfire/queries/shorten.h>
 #include <brushfire/solvers/distance.h>
 
+#include "support/holes.h"
 #include "support/path_checker.h"
 #include "support/shared_meshes.h"
 
@@ -77,14 +78,9 @@ TEST(Shorten, PathThroughPointsInsideFacesForgetsThem) {
 
 TEST(Shorten, PathAroundAHoleStaysOnItsSideAndHugsTheCorner) {
   // 3 x 3 squares without the middle one: from the middle of the left side to that of the right, below or above.
-  const Shape full = shapes::plane(3, 3, 3, 3);
-  std::vector<Face> faces;
-  for (const Face& t : full.faces) {
-    Vec3 c;
-    for (const Index v : t) c = c + (1.0 / 3) * full.positions[v];
-    if (std::abs(c.x - 1.5) > 0.5 || std::abs(c.y - 1.5) > 0.5) faces.push_back(t);
-  }
-  const Mesh mesh(full.positions, faces);
+  const Mesh mesh = test::with_faces(shapes::plane(3, 3, 3, 3), [](Vec3 centre) {
+    return std::abs(centre.x - 1.5) > 0.5 || std::abs(centre.y - 1.5) > 0.5;
+  });
   const SurfacePath below = shorten(mesh, vertices(mesh, {4, 0, 1, 2, 3, 7}));
   const SurfacePath above = shorten(mesh, vertices(mesh, {4, 8, 12, 13, 14, 15, 11, 7}));
   EXPECT_NEAR(below.length, 3, 1e-14);  // along the row of the hole's lower side
