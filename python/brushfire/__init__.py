@@ -21,6 +21,7 @@ from brushfire._errors import BrushfireError, BrushfireIndexError
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._io import FileInfo, from_any, read
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
+from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._regions import Border, Cut, Samples, Voronoi
 
@@ -38,6 +39,7 @@ __all__ = [
     "LogMap",
     "Mesh",
     "MeshReport",
+    "Panel",
     "Path",
     "Point",
     "Points",
@@ -45,9 +47,12 @@ __all__ = [
     "Solver",
     "Voronoi",
     "__version__",
+    "animate",
     "at",
     "compare",
     "from_any",
     "methods",
     "read",
+    "render",
+    "render_svg",
 ]

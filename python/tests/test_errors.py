@@ -270,12 +270,71 @@ def test_wrong_looks_raise(look):
         bf.Mesh(V, F).render(width=32, height=32, **{"view": "top", **look})
 
 
-def test_pictures_go_into_png_files_only(tmp_path):
+def test_pictures_go_into_files_of_their_kind_only(tmp_path):
     mesh = bf.Mesh(V, F)
-    for file, code in ((tmp_path / "a.jpg", "unknown_format"), (tmp_path / "no" / "a.png", "file_not_writable")):
+    for file, code in (("a.jpg", "unknown_format"), ("a.webp", "unknown_format"), ("no/a.png", "file_not_writable")):
         with pytest.raises(bf.BrushfireError) as error:
-            mesh.render(width=32, height=32, file=file)
+            mesh.render(width=32, height=32, file=tmp_path / file)
         assert error.value.code == code
+    with pytest.raises(bf.BrushfireError) as error:
+        bf.animate(mesh.panel(), turntable=2, width=32, height=32, file=tmp_path / "a.png")
+    assert error.value.code == "unknown_format"
+
+
+@pytest.mark.parametrize(
+    "shown",
+    [
+        {"title": 3},
+        {"label_names": [1]},
+        {"scale": -1},
+        {"scale": 1},
+        {"openness": np.ones((3, 2))},
+        {"openness": np.ones((1, 3, 2))},
+        {"front": "x"},
+    ],
+    ids=str,
+)
+def test_wrong_panels_raise(shown):
+    mesh = bf.Mesh(V, F)
+    with pytest.raises(TYPED):
+        bf.render([mesh.panel(np.arange(16.0), **shown)], width=32, height=32)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"scales": 3},
+        {"scales": []},
+        {"scales": [3]},
+        {"scales": [{"nose": 1}]},
+        {"scales": [{}], "low": 0},
+        {"font": "no.ttf"},
+        {"samples": 0},
+    ],
+    ids=str,
+)
+def test_wrong_scales_and_fonts_raise(wrong):
+    mesh = bf.Mesh(V, F)
+    for draw in (bf.render, bf.render_svg):
+        with pytest.raises(TYPED):
+            draw([mesh.panel(np.arange(16.0))], **{"width": 32, "height": 32, **wrong})
+
+
+@pytest.mark.parametrize(
+    "frames",
+    [{}, {"turntable": 2, "wave": 2}, {"turntable": 1}, {"wave": 9999}, {"wave": 2, "frame_ms": 1}, {"wave": 2}],
+    ids=str,
+)
+def test_wrong_animations_raise(frames):
+    with pytest.raises(TYPED):  # the last: a wave of nothing
+        bf.animate(bf.Mesh(V, F).panel(), **frames, width=32, height=32)
+
+
+@pytest.mark.parametrize("panels", [[], 3, [3], None], ids=str)
+def test_what_is_no_panel_is_refused(panels):
+    for draw in (bf.render, bf.render_svg, lambda p: bf.animate(p, turntable=2)):
+        with pytest.raises(TYPED):
+            draw(panels)
 
 
 def test_errors_survive_pickling():

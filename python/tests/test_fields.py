@@ -115,6 +115,65 @@ def test_pictures_show_what_they_are_asked_for(plane, tmp_path):
     assert (labels != bare).any()
 
 
+LOOK = {"width": 64, "height": 48, "view": "front", "up": "y", "colour_bar": False, "samples": 1}
+
+
+def test_panels_stand_side_by_side_and_share_their_scale(plane):
+    d = plane.distance(0, method="exact")
+    alone = plane.render(d, **LOOK)
+    both = bf.render([plane.panel(d), plane.panel(d)], **LOOK)
+    assert both.shape == (48, 128, 4)
+    assert np.array_equal(both[:, :64], alone)
+    assert np.array_equal(both[:, 64:], alone)
+    shared = bf.render([plane.panel(d), plane.panel(2 * d)], **LOOK)
+    assert not np.array_equal(shared[:, :64], alone)
+    own = bf.render([plane.panel(d), plane.panel(2 * d, scale=1)], scales=[{}, {"colormap": "magma"}], **LOOK)
+    assert np.array_equal(own[:, :64], alone)
+    assert not np.array_equal(own[:, 64:], alone)
+    titled = bf.render([plane.panel(d, title="one"), plane.panel(d)], **LOOK)
+    assert not np.array_equal(titled, both)
+    legend = LOOK | {"width": 240, "height": 180, "colour_bar": True}
+    names = plane.render(labels=np.arange(plane.vertex_count) % 2, label_names=["one", "two"], **legend)
+    numbers = plane.render(labels=np.arange(plane.vertex_count) % 2, **legend)
+    assert names.shape != numbers.shape or not np.array_equal(names, numbers)
+
+
+def test_svg_has_lines_as_vectors(plane, tmp_path):
+    d = plane.distance(0, method="exact")
+    bare = bf.render_svg(plane.panel(d), **LOOK)
+    lined = bf.render_svg(plane.panel(d, isolines=[0.5, 1.0], paths=[plane.path(0, 41 * 41 - 1)]), **LOOK)
+    assert bare.startswith("<svg")
+    assert lined.count("<path") > bare.count("<path")
+    assert bf.render_svg(plane.panel(d, isolines=[0.5]), bands=True, **LOOK).count("<path") == bare.count("<path")
+    plane.render(d, file=tmp_path / "a.SVG", **LOOK)
+    assert (tmp_path / "a.SVG").read_text() == bare
+
+
+def test_animations_turn_and_spread(plane, tmp_path):
+    d = plane.distance(0, method="exact")
+    bare, full = plane.render(**LOOK), plane.render(d, **LOOK)
+    turning = bf.animate(plane.panel(d), turntable=4, **LOOK)
+    assert turning.shape == (4, 48, 64, 4)
+    assert np.array_equal(turning[0], full)
+    assert np.array_equal(turning[1], plane.render(d, **LOOK | {"azimuth": 90}))
+    spreading = bf.animate(plane.panel(d), wave=5, **LOOK)
+    assert np.array_equal(spreading[-1], full)
+    different = [(frame != full).any(axis=2).sum() for frame in spreading]
+    assert different == sorted(different, reverse=True)
+    assert different[0] > different[-1]
+    assert not np.array_equal(spreading[0], bare)
+    try:
+        bf.animate(plane.panel(d), wave=2, file=tmp_path / "a.webp", **LOOK)
+        assert (tmp_path / "a.webp").read_bytes()[8:12] == b"WEBP"
+    except bf.BrushfireError as error:
+        assert "WebP" in str(error)  # noqa: PT017  # built without it
+
+
+def test_openness_darkens(plane):
+    openness = np.full((plane.face_count, 3, 2), 0.2)
+    assert plane.render(openness=openness, **LOOK).mean() < plane.render(**LOOK).mean()
+
+
 def test_single_precision_is_near_double_and_marching_only(plane):
     for method in bf.methods():
         a = plane.distance(7, method=method, precision="float64")
