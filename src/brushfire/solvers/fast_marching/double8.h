@@ -108,6 +108,9 @@ BRUSHFIRE_AVX2_INLINE void transpose4(const __m256d* row, __m256d& x, __m256d& y
   y = _mm256_permute2f128_pd(y01, y23, 0x20);
   z = _mm256_permute2f128_pd(x01, x23, 0x31);
 }
+BRUSHFIRE_AVX2_INLINE __m256d squares_sum(__m256d x, __m256d y, __m256d z) {
+  return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(x, x), _mm256_mul_pd(y, y)), _mm256_mul_pd(z, z));
+}
 BRUSHFIRE_AVX2_INLINE void transpose(const __m256d* row, Double8& x, Double8& y, Double8& z) {
   transpose4(row, x.low, y.low, z.low);
   transpose4(row + 4, x.high, y.high, z.high);

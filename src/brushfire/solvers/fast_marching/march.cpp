@@ -165,7 +165,7 @@ BRUSHFIRE_AVX2 std::size_t slice_avx2(const Rings<T>& rings, MarchState<T>& s, s
 template <class Front, bool kLabelled, class T>
 MarchSlice<T> slice_for(Variant variant) {
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-  if (variant == Variant::Best && __builtin_cpu_supports("avx2")) return slice_avx2<Front, kLabelled, T>;
+  if (variant == Variant::Best && has_avx2()) return slice_avx2<Front, kLabelled, T>;
 #else
   static_cast<void>(variant);
 #endif

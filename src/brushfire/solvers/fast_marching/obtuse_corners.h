@@ -31,7 +31,7 @@ BRUSHFIRE_INLINE std::size_t find_obtuse(std::span<const Vec3> positions, std::s
 BRUSHFIRE_AVX2_INLINE __m256d squares4(const __m256d* row) {
   __m256d x, y, z;
   transpose4(row, x, y, z);
-  return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(x, x), _mm256_mul_pd(y, y)), _mm256_mul_pd(z, z));
+  return squares_sum(x, y, z);
 }
 
 // The same. Of the two cases of obtuse_corner(), by lane: whether the first edge is no shorter than the

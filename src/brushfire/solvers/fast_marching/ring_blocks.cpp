@@ -61,7 +61,7 @@ class RingBuilder {
 
  private:
   void unfold_obtuse_corners() {
-    const Unfolder unfolder(mesh_);
+    const Unfolder unfolder(mesh_, variant_);
     constexpr std::size_t kAtOnce = 2048;  // faces that stay in a cache
     std::array<Index, kAtOnce + 1> obtuse;
     for (std::size_t begin = 0; begin < faces_.size(); begin += kAtOnce) {
@@ -145,7 +145,7 @@ class RingBuilder {
   }
 
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-  bool in_registers() const { return variant_ == Variant::Best && __builtin_cpu_supports("avx2"); }
+  bool in_registers() const { return variant_ == Variant::Best && has_avx2(); }
 #endif
 
   template <class Fan>

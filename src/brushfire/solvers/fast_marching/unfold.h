@@ -4,6 +4,7 @@
 #pragma once
 
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <array>
 #include <span>
@@ -40,7 +41,7 @@ struct Unfolding {
 // Unrolls faces, one corner after the other.
 class Unfolder {
  public:
-  explicit Unfolder(const Mesh& mesh);
+  explicit Unfolder(const Mesh& mesh, Variant variant = Variant::Best);
 
   // Splits the obtuse angle at the corner of halfedge h into acute ones: unrolls faces behind the opposite edge, one by
   // one, until a vertex appears that splits it, and the same with what is left of the angle. Appends the triangles.
@@ -52,7 +53,7 @@ class Unfolder {
 
   const Mesh& mesh_;
   // What it looks up itself, where the mesh has positions and no slits.
-  bool plain_;
+  bool plain_, in_registers_;
   std::span<const Vec3> positions_;
   std::span<const Face> faces_;
   std::span<const Index> corner_offsets_, corners_;

@@ -17,6 +17,15 @@ namespace brushfire::detail {
 // The variant for this processor, or the one that runs on all of them: the same bits.
 enum class Variant : std::uint8_t { Best, Portable };
 
+// Whether this processor has them.
+inline bool has_avx2() {
+#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
+  return __builtin_cpu_supports("avx2");
+#else
+  return false;
+#endif
+}
+
 // Asks for the cache line at `address`, which may be anywhere.
 BRUSHFIRE_INLINE void prefetch(const void* address) {
 #if defined(__GNUC__)
