@@ -3,6 +3,7 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/core/planar.h>
+#include <brushfire/core/populate.h>
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/face_geometry.h>
@@ -71,6 +72,14 @@ void check_faces(Index vertex_count, std::span<const Face> faces) {
       }
     }
   }
+}
+
+template <class T>
+UninitializedArray<T> copied(std::span<const T> from) {
+  UninitializedArray<T> copy(from.size());
+  populate(copy);
+  std::copy(from.begin(), from.end(), copy.begin());
+  return copy;
 }
 
 // So far inside the range of doubles that inverses and squares stay finite.
@@ -306,8 +315,8 @@ Mesh::Mesh(std::span<const Vec3> positions, std::span<const Face> faces) {
   check_faces(static_cast<Index>(positions.size()), faces);
   auto arrays = std::make_shared<Arrays>();
   arrays->vertex_count = static_cast<Index>(positions.size());
-  arrays->positions.assign(positions.begin(), positions.end());
-  arrays->faces.assign(faces.begin(), faces.end());
+  arrays->positions = copied(positions);
+  arrays->faces = copied(faces);
   auto data = std::make_shared<Data>();
   data->arrays = std::move(arrays);
   data_ = std::move(data);
@@ -361,8 +370,10 @@ Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> ve
   arrays->vertex_count = old.vertex_count;
   arrays->has_positions = old.has_positions;
   arrays->positions.resize(old.positions.size());
+  populate(arrays->positions);
   for (std::size_t i = 0; i < arrays->positions.size(); ++i) arrays->positions[i] = old.positions[vertices[i]];
   arrays->faces.resize(old.faces.size());
+  populate(arrays->faces);
   arrays->input_lengths.resize(old.input_lengths.size());
   for (std::size_t f = 0; f < old.faces.size(); ++f) {
     const Face& t = old.faces[f];

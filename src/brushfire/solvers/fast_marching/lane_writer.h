@@ -1,6 +1,7 @@
 // Puts the sides and triangles around one vertex into blocks.
 #pragma once
 
+#include <brushfire/core/populate.h>
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
 
 #include <algorithm>
@@ -27,7 +28,10 @@ template <class T>
 class LaneWriter {
  public:
   // `none`: the end of sides that are not there; `expected` blocks (there may be more).
-  LaneWriter(Index none, std::size_t expected) : none_(none) { grow(expected + 1); }
+  LaneWriter(Index none, std::size_t expected) : none_(none) {
+    grow(expected + 1);
+    populate_more();
+  }
 
   // Corners of which each ends on the side where the next one begins; `closed`: the last one on that of the first.
   void add_fan(std::span<const Corner> fan, bool closed) {
@@ -77,6 +81,7 @@ class LaneWriter {
     complete();
     count_ = filled_ = 0;
     if (++done_ == blocks_.size()) grow(done_ + done_ / 2);
+    if (done_ == populated_) populate_more();
   }
 
   Index blocks_done() const { return done_; }
@@ -132,6 +137,14 @@ class LaneWriter {
     ++count_;
   }
 
+  // Some megabytes ahead, and no more than there is room for.
+  void populate_more() {
+    constexpr std::size_t kBlocks = (std::size_t{2} << 20) / sizeof(RingBlock<T>);
+    const std::size_t count = std::min(kBlocks, blocks_.size() - done_);
+    populate(&blocks_[done_], count * sizeof(RingBlock<T>));
+    populated_ = done_ + static_cast<Index>(kBlocks);
+  }
+
   void grow(std::size_t size) {
     blocks_.resize(size);
     links_.resize(size);
@@ -140,6 +153,7 @@ class LaneWriter {
   UninitializedArray<RingBlock<T>> blocks_;
   UninitializedArray<LaneLinks> links_;
   Index none_, done_ = 0;         // blocks that are complete
+  Index populated_ = 0;           // where pages are present up to
   Index count_ = 0, filled_ = 0;  // sides of the one at hand, and how many of them came by filled()
 };
 
