@@ -17,8 +17,7 @@ namespace {
 // Values from two places, the second one later than the first, under labels of their own or mixed.
 template <class T>
 MarchState<T> marched(const Rings<T>& rings, Index vertices, FrontModel model, bool labelled, Variant variant) {
-  MarchState<T> state;
-  state.resize(vertices);
+  MarchState<T> state(rings.layout.parts);
   state.buckets_per_unit = static_cast<T>(2 / rings.layout.mean_edge);
   state.labelled = labelled;
   if (labelled) {
@@ -27,20 +26,21 @@ MarchState<T> marched(const Rings<T>& rings, Index vertices, FrontModel model, b
   }
   state.offer(0, 0, 0);
   state.offer(vertices / 2, 1, 1);
-  const MarchSlice<T> slice = march_slice<T>(model, labelled, variant);
-  for (; state.queue.advance(); state.queue.clear_current()) {
-    for (std::size_t i = 0; i < state.queue.current().size();) i = slice(rings, state, i);
+  const MarchPart<T> march = march_part<T>(model, labelled, variant);
+  state.begin_run();
+  while (state.next_round()) {
+    for (const Index part : state.work) march(rings, state, part);
   }
   return state;
 }
 
 template <class T>
-void expect_same_bits(const Mesh& mesh, FrontModel model) {
-  const Rings<T> rings = build_rings<T>(mesh);
+void expect_same_bits(const Mesh& mesh, FrontModel model, Index part_size) {
+  const Rings<T> rings = build_rings<T>(mesh, part_size);
   for (const bool labelled : {false, true}) {
     const auto best = marched<T>(rings, mesh.vertex_count(), model, labelled, Variant::Best);
     const auto portable = marched<T>(rings, mesh.vertex_count(), model, labelled, Variant::Portable);
-    ASSERT_EQ(best.pops, portable.pops);
+    ASSERT_EQ(best.pops(), portable.pops());
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       ASSERT_EQ(best.front_at[v].value, portable.front_at[v].value) << "vertex " << v << ", labelled " << labelled;
       ASSERT_EQ(best.front_at[v].root, portable.front_at[v].root) << "vertex " << v << ", labelled " << labelled;
@@ -63,8 +63,10 @@ std::vector<Mesh> samples() {
 TEST(March, EveryProcessorGivesTheSameBits) {
   for (const Mesh& mesh : samples()) {
     for (const FrontModel model : {FrontModel::Circular, FrontModel::Planar}) {
-      expect_same_bits<float>(mesh, model);
-      expect_same_bits<double>(mesh, model);
+      for (const Index part_size : {kNoIndex, Index{64}}) {
+        expect_same_bits<float>(mesh, model, part_size);
+        expect_same_bits<double>(mesh, model, part_size);
+      }
     }
   }
 }
@@ -77,7 +79,7 @@ bool same_bits(const T (&a)[kLanes], const T (&b)[kLanes]) {
 
 template <class T>
 void expect_same_rings(const Mesh& mesh) {
-  const auto best = build_rings<T>(mesh, Variant::Best), portable = build_rings<T>(mesh, Variant::Portable);
+  const auto best = build_rings<T>(mesh, 64), portable = build_rings<T>(mesh, 64, Variant::Portable);
   ASSERT_EQ(best.blocks.size(), portable.blocks.size());
   for (std::size_t i = 0; i < best.blocks.size(); ++i) {
     const RingBlock<T>&a = best.blocks[i], &b = portable.blocks[i];

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "support/part_solver.h"
+
 namespace brushfire {
 namespace {
 
@@ -88,6 +90,53 @@ TEST(PlanarExactness, DelaunayTriangulationsOfConvexRegionsAreExactFromSourcesAn
       ASSERT_LE(field.updates, 3u * mesh.vertex_count()) << "seed " << seed;
     }
   }
+}
+
+DistanceOptions in_double() {
+  DistanceOptions options;
+  options.method = Method::NovotniKlein;
+  options.precision = Precision::Double;
+  return options;
+}
+
+// Parts learn of each other by letters, and late.
+TEST(PlanarExactness, PartsAreExactToo) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    std::vector<Vec2> points;
+    while (points.size() < 3000) {
+      const Vec2 p{unit(random), unit(random)};
+      if (dot(p, p) <= 1) points.push_back({p.x, seed % 2 == 0 ? p.y : 0.1 * p.y});
+    }
+    const Mesh mesh = delaunay(points).mesh();
+    for (const Index part_size : {32u, 128u, 1024u}) {
+      test::PartSolver solver(mesh, part_size);
+      const Source source{random_source(mesh, random)};
+      const DistanceField field = solver.distance({&source, 1}, in_double());
+      EXPECT_LE(worst_excess(mesh, source.point, field), 1) << "seed " << seed << ", parts of " << part_size;
+      EXPECT_LE(field.updates, 3u * mesh.vertex_count()) << "seed " << seed << ", parts of " << part_size;
+    }
+  }
+}
+
+// Parts of one vertex and some: what a vertex learns of its neighbours it learns by letters, and the number of its
+// turns is limited.
+TEST(PlanarExactness, TinyPartsAreHardlyEverInexact) {
+  int inexact = 0, runs = 0;
+  for (unsigned seed = 0; seed < kTriangulations; ++seed) {
+    std::mt19937 random(seed);
+    const Mesh mesh = random_convex_triangulation(random);
+    if (mesh.face_count() == 0) continue;
+    for (const Index part_size : {1u, 4u, 16u}) {
+      test::PartSolver solver(mesh, part_size);
+      const Source source{random_source(mesh, random)};
+      const DistanceField field = solver.distance({&source, 1}, in_double());
+      ++runs;
+      if (worst_excess(mesh, source.point, field) > 1) ++inexact;
+    }
+  }
+  EXPECT_LE(inexact, runs / 500);
 }
 
 TEST(PlanarExactness, FloatLanesAreExactToFloatPrecision) {

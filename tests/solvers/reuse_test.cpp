@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "io/counting_allocator.h"
+#include "support/part_solver.h"
 
 namespace brushfire {
 namespace {
@@ -108,6 +109,34 @@ TEST(ReuseOfMarching, ShortRunsCostWhatTheyReach) {
   }
   EXPECT_EQ(updates[0], updates[1]);
   EXPECT_LT(updates[0], 200u);
+}
+
+// In parts that write letters to each other, by several threads.
+TEST(ReuseOfMarching, AllocatesNothingInParts) {
+  const Mesh mesh = shapes::folded_sphere(4).mesh();
+  const std::vector<Source> sources = some_sources(mesh);
+  for (const Method method : {Method::NovotniKlein, Method::KimmelSethian}) {
+    for (const unsigned threads : {1u, 2u}) {
+      test::PartSolver solver(mesh, 128);
+      DistanceOptions options;
+      options.method = method;
+      options.threads = threads;
+      DistanceField field;
+      std::vector<Index> touched;
+      for (std::size_t count = 1; count <= sources.size(); ++count) {
+        const std::span<const Source> from(sources.data(), count);
+        EXPECT_EQ(allocations_of([&] { solver.distance(from, options, field); }), 0u) << threads << " threads";
+        options.max_distance = 0.4;
+        EXPECT_EQ(allocations_of([&] {
+                    touched.clear();
+                    solver.distance(from, options, field, &touched);
+                  }),
+                  0u)
+            << threads << " threads, short";
+        options.max_distance = kInfinity;
+      }
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Reuse,

@@ -25,6 +25,8 @@
 #include <thread>
 #include <vector>
 
+#include "support/part_solver.h"
+
 namespace brushfire {
 namespace {
 
@@ -126,6 +128,25 @@ TEST(OneMesh, GivesTheSameMatrixToAnyNumberOfThreads) {
     const std::vector<double> matrix = distance_matrix<double>(mesh, {}, {}, options);
     if (one.empty()) one = matrix;
     EXPECT_EQ(matrix, one) << threads << " threads";
+  }
+}
+
+TEST(OneField, IsMarchedByAnyNumberOfThreads) {
+  const Mesh mesh = shapes::torus(60, 40).mesh();
+  const std::array sources{Source{vertex_point(mesh, 7)}, Source{vertex_point(mesh, 1000)}};
+  for (const std::size_t count : {1u, 2u}) {
+    std::vector<double> one;
+    for (const unsigned threads : {1u, 2u, 8u}) {
+      test::PartSolver solver(mesh, 32);
+      DistanceOptions options;
+      options.method = Method::NovotniKlein;
+      options.threads = threads;
+      for (int run = 0; run < 3; ++run) {
+        const std::vector<double> field = solver.distance({sources.data(), count}, options).distance;
+        if (one.empty()) one = field;
+        EXPECT_EQ(field, one) << threads << " threads";
+      }
+    }
   }
 }
 

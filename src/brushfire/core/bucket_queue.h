@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -42,18 +43,20 @@ class Pile {
 class BucketQueue {
  public:
   using Bucket = std::int64_t;
+  static constexpr Bucket kNever = std::numeric_limits<Bucket>::max();
 
   BucketQueue() : ring_(kRing) {}
 
   // Empties the queue and puts the cursor to bucket 0. Costs what is in the queue; keeps the memory.
   void reset() {
-    for (Bucket b = cursor_; in_ring_ > 0 && b < cursor_ + kRing; ++b) {
-      Pile& bucket = ring_[static_cast<std::size_t>(b % kRing)];
+    for (Bucket b = cursor_; in_ring_ > 0; ++b) {
+      Pile& bucket = at(b);
       in_ring_ -= bucket.size();
       bucket.clear();
     }
     far_.clear();
     cursor_ = 0;
+    limit_ = kRing;
     nearest_far_ = kNever;
   }
 
@@ -62,8 +65,8 @@ class BucketQueue {
   void push(Index item, Bucket bucket) { push_if(true, item, bucket); }
   BRUSHFIRE_INLINE void push_if(bool wanted, Index item, Bucket bucket) {
     bucket = std::max(bucket, cursor_);
-    if (bucket - cursor_ < kRing) {
-      ring_[static_cast<std::size_t>(bucket) % kRing].push_if(wanted, item);
+    if (bucket < limit_) {
+      at(bucket).push_if(wanted, item);
       in_ring_ += wanted;
     } else if (wanted) {
       far_.emplace_back(bucket, item);
@@ -72,42 +75,52 @@ class BucketQueue {
   }
 
   // The bucket at the cursor. It grows while it is being read where items are pushed into it; take references anew.
-  const Pile& current() const { return ring_[static_cast<std::size_t>(cursor_ % kRing)]; }
+  const Pile& current() const { return at(cursor_); }
 
   void clear_current() {
-    Pile& bucket = ring_[static_cast<std::size_t>(cursor_ % kRing)];
+    Pile& bucket = at(cursor_);
     in_ring_ -= bucket.size();
     bucket.clear();
   }
 
-  // Moves the cursor to the next bucket that is not empty; false where there is none.
-  bool advance() {
-    while (true) {
-      if (in_ring_ == 0) {
-        if (far_.empty()) return false;
-        cursor_ = nearest_far_;
-      }
-      if (nearest_far_ - cursor_ < kRing) fetch_far();
-      if (current().size() > 0) return true;
-      ++cursor_;
-    }
+  // The first bucket from the cursor on that is not empty; kNever where there is none.
+  Bucket next() const {
+    if (in_ring_ == 0) return nearest_far_;
+    Bucket b = cursor_;
+    while (at(b).size() == 0) ++b;
+    return b;
+  }
+
+  // What waits in a bucket that is near, like that of next(); of far ones nothing is known.
+  const Pile& in(Bucket bucket) const { return bucket < limit_ ? at(bucket) : nothing_; }
+
+  // Moves the cursor forward, over empty buckets only.
+  void move_to(Bucket bucket) {
+    cursor_ = bucket;
+    // Not at every step: all far items are looked at.
+    if (limit_ - cursor_ > kRing / 2) return;
+    limit_ = cursor_ + kRing;
+    if (nearest_far_ < limit_) fetch_far();
   }
 
  private:
-  static constexpr Bucket kRing = 1024;  // a power of two
-  static constexpr Bucket kNever = std::numeric_limits<Bucket>::max();
+  static constexpr Bucket kRing = 128;  // a power of two
+
+  Pile& at(Bucket bucket) { return ring_[static_cast<std::size_t>(bucket) % kRing]; }
+  const Pile& at(Bucket bucket) const { return ring_[static_cast<std::size_t>(bucket) % kRing]; }
 
   void fetch_far() {
-    std::vector<std::pair<Bucket, Index>> waiting;
-    waiting.swap(far_);
+    waiting_.swap(far_);
     nearest_far_ = kNever;
-    for (const auto& [bucket, item] : waiting) push(item, bucket);
+    for (const auto& [bucket, item] : waiting_) push(item, bucket);
+    waiting_.clear();
   }
 
-  std::vector<Pile> ring_;
-  std::vector<std::pair<Bucket, Index>> far_;
+  Pile nothing_;
+  std::vector<Pile> ring_;  // of buckets from the cursor to the limit
+  std::vector<std::pair<Bucket, Index>> far_, waiting_;
   std::size_t in_ring_ = 0;
-  Bucket cursor_ = 0;
+  Bucket cursor_ = 0, limit_ = kRing;
   Bucket nearest_far_ = kNever;
 };
 

@@ -2,6 +2,7 @@
 #include <brushfire/solvers/fast_marching/fast_marching.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/core/parallel.h>
 #include <brushfire/core/planar.h>
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/locality_order.h>
@@ -11,7 +12,10 @@
 #include <brushfire/solvers/fast_marching/triangle_update.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -67,8 +71,8 @@ class LocalMesh {
 template <class T>
 class Marcher {
  public:
-  explicit Marcher(const LocalMesh& local) : local_(local), mesh_(local.mesh()), rings_(build_rings<T>(mesh_)) {
-    state_.resize(mesh_.vertex_count());
+  Marcher(const LocalMesh& local, Index part_size)
+      : local_(local), mesh_(local.mesh()), rings_(build_rings<T>(mesh_, part_size)), state_(rings_.layout.parts) {
     // Half a mean edge measured best; the front is that wide, and order inside it does not matter.
     state_.buckets_per_unit = static_cast<T>(2 / rings_.layout.mean_edge);
   }
@@ -96,6 +100,8 @@ class Marcher {
 
  private:
   void start(const Problem& problem) {
+    gather_team(problem.options->threads);
+    for_each_part(state_.used, is_much(state_.touched()), nullptr, [&](Index part) { state_.reset_part(part); });
     state_.reset();
     final_ = kInfinity;
     base_ = kInfinity;
@@ -117,35 +123,64 @@ class Marcher {
   }
 
   void march(const Problem& problem) {
-    const auto slice = march_slice<T>(front_model(problem.options->method), state_.labelled);
     const double last = last_front(problem);
     std::size_t first_open_target = 0;
-    while (state_.queue.advance()) {
-      state_.front = static_cast<T>(state_.queue.cursor()) / state_.buckets_per_unit;
-      const double front = base_ + static_cast<double>(state_.front);
-      if (front > last) {
-        final_ = front;
-        break;
-      }
+    march_part_ = march_part<T>(front_model(problem.options->method), state_.labelled);
+    state_.begin_run();
+    while (state_.next_round()) {
+      const double front = base_ + static_cast<double>(state_.front());
       while (first_open_target < problem.targets.size() && is_final(problem.targets[first_open_target], front)) {
         ++first_open_target;
       }
-      if (!problem.targets.empty() && first_open_target == problem.targets.size()) {
+      const bool all_final = !problem.targets.empty() && first_open_target == problem.targets.size();
+      if (front > last || all_final) {
         final_ = front;
         break;
       }
-      for (std::size_t i = 0; i < state_.queue.current().size();) {
-        i = slice(rings_, state_, i);
-        check_cancel(problem);
-      }
-      state_.queue.clear_current();
+      work(problem.options->cancel);
+      check_cancel(problem);
     }
+  }
+
+  // One round.
+  void work(const CancelToken* cancel) {
+    by_load_.assign(state_.work.begin(), state_.work.end());
+    if (team_) std::sort(by_load_.begin(), by_load_.end(), [&](Index a, Index b) { return load(a) > load(b); });
+    const auto march = [&](Index part) { march_part_(rings_, state_, part); };
+    constexpr std::size_t kWorthSharing = 64;
+    for_each_part(by_load_, state_.load >= kWorthSharing, cancel, march);
+  }
+  std::size_t load(Index part) const { return state_.outlook[part].load; }
+
+  // Shares the parts out to the team. Where there is little to do, telling others of it would take longer.
+  template <class Act>
+  void for_each_part(const std::vector<Index>& parts, bool is_much, const CancelToken* cancel, const Act& act) {
+    std::atomic<std::size_t> next{0};
+    const auto take = [&](unsigned, std::size_t) {
+      while (!(cancel && cancel->cancelled())) {
+        const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
+        if (i >= parts.size()) break;
+        act(parts[i]);
+      }
+    };
+    if (team_ && is_much) {
+      team_->run(std::min<std::size_t>(team_->size(), parts.size()), std::ref(take));
+    } else {
+      take(0, 0);
+    }
+  }
+
+  void gather_team(unsigned threads) {
+    const unsigned useful = std::min(thread_count(threads), rings_.layout.parts.count());
+    if (useful == 1) return team_.reset();
+    if (!team_ || team_threads_ != useful) team_ = std::make_unique<ThreadTeam>(useful, ThreadTeam::Idle::Yields);
+    team_threads_ = useful;
   }
 
   void check_cancel(const Problem& problem) const {
     if (problem.options->cancel && problem.options->cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
     if (problem.options->progress) {
-      problem.options->progress(static_cast<double>(state_.touched.size()) / std::max(1.0, 1.0 * mesh_.vertex_count()));
+      problem.options->progress(static_cast<double>(state_.touched()) / static_cast<double>(state_.front_at.size()));
     }
   }
 
@@ -237,27 +272,47 @@ class Marcher {
     offer(base_ + started + d, l);
   }
 
-  void write(const Problem& problem, DistanceField& field) const {
-    field.updates = state_.pops;
-    field.beyond_radius = 0;
-    if (state_.touched_most() && !problem.touched) {
-      const Index count = mesh_.vertex_count();
-      for (Index place = 0; place < count; ++place) write(problem, place, field);
+  void write(const Problem& problem, DistanceField& field) {
+    field.updates = state_.pops();
+    std::atomic<Index> beyond{0};
+    const auto write_part = [&](Index part) { beyond += write(problem, part, field); };
+    for_each_part(state_.used, !problem.touched && is_much(state_.touched()), nullptr, write_part);
+    field.beyond_radius = beyond;
+  }
+  static bool is_much(std::size_t vertices) { return vertices > 20000; }
+
+  // Returns how many vertices of a part have values that are not final.
+  Index write(const Problem& problem, Index part, DistanceField& field) const {
+    Index beyond = 0;
+    if (state_.touched_most(part) && !problem.touched) {
+      constexpr Index kAhead = 32;  // places in the caller's order are far from each other
+      const Index end = state_.end(part);
+      for (Index place = state_.begin(part); place < end; ++place) {
+        if (place + kAhead < end) prefetch_entries(local_.vertex(place + kAhead), field);
+        beyond += !write_vertex(problem, place, field);
+      }
     } else {
-      for (const Index place : state_.touched) write(problem, place, field);
+      for (const Index place : state_.parts[part].touched) {
+        if (!rings_.layout.parts.is_ghost(place)) beyond += !write_vertex(problem, place, field);
+      }
     }
+    return beyond;
   }
 
-  void write(const Problem& problem, Index place, DistanceField& field) const {
+  static void prefetch_entries(Index v, const DistanceField& field) {
+    prefetch(&field.distance[v]);
+    prefetch(&field.source[v]);
+  }
+
+  // False where the value is there, but not final.
+  bool write_vertex(const Problem& problem, Index place, DistanceField& field) const {
     const double d = base_ + static_cast<double>(state_.front_at[place].value);
-    if (d >= final_) {
-      field.beyond_radius += d < kInfinity;
-      return;
-    }
+    if (d >= final_) return !(d < kInfinity);
     const Index v = local_.vertex(place);
     field.distance[v] = d;
     field.source[v] = state_.labelled ? state_.label[place] : problem.sources.front().label;
     if (problem.touched) problem.touched->push_back(v);
+    return true;
   }
 
   const LocalMesh& local_;
@@ -267,27 +322,36 @@ class Marcher {
   std::vector<PointLocation> targets_;
   mutable SeedSearch seeds_;
   MarchState<T> state_;
-  double base_ = 0;           // the lowest offset: values are kept relative to it
-  double final_ = kInfinity;  // where the front stopped
+  MarchPart<T> march_part_ = nullptr;  // of this run
+  std::unique_ptr<ThreadTeam> team_;   // none: the caller alone
+  unsigned team_threads_ = 0;
+  std::vector<Index> by_load_;  // the parts that work in this round
+  double base_ = 0;             // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;    // where the front stopped
 };
 
 class FastMarching final : public Engine {
  public:
-  explicit FastMarching(Mesh mesh) : mesh_(std::move(mesh)), float_is_enough_(is_float_enough(mesh_)) {}
+  FastMarching(Mesh mesh, Index part_size)
+      : mesh_(std::move(mesh)), part_size_(part_size), float_is_enough_(is_float_enough(mesh_)) {}
 
   bool lists_touched() const override { return true; }
 
   void set_up(const DistanceOptions& options) override {
-    if (marches_in_float(options)) {
-      if (!in_float_) in_float_.emplace(local());
+    if (options.method == Method::NovotniKlein2002) {
+      if (!literal_) literal_.emplace(local(), kNoIndex);
+    } else if (options.precision == Precision::Float && float_is_enough_) {
+      if (!in_float_) in_float_.emplace(local(), part_size_);
     } else {
-      if (!in_double_) in_double_.emplace(local());
+      if (!in_double_) in_double_.emplace(local(), part_size_);
     }
   }
 
   void solve(const Problem& problem, DistanceField& field) override {
     set_up(*problem.options);
-    if (marches_in_float(*problem.options)) {
+    if (problem.options->method == Method::NovotniKlein2002) {
+      literal_->solve(problem, field);
+    } else if (problem.options->precision == Precision::Float && float_is_enough_) {
       in_float_->solve(problem, field);
     } else {
       in_double_->solve(problem, field);
@@ -295,10 +359,6 @@ class FastMarching final : public Engine {
   }
 
  private:
-  bool marches_in_float(const DistanceOptions& options) const {
-    return options.precision == Precision::Float && float_is_enough_ && options.method != Method::NovotniKlein2002;
-  }
-
   const LocalMesh& local() {
     if (!local_) local_.emplace(mesh_);
     return *local_;
@@ -323,14 +383,26 @@ class FastMarching final : public Engine {
   }
 
   Mesh mesh_;
+  Index part_size_;
   bool float_is_enough_;
   std::optional<LocalMesh> local_;
   std::optional<Marcher<float>> in_float_;
-  std::optional<Marcher<double>> in_double_;
+  std::optional<Marcher<double>> in_double_, literal_;  // literal: label-setting, all of the mesh in one queue
 };
 
 }  // namespace
 
-std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh) { return std::make_unique<FastMarching>(mesh); }
+// Of smaller parts there is more to tell others about, larger ones leave threads without work; a small mesh is done
+// sooner than it takes to share it out. Measured: docs/decisions/speed.md.
+Index usual_part_size(const Mesh& mesh) {
+  constexpr Index kWorthParts = Index{1} << 17, kVertices = Index{1} << 16;
+  return mesh.vertex_count() < kWorthParts ? kNoIndex : kVertices;
+}
+
+std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh) { return make_fast_marching(mesh, usual_part_size(mesh)); }
+
+std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh, Index part_size) {
+  return std::make_unique<FastMarching>(mesh, part_size);
+}
 
 }  // namespace brushfire::detail

@@ -11,4 +11,9 @@ namespace brushfire::detail {
 // One engine for the three methods and both precisions: which one runs stands in the problem's options.
 std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh);
 
+// With parts of a size of one's own, a power of two (see parts.h): results depend on it, to the bit, though not on how
+// many threads work on them. kNoIndex: the whole mesh.
+std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh, Index part_size);
+Index usual_part_size(const Mesh& mesh);
+
 }  // namespace brushfire::detail

@@ -85,6 +85,7 @@ class LaneWriter {
   }
 
   Index blocks_done() const { return done_; }
+  const RingBlock<T>& block(Index i) const { return blocks_[i]; }
 
   // All blocks, once.
   void take(UninitializedArray<RingBlock<T>>& blocks, UninitializedArray<LaneLinks>& links) {

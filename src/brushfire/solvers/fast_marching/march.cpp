@@ -19,18 +19,21 @@
 namespace brushfire::detail {
 namespace {
 
-// The state byte of a vertex: whether its value has news for its neighbours, and how often it came up so far. On curved
-// surfaces values can chase each other in circles for hundreds of rounds, ever lower; the limit ends that.
-constexpr std::uint8_t kOpen = 128;
-constexpr std::uint8_t kMaxPops = 3;
+constexpr std::uint8_t kOpen = Openness::kOpen, kShared = Openness::kShared;
+
+// On curved surfaces values can chase each other in circles for hundreds of turns, ever lower; the limit ends that.
+constexpr std::uint8_t kMaxTurns = 3;
+
+template <class T>
+using Part = typename MarchState<T>::Part;
 
 // Equal values go to the lower label.
 template <class Front, bool kLabelled, class T>
-BRUSHFIRE_INLINE void accept(MarchState<T>& s, Index w, T offer, T root, Index label) {
+BRUSHFIRE_INLINE void accept(MarchState<T>& s, Part<T>& part, Index w, T offer, T root, Index label) {
   auto& at = s.front_at[w];
   const T old = at.value;
   const std::uint8_t state = s.open[w];
-  if ((state & ~kOpen) >= kMaxPops) return;
+  if ((state & Openness::kTurns) >= kMaxTurns) return;
   if constexpr (kLabelled) {
     if (!(offer < old * kNews<T>) && !(offer <= old && label < s.label[w])) return;
     s.label[w] = label;
@@ -43,8 +46,13 @@ BRUSHFIRE_INLINE void accept(MarchState<T>& s, Index w, T offer, T root, Index l
   // Where it waits already, in the same bucket, that will do.
   const bool waits = ((state & kOpen) != 0) & (bucket == s.bucket_of(old));
   s.open[w] = state | kOpen;
-  s.touched.push_if(old == MarchState<T>::kUnreached, w);
-  s.queue.push_if(!waits, w, bucket);
+  part.touched.push_if(old == MarchState<T>::kUnreached, w);
+  if ((state & (kShared | Openness::kNews)) == kShared) [[unlikely]] {
+    s.open[w] = state | kOpen | Openness::kNews;
+    part.news.push(w);
+    s.layout->prefetch_links(w);
+  }
+  part.queue.push_if(!waits, w, bucket);
 }
 
 // Gaussian curvature bends the front that passes over it: its curvature 1/r falls by the curvature on the way (the
@@ -83,9 +91,11 @@ struct InRegisters {
 };
 #endif
 
-// Vertex v offers values to its neighbours.
+// Vertex v offers values to its neighbours. A ghost has no blocks and offers nothing: its front is bent, as that of the
+// vertex for which it stands.
 template <template <class, bool, class> class Maker, class Front, bool kLabelled, class T>
-BRUSHFIRE_INLINE void relax(const Rings<T>& rings, MarchState<T>& s, Index v, Candidates<T>& candidates) {
+BRUSHFIRE_INLINE void relax(const Rings<T>& rings, MarchState<T>& s, Part<T>& part, Index v,
+                            Candidates<T>& candidates) {
   if constexpr (Front::kBends) bend_front(rings, s, v);
   Turn<T> turn{s.front_at[v].value, 0, 0, 0};
   if constexpr (kLabelled) {
@@ -98,143 +108,193 @@ BRUSHFIRE_INLINE void relax(const Rings<T>& rings, MarchState<T>& s, Index v, Ca
     candidates.count = 0;
     Maker<Front, kLabelled, T>::offers(rings.blocks[i], rings.layout.links[i], s, turn, candidates);
     for (Index c = 0; c < candidates.count; ++c) {
-      accept<Front, kLabelled>(s, candidates.end[c], candidates.value[c], candidates.root[c], turn.label);
+      accept<Front, kLabelled>(s, part, candidates.end[c], candidates.value[c], candidates.root[c], turn.label);
     }
   }
 }
 
-// What the vertices that come up next will need: first where their blocks are, then the blocks, then the values at the
-// ends of the sides in their first ones.
+// What a vertex that comes up soon will need: first where its blocks are, then the blocks.
 template <class T>
-BRUSHFIRE_INLINE void prefetch(const Rings<T>& rings, const MarchState<T>& s, const Pile& bucket, std::size_t i) {
-#if defined(__GNUC__)
-  constexpr std::size_t kOffsetsAhead = 12, kBlocksAhead = 5, kEndsAhead = 2, kCacheLine = 64;
-  if (i + kOffsetsAhead < bucket.size()) {
-    const Index v = bucket[i + kOffsetsAhead];
-    __builtin_prefetch(&rings.layout.block_offset[v]);
-    __builtin_prefetch(&s.front_at[v]);
-    __builtin_prefetch(&rings.bend[v]);
-    __builtin_prefetch(&s.open[v]);
+BRUSHFIRE_INLINE void prefetch_state(const Rings<T>& rings, const MarchState<T>& s, Index v) {
+  prefetch(&rings.layout.block_offset[v]);
+  prefetch(&s.front_at[v]);
+  prefetch(&rings.bend[v]);
+  prefetch(&s.open[v]);
+}
+template <class T>
+BRUSHFIRE_INLINE void prefetch_blocks(const Rings<T>& rings, Index v) {
+  constexpr std::size_t kCacheLine = 64;
+  const Index first = rings.layout.block_offset[v], last = rings.layout.block_offset[v + 1];
+  prefetch(&rings.layout.links[first]);
+  const char* block = reinterpret_cast<const char*>(rings.blocks.data() + first);
+  const char* end = reinterpret_cast<const char*>(rings.blocks.data() + last);
+  for (; block < end; block += kCacheLine) prefetch(block);
+}
+// The values at the ends of the sides in its first block.
+template <class T>
+BRUSHFIRE_INLINE void prefetch_ends(const Rings<T>& rings, const MarchState<T>& s, Index v) {
+  const Index first = rings.layout.block_offset[v];
+  if (first == rings.blocks.size()) return;  // a ghost, or a vertex without faces
+  for (const Index end : rings.blocks[first].end) prefetch(&s.front_at[end]);
+}
+
+constexpr std::size_t kStatesAhead = 12, kBlocksAhead = 5, kEndsAhead = 2;
+
+template <class T>
+BRUSHFIRE_INLINE void prefetch_after(const Rings<T>& rings, const MarchState<T>& s, const Pile& bucket, std::size_t i) {
+  if (i + kStatesAhead < bucket.size()) prefetch_state(rings, s, bucket[i + kStatesAhead]);
+  if (i + kBlocksAhead < bucket.size()) prefetch_blocks(rings, bucket[i + kBlocksAhead]);
+  if (i + kEndsAhead < bucket.size()) prefetch_ends(rings, s, bucket[i + kEndsAhead]);
+}
+
+// A part's news are told; who saw them is free to have others.
+template <class T>
+void forget_news(MarchState<T>& s, Part<T>& part) {
+  for (const Index v : part.news) s.open[v] &= static_cast<std::uint8_t>(~Openness::kNews);
+  part.news.clear();
+}
+
+// Whether a value fell and was offered on in the part's last round.
+template <class T>
+bool was_rash(const MarchState<T>& s, Index v) {
+  return (s.open[v] & (Openness::kNews | kOpen)) == Openness::kNews;
+}
+
+// Two neighbours that both were rash in the same round did not see each other: the later one has its turn again, which
+// does not count as one of its own.
+template <class T>
+void see_each_other(MarchState<T>& s, Part<T>& part, Index ghost, T fell_to) {
+  const Index owner = s.layout->owner[ghost - s.layout->first_ghost()];
+  for (const Index v : s.layout->around(ghost)) {
+    const T value = s.front_at[v].value;
+    if (!was_rash(s, v) || value < fell_to || (value == fell_to && v < owner)) continue;
+    if ((s.open[v] & Openness::kLateTurns) == Openness::kLateTurns) continue;
+    s.open[v] = Openness::forgiven(s.open[v]) | kOpen;
+    part.queue.push(v, s.bucket_of(value));
   }
-  if (i + kBlocksAhead < bucket.size()) {
-    const Index v = bucket[i + kBlocksAhead];
-    const Index first = rings.layout.block_offset[v], last = rings.layout.block_offset[v + 1];
-    __builtin_prefetch(&rings.layout.links[first]);
-    const char* block = reinterpret_cast<const char*>(rings.blocks.data() + first);
-    const char* end = reinterpret_cast<const char*>(rings.blocks.data() + last);
-    for (; block < end; block += kCacheLine) __builtin_prefetch(block);
+}
+
+// A ghost's vertex fell.
+template <class Front, bool kLabelled, class T>
+BRUSHFIRE_INLINE void hear(MarchState<T>& s, Part<T>& part, const typename MarchState<T>::Letter& letter) {
+  const Index ghost = letter.place;
+  auto& at = s.front_at[ghost];
+  bool falls = letter.value < at.value;
+  if constexpr (kLabelled) falls |= letter.value == at.value && letter.label < s.label[ghost];
+  if (!falls) return;  // it fell further by an offer of this part, or this is where its value came from
+  part.touched.push_if(at.value == MarchState<T>::kUnreached, ghost);
+  at = {letter.value, letter.root};
+  if constexpr (kLabelled) s.label[ghost] = letter.label;
+  if constexpr (Front::kBends) {
+    s.open[ghost] |= kOpen;
+    part.queue.push(ghost, s.bucket_of(letter.value));
   }
-  if (i + kEndsAhead < bucket.size()) {
-    const Index first = rings.layout.block_offset[bucket[i + kEndsAhead]];
-    if (first < rings.blocks.size()) {  // vertices without faces have none
-      for (const Index end : rings.blocks[first].end) __builtin_prefetch(&s.front_at[end]);
+}
+
+// The letters about ghosts first: which values of this part fell in the last round is still known.
+template <class Front, bool kLabelled, class T>
+void read_letters(MarchState<T>& s, Part<T>& part) {
+  if (part.last_round + 1 != s.round) forget_news(s, part);
+  part.last_round = s.round;
+  for (const Index c : part.inbox) {
+    const auto& channel = s.channels[c];
+    for (const auto& letter : channel.letters[1 - channel.writes]) {
+      prefetch(&s.front_at[letter.place]);
+      prefetch(&s.open[letter.place]);
     }
   }
-#else
-  (void)rings, (void)s, (void)bucket, (void)i;
-#endif
+  const bool rash = std::any_of(part.news.begin(), part.news.end(), [&](Index v) { return was_rash(s, v); });
+  for (const Index c : part.inbox) {
+    const auto& channel = s.channels[c];
+    for (const auto& letter : channel.letters[1 - channel.writes]) {
+      if (!s.layout->is_ghost(letter.place)) continue;
+      hear<Front, kLabelled>(s, part, letter);
+      if (rash && s.bucket_of(letter.value) <= s.bucket) see_each_other(s, part, letter.place, letter.value);
+    }
+  }
+  forget_news(s, part);
+  for (const Index c : part.inbox) {
+    auto& channel = s.channels[c];
+    for (const auto& letter : channel.letters[1 - channel.writes]) {
+      if (s.layout->is_ghost(letter.place)) continue;
+      std::uint8_t& state = s.open[letter.place];
+      if (letter.value < s.front_at[letter.place].value) state = Openness::forgiven(state);
+      accept<Front, kLabelled>(s, part, letter.place, letter.value, letter.root, letter.label);
+    }
+    channel.letters[1 - channel.writes].clear();
+    channel.waits = false;
+  }
+  part.inbox.clear();
 }
 
 template <template <class, bool, class> class Maker, class Front, bool kLabelled, class T>
-BRUSHFIRE_INLINE std::size_t slice_body(const Rings<T>& rings, MarchState<T>& s, std::size_t begin) {
+BRUSHFIRE_INLINE void empty_bucket(const Rings<T>& rings, MarchState<T>& s, Part<T>& part) {
+  const Index none = s.layout->vertex_count;
   Candidates<T> candidates;
-  std::size_t i = begin;
-  for (; i < s.queue.current().size() && i < begin + kSlice; ++i) {
-    prefetch(rings, s, s.queue.current(), i);
-    const Index v = s.queue.current()[i];
+  for (std::size_t i = 0; i < part.queue.current().size(); ++i) {
+    prefetch_after(rings, s, part.queue.current(), i);
+    const Index v = part.queue.current()[i];
     if ((s.open[v] & kOpen) == 0) continue;
-    s.open[v] = static_cast<std::uint8_t>((s.open[v] ^ kOpen) + 1);
-    ++s.pops;
-    relax<Maker, Front, kLabelled>(rings, s, v, candidates);
+    const bool counts = v < none;  // not a ghost
+    s.open[v] = static_cast<std::uint8_t>((s.open[v] ^ kOpen) + counts);
+    part.pops += counts;
+    relax<Maker, Front, kLabelled>(rings, s, part, v, candidates);
   }
-  return i;
+  part.queue.clear_current();
+}
+
+template <template <class, bool, class> class Maker, class Front, bool kLabelled, class T>
+BRUSHFIRE_INLINE void part_body(const Rings<T>& rings, MarchState<T>& s, Index number) {
+  Part<T>& part = s.parts[number];
+  read_letters<Front, kLabelled>(s, part);
+  for (auto next = part.queue.next(); next <= s.bucket; next = part.queue.next()) {
+    part.queue.move_to(next);
+    empty_bucket<Maker, Front, kLabelled>(rings, s, part);
+  }
+  const Pile& waiting = part.queue.in(part.queue.next());
+  for (std::size_t i = 0; i < std::min(waiting.size(), kStatesAhead); ++i) prefetch_state(rings, s, waiting[i]);
+  s.tell(number);
+  for (std::size_t i = 0; i < std::min(waiting.size(), kBlocksAhead); ++i) prefetch_blocks(rings, waiting[i]);
 }
 
 template <class Front, bool kLabelled, class T>
-std::size_t slice_baseline(const Rings<T>& rings, MarchState<T>& s, std::size_t begin) {
-  return slice_body<InLoops, Front, kLabelled>(rings, s, begin);
+void part_baseline(const Rings<T>& rings, MarchState<T>& s, Index part) {
+  part_body<InLoops, Front, kLabelled>(rings, s, part);
 }
 
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
 template <class Front, bool kLabelled, class T>
-BRUSHFIRE_AVX2 std::size_t slice_avx2(const Rings<T>& rings, MarchState<T>& s, std::size_t begin) {
-  return slice_body<InRegisters, Front, kLabelled>(rings, s, begin);
+BRUSHFIRE_AVX2 void part_avx2(const Rings<T>& rings, MarchState<T>& s, Index part) {
+  part_body<InRegisters, Front, kLabelled>(rings, s, part);
 }
 #endif
 
 template <class Front, bool kLabelled, class T>
-MarchSlice<T> slice_for(Variant variant) {
+MarchPart<T> part_for(Variant variant) {
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-  if (variant == Variant::Best && has_avx2()) return slice_avx2<Front, kLabelled, T>;
+  if (variant == Variant::Best && has_avx2()) return part_avx2<Front, kLabelled, T>;
 #else
   static_cast<void>(variant);
 #endif
-  return slice_baseline<Front, kLabelled, T>;
+  return part_baseline<Front, kLabelled, T>;
 }
 
 }  // namespace
 
 template <class T>
-void MarchState<T>::resize(Index vertex_count) {
-  front_at.assign(static_cast<std::size_t>(vertex_count) + 1, Front{});
-  open.assign(front_at.size(), 0);
-  touched.clear();
-  label.clear();
-  fixed_value.clear();
-}
-
-template <class T>
-void MarchState<T>::reset() {
-  if (touched_most()) {
-    std::fill(front_at.begin(), front_at.end(), Front{});
-    std::fill(open.begin(), open.end(), std::uint8_t{0});
-    std::fill(label.begin(), label.end(), kNoIndex);
-    std::fill(fixed_value.begin(), fixed_value.end(), kUnreached);
-  } else {
-    for (const Index v : touched) {
-      front_at[v] = Front{};
-      open[v] = 0;
-      if (!label.empty()) label[v] = kNoIndex;
-      if (!fixed_value.empty()) fixed_value[v] = kUnreached;
-    }
-  }
-  touched.clear();
-  queue.reset();
-  pops = 0;
-}
-
-template <class T>
-BucketQueue::Bucket MarchState<T>::bucket_of(T v) const {
-  constexpr T kFarthest = T(1ll << 62);  // of buckets: what is farther shares the last one
-  const T bucket = v * buckets_per_unit;
-  return bucket < kFarthest ? static_cast<BucketQueue::Bucket>(bucket) : BucketQueue::Bucket{1} << 62;
-}
-
-template <class T>
-void MarchState<T>::offer(Index place, T v, Index source) {
-  Front& at = front_at[place];
-  if (labelled ? std::pair(v, source) < std::pair(at.value, label[place]) : v < at.value) {
-    if (at.value == kUnreached) touched.push(place);
-    at = {v, labelled ? start[source] : T(0)};
-    if (labelled) label[place] = source;
-    open[place] = kOpen;
-    queue.push(place, bucket_of(v));
-  }
-}
-
-template <class T>
-MarchSlice<T> march_slice(FrontModel model, bool labelled, Variant variant) {
+MarchPart<T> march_part(FrontModel model, bool labelled, Variant variant) {
   if (model == FrontModel::Planar) {
-    return labelled ? slice_for<PlanarFront, true, T>(variant) : slice_for<PlanarFront, false, T>(variant);
+    return labelled ? part_for<PlanarFront, true, T>(variant) : part_for<PlanarFront, false, T>(variant);
   }
-  return labelled ? slice_for<CircularFront, true, T>(variant) : slice_for<CircularFront, false, T>(variant);
+  return labelled ? part_for<CircularFront, true, T>(variant) : part_for<CircularFront, false, T>(variant);
 }
 
 template <class T>
 void march_label_setting(const Rings<T>& rings, MarchState<T>& s, const std::function<void()>& poll) {
   using Entry = std::pair<T, Index>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (const Index v : s.touched) queue.emplace(s.front_at[v].value, v);
+  Part<T>& whole = s.parts.front();
+  for (const Index v : whole.touched) queue.emplace(s.front_at[v].value, v);
   s.fixed_value.resize(s.front_at.size(), MarchState<T>::kUnreached);
   Candidates<T> candidates;
   while (!queue.empty()) {
@@ -243,7 +303,7 @@ void march_label_setting(const Rings<T>& rings, MarchState<T>& s, const std::fun
     if (s.open[v] == 0) continue;
     s.open[v] = 0;
     s.fixed_value[v] = t;
-    if (++s.pops % kSlice == 0) poll();
+    if (++whole.pops % kSlice == 0) poll();
     const Index label = s.label[v];
     const Turn<T> turn{t, s.start[label], s.start[label], label};
     const Index end = rings.layout.block_offset[v + 1];
@@ -255,7 +315,7 @@ void march_label_setting(const Rings<T>& rings, MarchState<T>& s, const std::fun
         const Index w = candidates.end[c];
         T& value = s.front_at[w].value;
         if (s.fixed_value[w] != MarchState<T>::kUnreached || !(candidates.value[c] < value)) continue;
-        if (value == MarchState<T>::kUnreached) s.touched.push(w);
+        if (value == MarchState<T>::kUnreached) whole.touched.push(w);
         value = candidates.value[c];
         s.label[w] = label;
         s.open[w] = 1;
@@ -265,10 +325,8 @@ void march_label_setting(const Rings<T>& rings, MarchState<T>& s, const std::fun
   }
 }
 
-template struct MarchState<float>;
-template struct MarchState<double>;
-template MarchSlice<float> march_slice<float>(FrontModel, bool, Variant);
-template MarchSlice<double> march_slice<double>(FrontModel, bool, Variant);
+template MarchPart<float> march_part<float>(FrontModel, bool, Variant);
+template MarchPart<double> march_part<double>(FrontModel, bool, Variant);
 template void march_label_setting<float>(const Rings<float>&, MarchState<float>&, const std::function<void()>&);
 template void march_label_setting<double>(const Rings<double>&, MarchState<double>&, const std::function<void()>&);
 

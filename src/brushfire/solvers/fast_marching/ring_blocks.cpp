@@ -39,7 +39,7 @@ class Pieces {
 template <class T>
 class RingBuilder {
  public:
-  RingBuilder(const Mesh& mesh, Variant variant)
+  RingBuilder(const Mesh& mesh, Index part_size, Variant variant)
       : mesh_(mesh),
         variant_(variant),
         faces_(mesh.faces()),
@@ -49,13 +49,15 @@ class RingBuilder {
               mesh.all_corners(),
               1 / mesh.unit(),
               mesh.vertex_count(),
-              mesh.has_positions() && !mesh.has_slits()} {}
+              mesh.has_positions() && !mesh.has_slits()},
+        part_shift_(part_shift(part_size)) {}
 
   Rings<T> build() {
     unfold_obtuse_corners();
     fill();
     bend_fronts();
     for (const Index h : unsplit_) mark_unsplit(h);
+    separate_parts();
     return std::move(rings_);
   }
 
@@ -171,6 +173,7 @@ class RingBuilder {
           e = t.next[own];
         }
         lanes.finish();
+        if (names_other_parts(v, lanes)) at_border_.push_back(v);
       }
     }
   }
@@ -181,6 +184,15 @@ class RingBuilder {
   }
 
   Index faces_at(Index v) const { return fans_.corner_offsets[v + 1] - fans_.corner_offsets[v]; }
+
+  BRUSHFIRE_INLINE bool names_other_parts(Index v, const LaneWriter<T>& lanes) const {
+    Index differ = 0;
+    for (Index i = rings_.layout.block_offset[v]; i < lanes.blocks_done(); ++i) {
+      const RingBlock<T>& block = lanes.block(i);
+      for (Index k = 0; k < kLanes; ++k) differ |= block.end[k] == fans_.none ? 0 : block.end[k] ^ v;
+    }
+    return differ >> part_shift_ != 0;
+  }
 
   void note_plain(Index v, T angle, T area, T length) {
     sum_of_lengths_ += static_cast<double>(length);
@@ -287,6 +299,39 @@ class RingBuilder {
     }
   }
 
+  // Puts ghosts in place of vertices of other parts.
+  void separate_parts() {
+    RingLayout& layout = rings_.layout;
+    PartsBuilder builder(fans_.none, part_shift_);
+    for (std::size_t begin = 0, end = 0; begin < at_border_.size(); begin = end) {
+      const Index part = at_border_[begin] >> part_shift_;
+      while (end < at_border_.size() && at_border_[end] >> part_shift_ == part) ++end;
+      const std::span<const Index> border(at_border_.data() + begin, end - begin);
+      for_each_foreign_end(border, [&](Index v, Index& named) { builder.add(v, named); });
+      const std::span<const Index> ghosts = builder.finish_part(part);
+      std::size_t i = 0;
+      for_each_foreign_end(border, [&](Index, Index& named) { named = ghosts[i++]; });
+    }
+    layout.parts = builder.take();
+    layout.block_offset.resize(layout.parts.places() + 1, layout.block_offset.back());
+    rings_.bend.resize(layout.parts.places());
+    rings_.bend[fans_.none] = 0;
+    for (std::size_t g = 0; g < layout.parts.owner.size(); ++g) {
+      rings_.bend[layout.parts.first_ghost() + g] = rings_.bend[layout.parts.owner[g]];
+    }
+  }
+
+  template <class Act>
+  void for_each_foreign_end(std::span<const Index> vertices, const Act& act) {
+    for (const Index v : vertices) {
+      for (Index i = rings_.layout.block_offset[v]; i < rings_.layout.block_offset[v + 1]; ++i) {
+        for (Index& end : rings_.blocks[i].end) {
+          if (end < fans_.none && (end ^ v) >> part_shift_ != 0) act(v, end);
+        }
+      }
+    }
+  }
+
   // The corner at h is a target from the two other vertices of its face.
   void mark_unsplit(Index h) {
     const Index target = mesh_.from(h), next = mesh_.to(h);
@@ -311,6 +356,7 @@ class RingBuilder {
   Variant variant_;
   std::span<const Face> faces_;
   FanMesh fans_;
+  int part_shift_;
   double sum_of_lengths_ = 0;
   Rings<T> rings_;
   std::vector<UnfoldedTriangle> triangles_;  // of one corner
@@ -320,16 +366,17 @@ class RingBuilder {
   UninitializedArray<Patch> patches_;             // [vertex_count]
   UninitializedArray<std::uint8_t> plain_sides_;  // [vertex_count] of a plain fan; 0 for any other vertex
   std::vector<Corner> loose_, fan_;               // of one vertex
+  std::vector<Index> at_border_;                  // vertices whose blocks name vertices of other parts, ascending
 };
 
 }  // namespace
 
 template <class T>
-Rings<T> build_rings(const Mesh& mesh, Variant variant) {
-  return RingBuilder<T>(mesh, variant).build();
+Rings<T> build_rings(const Mesh& mesh, Index part_size, Variant variant) {
+  return RingBuilder<T>(mesh, part_size, variant).build();
 }
 
-template Rings<float> build_rings<float>(const Mesh& mesh, Variant variant);
-template Rings<double> build_rings<double>(const Mesh& mesh, Variant variant);
+template Rings<float> build_rings<float>(const Mesh& mesh, Index part_size, Variant variant);
+template Rings<double> build_rings<double>(const Mesh& mesh, Index part_size, Variant variant);
 
 }  // namespace brushfire::detail

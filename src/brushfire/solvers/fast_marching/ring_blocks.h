@@ -3,6 +3,7 @@
 
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/fast_marching/parts.h>
 #include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <cstddef>
@@ -39,24 +40,26 @@ struct LaneLinks {
 
 // Where the blocks of each vertex are: everything that does not depend on T.
 struct RingLayout {
-  UninitializedArray<Index> block_offset;  // [vertex_count + 1]
+  UninitializedArray<Index> block_offset;  // [places + 1]; ghosts have no blocks
   UninitializedArray<LaneLinks> links;     // [blocks]
   double mean_edge = 1;                    // in mesh.unit()
   int longest_unfolding = 1;               // faces that the longest unfolding of a corner crosses
+  Parts parts;
 };
 
 template <class T>
 struct Rings {
   RingLayout layout;
   UninitializedArray<RingBlock<T>> blocks;
-  UninitializedArray<T> bend;  // [vertex_count] by how much the curvature of a front falls that passes it
+  UninitializedArray<T> bend;  // [places] by how much the curvature of a front falls that passes it
 };
 
-// O(vertices + faces), and what the unfolding of obtuse corners takes. The mesh should be in a local order.
+// O(vertices + faces), and what the unfolding of obtuse corners takes. The mesh should be in a local order. Results
+// depend on the size of the parts, a power of two; kNoIndex: the whole mesh.
 template <class T>
-Rings<T> build_rings(const Mesh& mesh, Variant variant = Variant::Best);
+Rings<T> build_rings(const Mesh& mesh, Index part_size, Variant variant = Variant::Best);
 
-extern template Rings<float> build_rings<float>(const Mesh& mesh, Variant variant);
-extern template Rings<double> build_rings<double>(const Mesh& mesh, Variant variant);
+extern template Rings<float> build_rings<float>(const Mesh& mesh, Index part_size, Variant variant);
+extern template Rings<double> build_rings<double>(const Mesh& mesh, Index part_size, Variant variant);
 
 }  // namespace brushfire::detail

@@ -1,0 +1,185 @@
+// Who works in a round, and what is handed over between two rounds.
+#include <brushfire/solvers/fast_marching/march_state.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace brushfire::detail {
+
+template <class T>
+MarchState<T>::MarchState(const Parts& shared_out)
+    : layout(&shared_out),
+      front_at(shared_out.places()),
+      open(shared_out.places()),
+      parts(shared_out.count()),
+      channels(shared_out.channels.size()),
+      outlook(shared_out.count()) {
+  layout->for_each_shared_vertex([&](Index v) { open[v] = Openness::kShared; });
+  std::fill(open.begin() + layout->first_ghost(), open.end(), Openness::kShared);
+}
+
+template <class T>
+void MarchState<T>::reset() {
+  for (const Index p : used) {
+    if (parts[p].used) reset_part(p);
+  }
+  used.clear();
+  awake.clear();
+  work.clear();
+  bucket = -1;
+}
+
+template <class T>
+void MarchState<T>::reset_part(Index p) {
+  Part& part = parts[p];
+  const auto forget = [&](Index from, Index to) {
+    std::fill(front_at.begin() + from, front_at.begin() + to, Front{});
+    std::for_each(open.begin() + from, open.begin() + to, [](std::uint8_t& o) { o &= Openness::kShared; });
+    if (!label.empty()) std::fill(label.begin() + from, label.begin() + to, kNoIndex);
+    if (!fixed_value.empty()) std::fill(fixed_value.begin() + from, fixed_value.begin() + to, kUnreached);
+  };
+  if (touched_most(p)) {
+    forget(begin(p), end(p));
+    forget(layout->first_ghost() + layout->ghost_offset[p], layout->first_ghost() + layout->ghost_offset[p + 1]);
+  } else {
+    for (const Index place : part.touched) forget(place, place + 1);
+  }
+  part.queue.reset();
+  part.touched.clear();
+  part.news.clear();
+  for (const Pile* box : {&part.inbox, &part.outbox}) {
+    for (const Index c : *box) {
+      for (auto& letters : channels[c].letters) letters.clear();
+      channels[c].waits = false;
+    }
+  }
+  part.inbox.clear();
+  part.outbox.clear();
+  part.pops = 0;
+  part.used = part.awake = false;
+  outlook[p] = {};
+}
+
+template <class T>
+void MarchState<T>::offer(Index place, T v, Index source) {
+  Front& at = front_at[place];
+  if (!(labelled ? std::pair(v, source) < std::pair(at.value, label[place]) : v < at.value)) return;
+  Part& part = parts[layout->of(place)];
+  part.touched.push_if(at.value == kUnreached, place);
+  at = {v, labelled ? start[source] : T(0)};
+  if (labelled) label[place] = source;
+  part.news.push_if((open[place] & (Openness::kShared | Openness::kNews)) == Openness::kShared, place);
+  open[place] = static_cast<std::uint8_t>(open[place] | Openness::kOpen | (open[place] & Openness::kShared) >> 1);
+  part.queue.push(place, bucket_of(v));
+  wake(layout->of(place));
+}
+
+// Those that are woken by the start of a run are told about by `work`, too.
+template <class T>
+void MarchState<T>::wake(Index p) {
+  Part& part = parts[p];
+  if (part.awake) return;
+  part.awake = true;
+  awake.insert(std::lower_bound(awake.begin(), awake.end(), p), p);
+  if (!part.used) used.push_back(p);
+  part.used = true;
+}
+
+template <class T>
+void MarchState<T>::begin_run() {
+  ++round;
+  for (const Index p : awake) tell(p);
+  work = awake;
+}
+
+template <class T>
+bool MarchState<T>::next_round() {
+  hand_over();
+  ++round;
+  lowest = BucketQueue::kNever;
+  for (const Index p : awake) lowest = std::min(lowest, outlook[p].next);
+  work.clear();
+  if (lowest == BucketQueue::kNever) return false;
+  bucket = std::max(bucket, lowest);
+  load = 0;
+  std::size_t still_awake = 0;
+  for (const Index p : awake) {
+    if (outlook[p].next <= bucket) {
+      work.push_back(p);
+      load += outlook[p].load;
+      for (const Index c : parts[p].inbox) channels[c].writes ^= 1;
+    }
+    parts[p].awake = outlook[p].next != BucketQueue::kNever;
+    awake[still_awake] = p;
+    still_awake += parts[p].awake;
+  }
+  awake.resize(still_awake);
+  return true;
+}
+
+template <class T>
+void MarchState<T>::hand_over() {
+  for (const Index p : work) {
+    for (const Index c : parts[p].outbox) {
+      const Index to = layout->channels[c].receiver;
+      wake(to);
+      if (!std::exchange(channels[c].waits, true)) parts[to].inbox.push(c);
+      Outlook& waits = outlook[to];
+      if (channels[c].lowest < waits.next) waits = {channels[c].lowest, 0};
+      if (channels[c].lowest == waits.next) waits.load += channels[c].letters[channels[c].writes].size();
+    }
+    parts[p].outbox.clear();
+  }
+}
+
+template <class T>
+void MarchState<T>::tell(Index p) {
+  Part& part = parts[p];
+  for (const Index place : part.news) prefetch(layout->links_of(place).data());
+  for (const Index place : part.news) write_letters(part, place);
+  const Bucket next = part.queue.next();
+  outlook[p] = {next, part.queue.in(next).size()};
+}
+
+template <class T>
+void MarchState<T>::write_letters(Part& part, Index place) {
+  const Front& at = front_at[place];
+  const Bucket falls_into = bucket_of(at.value);
+  for (const auto [to, c] : layout->links_of(place)) {
+    Channel& channel = channels[c];
+    std::vector<Letter>& letters = channel.letters[channel.writes];
+    if (std::exchange(channel.last_round, round) != round) part.outbox.push(c);
+    channel.lowest = letters.empty() ? falls_into : std::min(channel.lowest, falls_into);
+    letters.push_back({to, labelled ? label[place] : 0, at.value, at.root});
+  }
+}
+
+template <class T>
+bool MarchState<T>::touched_most(Index p) const {
+  const std::size_t ghosts = layout->ghost_offset[p + 1] - layout->ghost_offset[p];
+  return parts[p].touched.size() > (end(p) - begin(p) + ghosts) / 4;
+}
+
+template <class T>
+Index MarchState<T>::end(Index part) const {
+  return std::min(layout->vertex_count, (part + 1) << layout->shift);
+}
+
+template <class T>
+std::size_t MarchState<T>::touched() const {
+  std::size_t count = 0;
+  for (const Index p : used) count += parts[p].touched.size();
+  return count;
+}
+
+template <class T>
+std::uint64_t MarchState<T>::pops() const {
+  std::uint64_t count = 0;
+  for (const Index p : used) count += parts[p].pops;
+  return count;
+}
+
+template struct MarchState<float>;
+template struct MarchState<double>;
+
+}  // namespace brushfire::detail
