@@ -94,6 +94,13 @@ class BucketQueue {
   // What waits in a bucket that is near, like that of next(); of far ones nothing is known.
   const Pile& in(Bucket bucket) const { return bucket < limit_ ? at(bucket) : nothing_; }
 
+  // Moves the cursor to the next bucket that is not empty; false where there is none.
+  bool advance() {
+    const Bucket bucket = next();
+    if (bucket != kNever) move_to(bucket);
+    return bucket != kNever;
+  }
+
   // Moves the cursor forward, over empty buckets only.
   void move_to(Bucket bucket) {
     cursor_ = bucket;
