@@ -173,7 +173,7 @@ class Marcher {
   void gather_team(unsigned threads) {
     const unsigned useful = std::min(thread_count(threads), rings_.layout.parts.count());
     if (useful == 1) return team_.reset();
-    if (!team_ || team_threads_ != useful) team_ = std::make_unique<ThreadTeam>(useful, ThreadTeam::Idle::Yields);
+    if (!team_ || team_threads_ != useful) team_ = std::make_unique<ThreadTeam>(useful, ThreadTeam::Idle::Spins);
     team_threads_ = useful;
   }
 

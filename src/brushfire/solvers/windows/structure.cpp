@@ -188,7 +188,7 @@ std::span<WindowFace> WindowStructure::faces_of(Index part) {
 }
 
 void WindowStructure::renumber(const std::vector<Index>& places) {
-  std::vector<Index> outer(places.size());
+  UninitializedArray<Index> outer(places.size());
   std::vector<Bend> bends(places.size());
   for (std::size_t v = places.size(); v-- > 0;) {
     outer[v] = order.vertices[places[v]];
