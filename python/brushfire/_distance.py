@@ -36,6 +36,7 @@ class Distances:
         tolerance: float | None = ...,
         bound: str | None = ...,
         precision: str | None = ...,
+        threads: int = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: Places | None = ...,
@@ -52,6 +53,7 @@ class Distances:
         tolerance: float | None = ...,
         bound: str | None = ...,
         precision: str | None = ...,
+        threads: int = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: Places | None = ...,
@@ -68,6 +70,7 @@ class Distances:
         tolerance: float | None = ...,
         bound: str | None = ...,
         precision: str | None = ...,
+        threads: int = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: None = ...,
@@ -84,6 +87,7 @@ class Distances:
         tolerance: float | None = ...,
         bound: str | None = ...,
         precision: str | None = ...,
+        threads: int = ...,
         offset: npt.ArrayLike = ...,
         max_distance: float = ...,
         targets: None = ...,
@@ -99,6 +103,7 @@ class Distances:
         tolerance: float | None = None,
         bound: str | None = None,
         precision: str | None = None,
+        threads: int = 1,
         offset: npt.ArrayLike = 0.0,
         max_distance: float = np.inf,
         targets: Places | None = None,
@@ -117,6 +122,8 @@ class Distances:
             it, ``"estimate"`` (the default) values in between.
         :param precision: in which the marching methods compute: ``"float32"``, the default, is faster and good for about 6
             digits, ``"float64"`` for all. Other methods ignore it.
+        :param threads: that work on this one field, where the mesh is large enough for several; 0 means one per processor.
+            The numbers are the same to the bit for any number of threads.
         :param offset: the value that the front starts with, one number or one per source; finite, may be negative.
         :param max_distance: what is farther reads +inf; the run costs what it reaches.
         :param targets: where only some distances are needed; the solver may stop as soon as it has them.
@@ -127,7 +134,7 @@ class Distances:
             reached. With ``return_source`` and ``return_bound`` a tuple: distances, int32 sources, float64 bounds.
         :raises BrushfireIndexError: for a vertex or face that does not exist.
         :raises BrushfireError: for no sources, a source in no face, bad weights, offsets or max_distance, an unknown
-            method or precision, or ``return_bound`` with a method that has none.
+            method or precision, a bad number of threads, or ``return_bound`` with a method that has none.
         :raises TypeError: for what are no vertex numbers or points.
 
         >>> import brushfire as bf
@@ -151,7 +158,7 @@ class Distances:
             offsets(offset, len(start.index)),
             end.index if end else None,
             end.weights if end else None,
-            options(method, tolerance, max_distance, bound, precision),
+            options(method, tolerance, max_distance, bound, precision, threads),
             progress,
         )
         if return_bound and error is None:

@@ -17,7 +17,7 @@ from brushfire._curves import Curves
 from brushfire._distance import Distances, Progress
 from brushfire._errors import BrushfireError
 from brushfire._fields import Fields
-from brushfire._options import options
+from brushfire._options import options, thread_count
 from brushfire._picture import Pictures
 from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
 from brushfire._regions import Regions
@@ -260,7 +260,7 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         else:
             _check_out(out, shape)
         if out.size:
-            _core.fill_matrix(self._mesh, out, *row, *column, chosen, _threads(threads), progress)
+            _core.fill_matrix(self._mesh, out, *row, *column, chosen, thread_count(threads), progress)
         return out
 
     def distances_within(
@@ -307,7 +307,7 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
             number(radius, "radius"),
             *row,
             options(method, tolerance, np.inf, precision=precision),
-            _threads(threads),
+            thread_count(threads),
             memory_limit,
             progress,
         )
@@ -352,7 +352,7 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         column, _ = self._optional(columns, "columns")
         chosen = options(method, tolerance, max_distance, precision=precision)
         _core.write_matrix(
-            self._mesh, os.fspath(path), _is_float32(dtype), *row, *column, chosen, _threads(threads), progress
+            self._mesh, os.fspath(path), _is_float32(dtype), *row, *column, chosen, thread_count(threads), progress
         )
 
     def _run(self) -> _core.Solver:
@@ -431,9 +431,3 @@ def _check_out(out: Any, shape: tuple[int, int]) -> None:
     _is_float32(out.dtype)
     if out.shape != shape or not out.flags.c_contiguous or not out.flags.writeable:
         raise BrushfireError(f"out: a writable C-contiguous array of shape {shape} is needed, not {out.shape}")
-
-
-def _threads(threads: int) -> int:
-    if not 0 <= threads <= 4096:
-        raise BrushfireError(f"threads: a number from 0 (one per processor) to 4096 is needed, not {threads}")
-    return threads

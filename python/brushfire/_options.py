@@ -12,9 +12,18 @@ Options = dict[str, "str | float"]
 TOLERANT = "windows"
 
 
-def options(method: Any, tolerance: Any, max_distance: Any, bound: Any = None, precision: Any = None) -> Options:
+def thread_count(threads: int) -> int:
+    """A number of threads, checked."""
+    if not 0 <= threads <= 4096:
+        raise BrushfireError(f"threads: a number from 0 (one per processor) to 4096 is needed, not {threads}")
+    return threads
+
+
+def options(
+    method: Any, tolerance: Any, max_distance: Any, bound: Any = None, precision: Any = None, threads: int = 1
+) -> Options:
     """Those that were given, checked; a tolerance without a method means the one that keeps it."""
-    chosen: Options = {"max_distance": number(max_distance, "max_distance")}
+    chosen: Options = {"max_distance": number(max_distance, "max_distance"), "threads": thread_count(threads)}
     if tolerance is not None or bound is not None:
         if method not in (None, TOLERANT):
             raise BrushfireError(f"tolerance and bound are for method {TOLERANT!r}: {method!r} has none")

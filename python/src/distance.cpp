@@ -79,6 +79,7 @@ DistanceOptions options_from(const nb::dict& given, Computation& computation) {
     if (name == "bound") options.bound = bound_named(nb::cast<std::string>(value));
     if (name == "precision") options.precision = precision_named(nb::cast<std::string>(value));
     if (name == "tolerance") options.tolerance = nb::cast<double>(value);
+    if (name == "threads") options.threads = nb::cast<unsigned>(value);
     if (name == "max_distance") options.max_distance = nb::cast<double>(value);
   }
   options.cancel = computation.cancel();

@@ -87,6 +87,17 @@ def test_the_bound_is_returned_where_there_is_one(bumpy, method):
         assert (bound >= 0).all()
 
 
+def test_any_number_of_threads_gives_the_same_bits(method):
+    large = bf.Mesh(*grid(200, 0.3))
+    expected = large.distance(0, method=method)
+    for threads in (0, 2, 5):
+        assert np.array_equal(large.distance(0, method=method, threads=threads), expected)
+    with pytest.raises(bf.BrushfireError, match="threads"):
+        large.distance(0, method=method, threads=-1)
+    with pytest.raises(bf.BrushfireError, match="4096"):
+        large.distance(0, method=method, threads=5000)
+
+
 def test_progress_ends_at_one_and_its_exception_comes_through(bumpy):
     shares: list[float] = []
     bumpy.distance_matrix(method="dijkstra", progress=shares.append)

@@ -205,6 +205,22 @@ TEST_F(Program, AToleranceThatNobodyKeepsIsAUsageError) {
          "brushfire: --tolerance and --accuracy say the same: give one of them");
 }
 
+TEST_F(Program, DistanceIsTheSameToTheBitForAnyNumberOfThreads) {
+  const auto field = [&](const std::string& threads) {
+    const Ended ended = run_program({"distance", path("square.off"), "--source", "0", "-o", "-", "--threads", threads});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return ended.out;
+  };
+  const std::string one = field("1");
+  EXPECT_FALSE(one.empty());
+  for (const char* threads : {"0", "2", "7"}) EXPECT_EQ(field(threads), one) << threads << " threads";
+  for (const char* threads : {"-1", "1.5", "many", "5000"}) {
+    const Ended ended = run_program({"distance", "missing.ply", "--source", "0", "--threads", threads});
+    EXPECT_EQ(ended.code, 2) << "said before the file is read: " << ended.err;
+    EXPECT_NE(ended.err.find("--threads"), std::string::npos);
+  }
+}
+
 TEST_F(Program, TargetsPrintOneDistancePerLine) {
   const Ended ended =
       run_program({"distance", path("square.off"), "--source", "0", "-t", "1", "-t", "2", "-m", "dijkstra"});

@@ -29,9 +29,10 @@ constexpr const char* kExamples = R"(Examples:
 
 A method may be followed by :double (its arithmetic) or by a tolerance (windows:1e-4). Every repetition builds the mesh
 from its arrays, with all that the method needs (set-up), and then solves for each source (solve, per source); what is
-printed is the median. Times are processor time; with --threads above 1, which share out the sources, they are by the
-clock on the wall. Memory is the most that the first repetition took beyond the arrays that it started from. Errors are
-relative, over all vertices and sources, against the exact distances.)";
+printed is the median. Times are processor time; with --threads above 1 they are by the clock on the wall: threads share
+out the sources, and where there are more of them than sources, they work on one field together. Memory is the most that
+the first repetition took beyond the arrays that it started from. Errors are relative, over all vertices and sources,
+against the exact distances.)";
 
 struct Arguments {
   std::string file;
@@ -91,7 +92,7 @@ std::string name_of(const DistanceOptions& options) {
 
 Plan plan_of(const Arguments& a) {
   Plan plan;
-  constexpr int kMany = 100000, kMostThreads = 1024;
+  constexpr int kMany = 100000;
   plan.source_count = static_cast<std::size_t>(whole_number(a.source_count, 1, 1, kMany, "--sources"));
   plan.repetitions = static_cast<std::size_t>(whole_number(a.repeat, 5, 1, kMany, "--repeat"));
   plan.threads = static_cast<unsigned>(whole_number(a.threads, 1, 1, kMostThreads, "--threads"));
@@ -167,6 +168,8 @@ class Bench {
     const double begin = now();
     const Mesh mesh(mesh_.positions(), mesh_.faces());
     const unsigned threads = std::min(plan_.threads, static_cast<unsigned>(sources_.size()));
+    DistanceOptions each = options;
+    each.threads = plan_.threads / threads;
     std::vector<DistanceSolver> solvers;
     for (unsigned t = 0; t < threads; ++t) solvers.emplace_back(mesh).set_up(options);
     const double built = now();
@@ -175,7 +178,7 @@ class Bench {
     parallel_for(
         sources_.size(), threads,
         [&](unsigned worker, std::size_t i) {
-          DistanceField solved = field(solvers[worker], i, options);
+          DistanceField solved = field(solvers[worker], i, each);
           if (first) fields[i] = std::move(solved);
         },
         options.cancel);
@@ -318,7 +321,7 @@ void add_bench(CommandLine& command_line) {
     verb.option("-s,--source", arguments->sources, "WHERE", "Solve from here; may be repeated");
     verb.option("--sources", arguments->source_count, "N", "Solve from each of N vertices, spread over the mesh (1)");
     verb.option("--repeat", arguments->repeat, "N", "Repetitions (5)");
-    verb.option("--threads", arguments->threads, "N", "Threads that share out the sources (1)");
+    verb.option("--threads", arguments->threads, "N", "Threads that share out the sources, or a field (1)");
     verb.flag("--no-error", arguments->no_error, "Do not compute the exact distances to compare with");
     verb.talks();
     verb.examples(kExamples);

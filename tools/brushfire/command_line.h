@@ -34,6 +34,9 @@ class Unreachable : public std::runtime_error {
 // others.
 int whole_number(const std::optional<double>& value, int otherwise, int low, int high, const char* option);
 
+// For options that count threads.
+inline constexpr int kMostThreads = 4096;
+
 // One verb, while it is being described: its arguments are bound to variables that its body then reads.
 class Verb {
  public:

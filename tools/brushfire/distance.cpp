@@ -44,7 +44,7 @@ struct Arguments {
   std::vector<std::string> sources, targets;
   Accuracy accuracy;
   std::string precision = "float";
-  std::optional<double> radius;
+  std::optional<double> radius, threads;
 };
 
 class Stopwatch {
@@ -177,6 +177,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   Run run;
   DistanceOptions& options = run.options;
   apply(arguments.accuracy, options);
+  options.threads = static_cast<unsigned>(whole_number(arguments.threads, 0, 0, kMostThreads, "--threads"));
   const std::vector<Where> source_places = parse_sources(arguments);
   run.target_places = parse_targets(arguments);
 
@@ -237,6 +238,7 @@ void add_distance(CommandLine& command_line) {
     add_accuracy(verb, arguments->accuracy);
     verb.choice("--precision", arguments->precision, {"float", "double"}, "Arithmetic of the marching methods");
     verb.option("-r,--radius", arguments->radius, "R", "Stop at this distance; what is farther reads inf");
+    verb.option("--threads", arguments->threads, "N", "Threads for this field; 0, the default: one per processor");
     verb.option("-o,--output", arguments->output, "FILE", "Write the field: .ply .vtk .npy .csv ...; - prints CSV");
     verb.talks();
     verb.examples(kExamples);
