@@ -63,7 +63,9 @@ def table(rows):
                 cells += [f"{1e9 * r[key] / n:.0f}" for key in ("set_up_s", "solve_s")]
                 cells.append(f"{r['memory_mib'] * 2**20 / n:.0f}")
             yield "| " + " | ".join(cells) + " |"
-        cells = ["exponent", ""]
+        if not found:
+            continue
+        cells = [f"{series}: exponent", ""]
         for m in METHODS:
             results = [(row["vertices"], row["results"][m]) for row in found]
             cells += [f"{exponent(results, key):.2f}" for key in ("set_up_s", "solve_s", "memory_mib")]
