@@ -166,7 +166,7 @@ def test_animations_turn_and_spread(plane, tmp_path):
         bf.animate(plane.panel(d), wave=2, file=tmp_path / "a.webp", **LOOK)
         assert (tmp_path / "a.webp").read_bytes()[8:12] == b"WEBP"
     except bf.BrushfireError as error:
-        assert "WebP" in str(error)  # noqa: PT017  # built without it
+        assert "WebP" in str(error)  # built without it
 
 
 def test_openness_darkens(plane):
