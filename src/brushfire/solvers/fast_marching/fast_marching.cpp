@@ -72,7 +72,11 @@ template <class T>
 class Marcher {
  public:
   Marcher(const LocalMesh& local, Index part_size)
-      : local_(local), mesh_(local.mesh()), rings_(build_rings<T>(mesh_, part_size)), state_(rings_.layout.parts) {
+      : local_(local),
+        mesh_(local.mesh()),
+        rings_(build_rings<T>(mesh_, part_size)),
+        state_(rings_.layout.parts),
+        hands_(rings_.layout.parts.count()) {
     // Half a mean edge measured best; the front is that wide, and order inside it does not matter.
     state_.buckets_per_unit = static_cast<T>(2 / rings_.layout.mean_edge);
   }
@@ -101,7 +105,7 @@ class Marcher {
  private:
   void start(const Problem& problem) {
     gather_team(problem.options->threads);
-    for_each_part(state_.used, is_much(state_.touched()), nullptr, [&](Index part) { state_.reset_part(part); });
+    for_each_part(state_.used, is_much(state_.touched()), [&](Index part) { state_.reset_part(part); });
     state_.reset();
     final_ = kInfinity;
     base_ = kInfinity;
@@ -145,23 +149,37 @@ class Marcher {
   // One round.
   void work(const CancelToken* cancel) {
     by_load_.assign(state_.work.begin(), state_.work.end());
-    if (team_) std::sort(by_load_.begin(), by_load_.end(), [&](Index a, Index b) { return load(a) > load(b); });
-    const auto march = [&](Index part) { march_part_(rings_, state_, part); };
     constexpr std::size_t kWorthSharing = 64;
-    for_each_part(by_load_, state_.load >= kWorthSharing, cancel, march);
+    if (!team_ || state_.load < kWorthSharing) {
+      for (const Index part : by_load_) march_part_(rings_, state_, part);
+      return;
+    }
+    std::sort(by_load_.begin(), by_load_.end(), [&](Index a, Index b) { return load(a) > load(b); });
+    team_->run(std::min<std::size_t>(team_->size(), by_load_.size()),
+               [this, cancel](unsigned worker, std::size_t) { take_parts(worker, cancel); });
   }
   std::size_t load(Index part) const { return state_.outlook[part].load; }
 
+  // First those that the worker had before, as they lie in its processor's cache; then what is left.
+  void take_parts(unsigned worker, const CancelToken* cancel) {
+    for (const bool own : {true, false}) {
+      for (const Index part : by_load_) {
+        Hand& hand = hands_[part];
+        if (own && hand.worker.load(std::memory_order_relaxed) != worker) continue;
+        if (hand.round.exchange(state_.round, std::memory_order_relaxed) == state_.round) continue;
+        hand.worker.store(worker, std::memory_order_relaxed);
+        if (cancel && cancel->cancelled()) return;
+        march_part_(rings_, state_, part);
+      }
+    }
+  }
+
   // Shares the parts out to the team. Where there is little to do, telling others of it would take longer.
   template <class Act>
-  void for_each_part(const std::vector<Index>& parts, bool is_much, const CancelToken* cancel, const Act& act) {
+  void for_each_part(const std::vector<Index>& parts, bool is_much, const Act& act) {
     std::atomic<std::size_t> next{0};
     const auto take = [&](unsigned, std::size_t) {
-      while (!(cancel && cancel->cancelled())) {
-        const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
-        if (i >= parts.size()) break;
-        act(parts[i]);
-      }
+      for (std::size_t i = next++; i < parts.size(); i = next++) act(parts[i]);
     };
     if (team_ && is_much) {
       team_->run(std::min<std::size_t>(team_->size(), parts.size()), std::ref(take));
@@ -276,7 +294,7 @@ class Marcher {
     field.updates = state_.pops();
     std::atomic<Index> beyond{0};
     const auto write_part = [&](Index part) { beyond += write(problem, part, field); };
-    for_each_part(state_.used, !problem.touched && is_much(state_.touched()), nullptr, write_part);
+    for_each_part(state_.used, !problem.touched && is_much(state_.touched()), write_part);
     field.beyond_radius = beyond;
   }
   static bool is_much(std::size_t vertices) { return vertices > 20000; }
@@ -326,8 +344,14 @@ class Marcher {
   std::unique_ptr<ThreadTeam> team_;   // none: the caller alone
   unsigned team_threads_ = 0;
   std::vector<Index> by_load_;  // the parts that work in this round
-  double base_ = 0;             // the lowest offset: values are kept relative to it
-  double final_ = kInfinity;    // where the front stopped
+  // In whose hands a part is, and since which round.
+  struct Hand {
+    std::atomic<std::uint64_t> round{0};
+    std::atomic<unsigned> worker{0};
+  };
+  std::vector<Hand> hands_;   // [parts]
+  double base_ = 0;           // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;  // where the front stopped
 };
 
 class FastMarching final : public Engine {

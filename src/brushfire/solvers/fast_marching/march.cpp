@@ -231,6 +231,9 @@ template <template <class, bool, class> class Maker, class Front, bool kLabelled
 BRUSHFIRE_INLINE void empty_bucket(const Rings<T>& rings, MarchState<T>& s, Part<T>& part) {
   const Index none = s.layout->vertex_count;
   Candidates<T> candidates;
+  for (std::size_t i = 0; i < std::min(part.queue.current().size(), kEndsAhead); ++i) {
+    prefetch_ends(rings, s, part.queue.current()[i]);
+  }
   for (std::size_t i = 0; i < part.queue.current().size(); ++i) {
     prefetch_after(rings, s, part.queue.current(), i);
     const Index v = part.queue.current()[i];
