@@ -67,4 +67,18 @@ RelativeError relative_error(std::span<const double> distance, std::span<const d
   return e;
 }
 
+DistanceOptions options_named(const std::string& name) {
+  DistanceOptions options;
+  const std::size_t colon = name.find(':');
+  options.method = method_named(name.substr(0, colon));
+  if (colon == std::string::npos) return options;
+  const std::string option = name.substr(colon + 1);
+  if (option == "double" || option == "float") {
+    options.precision = option == "float" ? Precision::Float : Precision::Double;
+  } else {
+    options.tolerance = std::stod(option);
+  }
+  return options;
+}
+
 }  // namespace brushfire::benchmark

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/core/types.h>
+#include <brushfire/solvers/distance.h>
 
 #include <span>
 #include <string>
@@ -35,5 +36,8 @@ struct RelativeError {
   std::size_t not_finite = 0;  // vertices whose d is infinite or NaN where t is not: left out above
 };
 RelativeError relative_error(std::span<const double> distance, std::span<const double> truth);
+
+// A method, followed by :float, :double or a tolerance (windows:1e-3) where one is wanted.
+DistanceOptions options_named(const std::string& name);
 
 }  // namespace brushfire::benchmark

@@ -22,20 +22,6 @@
 namespace brushfire::benchmark {
 namespace {
 
-DistanceOptions options_named(const std::string& name) {
-  DistanceOptions options;
-  const std::size_t colon = name.find(':');
-  options.method = method_named(name.substr(0, colon));
-  if (colon == std::string::npos) return options;
-  const std::string option = name.substr(colon + 1);
-  if (option == "double" || option == "float") {
-    options.precision = option == "float" ? Precision::Float : Precision::Double;
-  } else {
-    options.tolerance = std::stod(option);
-  }
-  return options;
-}
-
 // One round: what the header of this file says.
 struct Round {
   std::string times;
