@@ -21,12 +21,12 @@ void Part::activate(std::unique_ptr<Traffic> traffic, std::int64_t turn) {
 }
 
 void Part::forget() {
-  for (const Index v : touched()) {
+  for_each_touched([&](Index v) {
     run_->values[v].forget();
     run_->light[v] = {};
     if (!run_->origins.empty()) run_->origins[v] = {};
     if (!run_->rays.empty()) run_->rays[v] = {};
-  }
+  });
   touched_ = 0;
   updates_ = 0;
   memory_.clear();
@@ -147,7 +147,7 @@ bool Part::take(Index v, double value, const Ray& ray, bool all_around) {
   if (!all_around && run_->structure.bend[v] == Bend::None) return true;
   VertexLight& light = run_->light[v];
   const bool queued = light.waiting && traffic_->queue.same_bucket(before, value);
-  light.from = crossed_at(run_->structure, ray);
+  light.came_from(crossed_at(run_->structure, ray));
   light.all_around = all_around;
   if (!lower) return true;
   light.waiting = true;

@@ -203,14 +203,14 @@ void Part::shine(Index v) {
   VertexLight& light = run_->light[v];
   light.waiting = false;
   if (run_->values[v].lower > run_->radius) return;
-  if (light.all_around || run_->structure.bend[v] == Bend::Full || light.from.halfedge == kNoIndex) {
+  if (light.all_around || run_->structure.bend[v] == Bend::Full || light.halfedge == kNoIndex) {
     for (const Index corner : run_->structure.mesh.corners(run_->structure.outer_vertex(v))) {
       const Index h = run_->structure.inner_halfedge(corner);
       if (is_here(h / 3)) shine_through(v, h);
     }
     return;
   }
-  for_each_shadow(run_->structure, v, light.from, [&](const Sector& sector) {
+  for_each_shadow(run_->structure, v, light.from(), [&](const Sector& sector) {
     if (is_here(sector.face)) shine_into(v, sector);
   });
 }

@@ -32,7 +32,7 @@ class WindowEngine final : public Engine {
     run_.values.resize(n);
     for (const WindowStructure::Copy& c : run_.structure.copies) run_.values[c.vertex].next_copy = c.next;
     run_.light.resize(n);
-    run_.touched.resize(n);
+    run_.touched.resize(n / kFewTouched + 1);
     for (Index p = 0; p < run_.structure.part_count(); ++p) parts_.emplace_back(run_, p);
   }
 
@@ -180,7 +180,7 @@ class WindowEngine final : public Engine {
 
   double share_done() const {
     std::size_t touched = 0;
-    for (const Part& p : parts_) touched += p.touched().size();
+    for (const Part& p : parts_) touched += p.touched_count();
     return static_cast<double>(touched) / run_.structure.vertex_count();
   }
 

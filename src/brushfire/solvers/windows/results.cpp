@@ -51,16 +51,15 @@ void Results::finish_labels(std::vector<Index>& chain) {
   const Index n = run_.structure.vertex_count();
   std::vector<Origins>& origins = run_.origins;
   for (const Part& part : parts_) {
-    for (const Index start : part.touched()) {
+    part.for_each_touched([&](Index v) {
       chain.clear();
-      Index v = start;
       while (v < n && origins[v].root < n && chain.size() <= n) {
         chain.push_back(v);
         v = origins[v].root;
       }
-      if (v >= n) continue;
+      if (v >= n) return;
       for (const Index u : chain) origins[u].label = origins[v].label;
-    }
+    });
   }
 }
 
@@ -98,15 +97,15 @@ void Results::write_vertices(ThreadTeam* team) {
 Results::Tally Results::write_vertices(const Part& part) {
   const bool narrowed = run_.radius < run_.problem->max_distance + run_.shift;
   Tally tally;
-  for (const Index v : part.touched()) {
-    if (!is_first_copy(v)) continue;
+  part.for_each_touched([&](Index v) {
+    if (!is_first_copy(v)) return;
     const Index outer = run_.structure.outer_vertex(v);
     if (run_.problem->touched) run_.problem->touched->push_back(outer);
     const VertexValues s = all_copies(v);
     // Seen by no window yet, or not final when the run stopped.
     if (s.lower == kInfinity || (narrowed && s.lower > run_.radius)) {
       ++tally.beyond_radius;
-      continue;
+      return;
     }
     const Index label = label_of(v);
     const Reading r = read(s.lower, s.upper, s.estimate, label);
@@ -114,7 +113,7 @@ Results::Tally Results::write_vertices(const Part& part) {
     field_.source[outer] = label;
     if (!run_.problem->touched) field_.error_bound[outer] = r.bound;
     if (r.value <= run_.radius) tally.largest_bound = std::max(tally.largest_bound, r.relative);
-  }
+  });
   return tally;
 }
 
@@ -155,10 +154,10 @@ void Results::keep() {
   if (run_.radius < kInfinity) unknown.value = std::numeric_limits<double>::quiet_NaN();
   data->vertices.assign(mesh.vertex_count(), unknown);
   for (const Part& part : parts_) {
-    for (const Index v : part.touched()) {
-      if (run_.values[v].lower > run_.radius || !is_first_copy(v)) continue;
+    part.for_each_touched([&](Index v) {
+      if (run_.values[v].lower > run_.radius || !is_first_copy(v)) return;
       data->vertices[run_.structure.outer_vertex(v)] = {run_.values[v].lower, label_of(v), outer(run_.rays[v])};
-    }
+    });
   }
   data->targets.assign(run_.problem->targets.begin(), run_.problem->targets.end());
   for (Index i = 0; i < run_.targets.size(); ++i) {

@@ -80,7 +80,18 @@ class alignas(kApart) Part {
 
   // What is left of the last run, whether it came to its end or not.
   void forget();
-  std::span<const Index> touched() const { return {run_->touched.data() + first_, touched_}; }
+  // Its vertices whose entries have changed, each once.
+  Index touched_count() const { return touched_; }
+  template <class Visit>
+  void for_each_touched(Visit&& visit) const {
+    if (touched_ <= room_for_touched()) {
+      for (Index i = 0; i < touched_; ++i) visit(list_of_touched()[i]);
+      return;
+    }
+    for (Index v = first_; v < last_; ++v) {
+      if (run_->values[v].upper < kInfinity) visit(v);
+    }
+  }
   std::span<KeptWindow> kept() { return kept_; }
   // Events since this was asked last.
   std::uint64_t count_updates() { return std::exchange(updates_, 0); }
@@ -107,8 +118,13 @@ class alignas(kApart) Part {
 
   // part.cpp: vertices
   void touch(Index v, double length) {
-    if (length < kInfinity) run_->touched[first_ + touched_++] = v;
+    if (!(length < kInfinity)) return;
+    if (touched_ < room_for_touched()) list_of_touched()[touched_] = v;
+    ++touched_;
   }
+  // They are listed as long as they are few: going through all costs less than a long list.
+  Index* list_of_touched() const { return run_->touched.data() + first_ / kFewTouched; }
+  Index room_for_touched() const { return last_ / kFewTouched - first_ / kFewTouched; }
   [[gnu::always_inline]] void expect(Index v, double value, double lift) {
     double& estimate = run_->values[v].estimate;
     estimate = std::min(estimate, value + lift);

@@ -12,6 +12,9 @@
 
 namespace brushfire::detail {
 
+// The vertices that a run touches are listed up to one in as many.
+inline constexpr Index kFewTouched = 4;
+
 // While parts are at work, each writes only to entries of its own vertices and faces and reads no other part's entries
 // of the arrays by vertex; everything else stands still.
 struct RunState {
@@ -22,7 +25,7 @@ struct RunState {
   std::vector<VertexLight> light;    // [vertex_count]
   std::vector<Origins> origins;      // [vertex_count] in runs with several sources
   std::vector<Ray> rays;             // [vertex_count] in runs that keep them: what brought every vertex its least value
-  std::vector<Index> touched;  // [vertex_count] of each part, from its first vertex on: vertices whose entries changed
+  std::vector<Index> touched;        // of each part, from its first vertex' number / kFewTouched on: see Part
   Targets targets;
 
   const Problem* problem = nullptr;

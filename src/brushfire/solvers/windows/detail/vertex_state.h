@@ -21,10 +21,15 @@ static_assert(sizeof(VertexValues) == 32);
 
 // What a vertex where paths may bend needs to send light on.
 struct VertexLight {
-  CrossedAt from;           // where its least value came from
-  bool all_around = false;  // sends light in all directions, whatever its faces are like
-  bool waiting = false;     // its value has fallen since it last sent light
+  double place = 0;           // where its least value came from: CrossedAt, without its padding
+  Index halfedge = kNoIndex;  // likewise
+  bool all_around = false;    // sends light in all directions, whatever its faces are like
+  bool waiting = false;       // its value has fallen since it last sent light
+
+  CrossedAt from() const { return {place, halfedge}; }
+  void came_from(const CrossedAt& at) { place = at.place, halfedge = at.halfedge; }
 };
+static_assert(sizeof(VertexLight) == 16);
 
 // Where light comes from in the end; for runs with several sources.
 struct Origins {
