@@ -49,42 +49,42 @@ void BlockPool::clear() {
   for (std::vector<std::byte*>& free : free_) free.clear();
 }
 
-Index ExactLists::allocate_part() {
-  if (free_part_ == kNoIndex) {
-    parts_.emplace_back();
-    return static_cast<Index>(parts_.size() - 1);
+Index ExactLists::allocate_link() {
+  if (free_link_ == kNoIndex) {
+    links_.emplace_back();
+    return static_cast<Index>(links_.size() - 1);
   }
-  const Index part = free_part_;
-  free_part_ = parts_[part].next;
-  return part;
+  const Index link = free_link_;
+  free_link_ = links_[link].next;
+  return link;
 }
 
 void ExactLists::put(Index& first, Index h, Origin origin, const WindowList& list) {
-  const Index added = allocate_part();
+  const Index added = allocate_link();
   Index before = kNoIndex, after = first;
   while (after != kNoIndex &&
-         (parts_[after].halfedge < h || (parts_[after].halfedge == h && parts_[after].origin <= origin))) {
+         (links_[after].halfedge < h || (links_[after].halfedge == h && links_[after].origin <= origin))) {
     before = after;
-    after = parts_[after].next;
+    after = links_[after].next;
   }
-  Part& part = parts_[added];
-  part = {list, kInfinity, h, after, origin};
+  Link& link = links_[added];
+  link = {list, kInfinity, h, after, origin};
   if (before == kNoIndex) {
     first = added;
   } else {
-    parts_[before].next = added;
+    links_[before].next = added;
   }
-  if (before != kNoIndex && parts_[before].halfedge == h) {
-    if (parts_[before].origin == origin) part.list.ordered = false;
-  } else if (after != kNoIndex && parts_[after].halfedge == h) {
-    part.key = parts_[after].key;
+  if (before != kNoIndex && links_[before].halfedge == h) {
+    if (links_[before].origin == origin) link.list.ordered = false;
+  } else if (after != kNoIndex && links_[after].halfedge == h) {
+    link.key = links_[after].key;
   }
 }
 
 void ExactLists::put(Index& first, Index h, Origin origin, const Window& w, BlockPool& blocks) {
-  for (Index p = find(first, h); p != kNoIndex && parts_[p].halfedge == h; p = parts_[p].next) {
-    WindowList& list = parts_[p].list;
-    if (parts_[p].origin != origin || list.size == list.block.capacity()) continue;
+  for (Index p = find(first, h); p != kNoIndex && links_[p].halfedge == h; p = links_[p].next) {
+    WindowList& list = links_[p].list;
+    if (links_[p].origin != origin || list.size == list.block.capacity()) continue;
     list.block.columns().set(list.size++, w);
     list.ordered = false;
     return;
@@ -98,37 +98,37 @@ void ExactLists::put(Index& first, Index h, Origin origin, const Window& w, Bloc
 
 WindowList ExactLists::take(Index& first, Index h, BlockPool& blocks) {
   Index* link = &first;
-  while (parts_[*link].halfedge != h) link = &parts_[*link].next;
+  while (links_[*link].halfedge != h) link = &links_[*link].next;
   const Index head = *link;
-  Index last = head, total = parts_[head].list.size;
-  for (Index p = parts_[head].next; p != kNoIndex && parts_[p].halfedge == h; p = parts_[p].next) {
-    total += parts_[p].list.size;
+  Index last = head, total = links_[head].list.size;
+  for (Index p = links_[head].next; p != kNoIndex && links_[p].halfedge == h; p = links_[p].next) {
+    total += links_[p].list.size;
     last = p;
   }
-  const Index end = parts_[last].next;
+  const Index end = links_[last].next;
   *link = end;
-  WindowList result = parts_[head].list;
+  WindowList result = links_[head].list;
   if (last != head) {
     result = {blocks.allocate(total), 0, 0, true};
     const WindowColumns all = result.block.columns();
-    for (Index p = head; p != end; p = parts_[p].next) {
-      const WindowList& part = parts_[p].list;
+    for (Index p = head; p != end; p = links_[p].next) {
+      const WindowList& part = links_[p].list;
       copy_windows(part.block.columns(), all.from(result.size), part.size);
       result.size += part.size;
       result.age = std::max(result.age, part.age);
-      result.ordered = result.ordered && part.ordered && parts_[p].origin != Origin::Anywhere;
+      result.ordered = result.ordered && part.ordered && links_[p].origin != Origin::Anywhere;
       blocks.release(part.block);
     }
   }
-  parts_[last].next = free_part_;
-  free_part_ = head;
+  links_[last].next = free_link_;
+  free_link_ = head;
   return result;
 }
 
 void ExactLists::prefetch_windows(Index first) const {
   constexpr std::size_t kLine = 64, kMost = 16;  // lines
   if (first == kNoIndex) return;
-  const WindowList& list = parts_[first].list;
+  const WindowList& list = links_[first].list;
   const std::size_t column = list.block.capacity() * sizeof(double), used = list.size * sizeof(double);
   std::size_t lines = 0;
   for (std::size_t c = 0; c < 5; ++c) {
@@ -139,8 +139,8 @@ void ExactLists::prefetch_windows(Index first) const {
 }
 
 void ExactLists::clear() {
-  parts_.clear();
-  free_part_ = kNoIndex;
+  links_.clear();
+  free_link_ = kNoIndex;
 }
 
 }  // namespace brushfire::detail

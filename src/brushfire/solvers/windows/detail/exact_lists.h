@@ -103,7 +103,7 @@ class ExactLists {
  public:
   bool empty(Index first, Index h) const { return find(first, h) == kNoIndex; }
   // The key under which h's lists were queued last; infinity before that. Something must wait at h.
-  double& key(Index first, Index h) { return parts_[find(first, h)].key; }
+  double& key(Index first, Index h) { return links_[find(first, h)].key; }
 
   // The list waits at h from now on; its block is the caller's no longer.
   void put(Index& first, Index h, Origin origin, const WindowList& list);
@@ -112,28 +112,28 @@ class ExactLists {
   WindowList take(Index& first, Index h, BlockPool& blocks);
 
   void prefetch_list(Index first) const {
-    if (first != kNoIndex) prefetch(&parts_[first]);
+    if (first != kNoIndex) prefetch(&links_[first]);
   }
   void prefetch_windows(Index first) const;
   // The caller sees to the heads.
   void clear();
 
  private:
-  struct Part {
+  struct Link {
     WindowList list;
-    double key = kInfinity;  // of a halfedge's first part
+    double key = kInfinity;  // of a halfedge's first link
     Index halfedge = kNoIndex;
     Index next = kNoIndex;
     Origin origin = Origin::Start;
   };
   Index find(Index first, Index h) const {
-    while (first != kNoIndex && parts_[first].halfedge != h) first = parts_[first].next;
+    while (first != kNoIndex && links_[first].halfedge != h) first = links_[first].next;
     return first;
   }
-  Index allocate_part();
+  Index allocate_link();
 
-  std::vector<Part> parts_;
-  Index free_part_ = kNoIndex;  // freed ones, linked by next
+  std::vector<Link> links_;
+  Index free_link_ = kNoIndex;  // freed ones, linked by next
 };
 
 }  // namespace brushfire::detail
