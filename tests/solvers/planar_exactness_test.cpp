@@ -75,11 +75,6 @@ double worst_excess(const Mesh& mesh, const SurfacePoint& source, const Distance
 }
 
 TEST(PlanarExactness, DelaunayTriangulationsOfConvexRegionsAreExactFromSourcesAnywhere) {
-#ifdef __SANITIZE_ADDRESS__
-  // Open: with -fsanitize=undefined single seeds are inexact (350; 13 and 15 in parts); without it, also under
-  // valgrind, none is.
-  GTEST_SKIP() << "not exact in builds with sanitizers: an open bug, docs/decisions/marching.md";
-#endif
   for (unsigned seed = 0; seed < kTriangulations; ++seed) {
     std::mt19937 random(seed);
     const Mesh mesh = random_convex_triangulation(random);
@@ -106,11 +101,6 @@ DistanceOptions in_double() {
 
 // Parts learn of each other by letters, and late.
 TEST(PlanarExactness, PartsAreExactToo) {
-#ifdef __SANITIZE_ADDRESS__
-  // Open: with -fsanitize=undefined single seeds are inexact (350; 13 and 15 in parts); without it, also under
-  // valgrind, none is.
-  GTEST_SKIP() << "not exact in builds with sanitizers: an open bug, docs/decisions/marching.md";
-#endif
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);

@@ -114,8 +114,8 @@ class LaneWriter {
     if (count_ == 0) return kLanes;
     constexpr T kSame = 16 * std::numeric_limits<T>::epsilon();
     const RingBlock<T>& block = blocks_[done_];
-    std::uint32_t sides = 0;  // whose ends are that one; all are looked at, as there is no telling which it is
-    for (Index k = 0; k < kLanes; ++k) sides |= (block.end[k] == c.b ? 1u : 0u) << k;
+    std::uint32_t sides = 0;  // whose ends are that one; what lies behind the used ones was never written
+    for (Index k = 0; k < count_; ++k) sides |= (block.end[k] == c.b ? 1u : 0u) << k;
     for (; sides != 0; sides &= sides - 1) {
       const auto k = static_cast<Index>(std::countr_zero(sides));
       if (std::abs(block.length[k] - static_cast<T>(c.length_b)) <= kSame * block.length[k]) return k;
