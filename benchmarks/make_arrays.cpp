@@ -10,7 +10,6 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <string>
 
 #include "measure.h"
@@ -37,10 +36,5 @@ int run(int count, char** arguments) {
 }  // namespace brushfire::benchmark
 
 int main(int count, char** arguments) {
-  try {
-    return brushfire::benchmark::run(count, arguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "make_arrays: %s\n", error.what());
-    return 1;
-  }
+  return brushfire::benchmark::guarded("make_arrays", brushfire::benchmark::run, count, arguments);
 }

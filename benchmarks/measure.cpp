@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <exception>
 #include <fstream>
 
 namespace brushfire::benchmark {
@@ -79,6 +81,15 @@ DistanceOptions options_named(const std::string& name) {
     options.tolerance = std::stod(option);
   }
   return options;
+}
+
+int guarded(const char* program, int (*run)(int count, char** arguments), int count, char** arguments) {
+  try {
+    return run(count, arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", program, error.what());
+    return 1;
+  }
 }
 
 }  // namespace brushfire::benchmark

@@ -40,4 +40,7 @@ RelativeError relative_error(std::span<const double> distance, std::span<const d
 // A method, followed by :float, :double or a tolerance (windows:1e-3) where one is wanted.
 DistanceOptions options_named(const std::string& name);
 
+// What main() returns: what run() does, or 1 after an exception, which is told on stderr under the program's name.
+int guarded(const char* program, int (*run)(int count, char** arguments), int count, char** arguments);
+
 }  // namespace brushfire::benchmark

@@ -13,7 +13,6 @@
 #include <brushfire/solvers/distance.h>
 
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <string>
 
@@ -80,10 +79,5 @@ int run(int count, char** arguments) {
 }  // namespace brushfire::benchmark
 
 int main(int count, char** arguments) {
-  try {
-    return brushfire::benchmark::run(count, arguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "time_solver: %s\n", error.what());
-    return 1;
-  }
+  return brushfire::benchmark::guarded("time_solver", brushfire::benchmark::run, count, arguments);
 }

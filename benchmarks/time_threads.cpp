@@ -12,7 +12,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <thread>
 
@@ -85,10 +84,5 @@ int run(int count, char** arguments) {
 }  // namespace brushfire::benchmark
 
 int main(int count, char** arguments) {
-  try {
-    return brushfire::benchmark::run(count, arguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "time_threads: %s\n", error.what());
-    return 1;
-  }
+  return brushfire::benchmark::guarded("time_threads", brushfire::benchmark::run, count, arguments);
 }

@@ -10,11 +10,13 @@
 #include <thread>
 
 #include "support/part_solver.h"
+#include "support/same_field.h"
 #include "support/shared_meshes.h"
 
 namespace brushfire {
 namespace {
 
+using test::expect_equal_bits;
 using test::PartSolver;
 
 struct Way {
@@ -43,15 +45,6 @@ std::vector<Source> some_sources(const Mesh& mesh) {
   return {{vertex_point(mesh, 100)}, {{400, {0, 0.5, 0.5}}, 0.1}, {{7, {0.25, 0.25, 0.5}}}};
 }
 
-void expect_same(const DistanceField& one, const DistanceField& other, const std::string& what) {
-  EXPECT_EQ(one.distance, other.distance) << what;
-  EXPECT_EQ(one.source, other.source) << what;
-  EXPECT_EQ(one.target_distance, other.target_distance) << what;
-  EXPECT_EQ(one.target_source, other.target_source) << what;
-  EXPECT_EQ(one.updates, other.updates) << what;
-  EXPECT_EQ(one.beyond_radius, other.beyond_radius) << what;
-}
-
 constexpr unsigned kThreadCounts[] = {2, 3, 8, 32};
 
 TEST(Parts, GiveTheSameBitsToAnyNumberOfThreads) {
@@ -64,7 +57,7 @@ TEST(Parts, GiveTheSameBitsToAnyNumberOfThreads) {
         const std::span<const Source> from(sources.data(), count);
         const DistanceField one = alone.distance(from, options_of(way, 1));
         for (const unsigned threads : kThreadCounts) {
-          expect_same(one, solver.distance(from, options_of(way, threads)), name_of(way));
+          expect_equal_bits(one, solver.distance(from, options_of(way, threads)), name_of(way));
         }
       }
     }
@@ -85,9 +78,9 @@ TEST(Parts, GiveTheSameBitsWhereARadiusOrTargetsStopTheFront) {
       options.threads = 1;
       const DistanceField one = alone.distance(sources, options);
       options.threads = 2;
-      expect_same(one, solver.distance(sources, options), name_of(way));
+      expect_equal_bits(one, solver.distance(sources, options), name_of(way));
       const DistanceField listed = solver.distance(sources, options, &touched);
-      expect_same(one, listed, name_of(way));
+      expect_equal_bits(one, listed, name_of(way));
       std::sort(touched.begin(), touched.end());
       EXPECT_EQ(std::adjacent_find(touched.begin(), touched.end()), touched.end());
       for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -107,7 +100,7 @@ TEST(Parts, OfALargeMeshAreThoseOfItsSolver) {
   const DistanceField one = solver.distance({&source, 1}, options);
   for (const unsigned threads : {2u, 3u, 0u}) {
     options.threads = threads;
-    expect_same(one, solver.distance({&source, 1}, options), std::to_string(threads) + " threads");
+    expect_equal_bits(one, solver.distance({&source, 1}, options), std::to_string(threads) + " threads");
   }
   options.method = Method::Exact;
   const std::vector<double> truth = solver.distance({&source, 1}, options).distance;
@@ -159,7 +152,7 @@ TEST(Parts, AreLeftAndTakenUpAgainAfterACancelledRun) {
   EXPECT_EQ(reports, 20);
   options.cancel = nullptr;
   last = 0;
-  expect_same(whole, solver.distance({&source, 1}, options), "after a cancelled run");
+  expect_equal_bits(whole, solver.distance({&source, 1}, options), "after a cancelled run");
 }
 
 // What a part names of others: each ghost once, told of by its owner, and telling it.

@@ -14,9 +14,12 @@
 #include <string>
 
 #include "support/engine_run.h"
+#include "support/same_field.h"
 
 namespace brushfire::detail {
 namespace {
+
+using test::expect_equal_bits;
 
 constexpr unsigned kOnePart = 31;
 
@@ -70,17 +73,6 @@ void expect_same_distances(const DistanceField& a, const DistanceField& b, const
     const double bound = a.error_bound[v] + b.error_bound[v] + 1e-15;
     EXPECT_LE(std::abs(a.distance[v] - b.distance[v]), bound) << where << ", vertex " << v;
   }
-}
-
-void expect_equal_bits(const DistanceField& a, const DistanceField& b, const std::string& where) {
-  EXPECT_EQ(a.distance, b.distance) << where;
-  EXPECT_EQ(a.source, b.source) << where;
-  EXPECT_EQ(a.error_bound, b.error_bound) << where;
-  EXPECT_EQ(a.max_error_bound, b.max_error_bound) << where;
-  EXPECT_EQ(a.target_distance, b.target_distance) << where;
-  EXPECT_EQ(a.target_source, b.target_source) << where;
-  EXPECT_EQ(a.beyond_radius, b.beyond_radius) << where;
-  EXPECT_EQ(a.updates, b.updates) << where;
 }
 
 TEST(Parts, EveryFaceIsInOnePartWithVerticesOfItsOwnAndCopiesFormRings) {
