@@ -3,13 +3,15 @@
 
 #include <memory>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace brushfire {
 
-// An allocator that leaves numbers uninitialised where std::allocator would set them to zero: touching memory for the
-// first time costs as much as computing what goes there. (Huge pages were tried: docs/decisions/marching.md.)
+// An allocator that leaves numbers, and aggregates of numbers (whatever their members' initialisers say), uninitialised
+// where std::allocator would set them to zero: touching memory for the first time costs as much as computing what goes
+// there. (Huge pages were tried: docs/decisions/speed.md.)
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
   template <class U>
@@ -22,8 +24,8 @@ struct UninitializedAllocator : std::allocator<T> {
   UninitializedAllocator(const UninitializedAllocator<U>&) {}  // NOLINT(google-explicit-constructor): a rebound one
 
   template <class U>
-  void construct(U* at) {
-    ::new (static_cast<void*>(at)) U;  // not U(): no zeros
+  void construct(U*) {
+    static_assert(std::is_trivially_copyable_v<U> && std::is_trivially_destructible_v<U>);  // exists by being allocated
   }
   template <class U, class First, class... Rest>
   void construct(U* at, First&& first, Rest&&... rest) {

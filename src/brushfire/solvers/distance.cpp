@@ -2,6 +2,7 @@
 #include <brushfire/solvers/distance.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/core/populate.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/fast_marching/fast_marching.h>
@@ -38,6 +39,17 @@ std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
       break;
   }
   throw Error(ErrorCode::InvalidArgument, "no such method");
+}
+
+// std::vector::assign(), on pages that are made present all at once.
+template <class T>
+void assign(std::vector<T>& array, std::size_t size, T value) {
+  if (array.capacity() < size) {
+    array.clear();
+    array.reserve(size);
+    populate(array.data(), size * sizeof(T));
+  }
+  array.assign(size, value);
 }
 
 void locate_sources(const Mesh& mesh, std::span<const Source> sources, std::vector<detail::LocatedSource>& located) {
@@ -229,8 +241,8 @@ void DistanceSolver::distance(std::span<const Source> sources, const DistanceOpt
   field.max_error_bound = kInfinity;
   field.beyond_radius = 0;
   field.updates = 0;
-  field.distance.assign(w.mesh.vertex_count(), kInfinity);
-  field.source.assign(w.mesh.vertex_count(), kNoIndex);
+  assign(field.distance, w.mesh.vertex_count(), kInfinity);
+  assign(field.source, w.mesh.vertex_count(), kNoIndex);
   field.target_distance.assign(w.targets.size(), kInfinity);
   field.target_source.assign(w.targets.size(), kNoIndex);
   engine.solve({w.sources, w.targets, options.max_distance / w.mesh.unit(), &options, nullptr}, field);

@@ -1,6 +1,8 @@
 // Who works in a round, and what is handed over between two rounds.
 #include <brushfire/solvers/fast_marching/march_state.h>
 
+#include <brushfire/core/populate.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -14,6 +16,10 @@ MarchState<T>::MarchState(const Parts& shared_out)
       parts(shared_out.count()),
       channels(shared_out.channels.size()),
       outlook(shared_out.count()) {
+  populate(front_at);
+  std::fill(front_at.begin(), front_at.end(), Front{});
+  populate(open);
+  std::fill(open.begin(), open.end(), std::uint8_t{0});
   layout->for_each_shared_vertex([&](Index v) { open[v] = Openness::kShared; });
   std::fill(open.begin() + layout->first_ghost(), open.end(), Openness::kShared);
 }

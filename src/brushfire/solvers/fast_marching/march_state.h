@@ -8,6 +8,7 @@
 
 #include <brushfire/core/bucket_queue.h>
 #include <brushfire/core/types.h>
+#include <brushfire/core/uninitialized.h>
 #include <brushfire/solvers/fast_marching/parts.h>
 
 #include <array>
@@ -82,11 +83,11 @@ struct MarchState {
   explicit MarchState(const Parts& parts);
 
   const Parts* layout;
-  std::vector<Front> front_at;     // [places]
-  std::vector<std::uint8_t> open;  // [places] see Openness
-  std::vector<Index> label;        // [places] where labelled
-  std::vector<T> start;            // [labels] the value that each label's front started with
-  std::vector<T> fixed_value;      // [places], label-setting only: the value once it is fixed
+  UninitializedArray<Front> front_at;     // [places]
+  UninitializedArray<std::uint8_t> open;  // [places] see Openness
+  std::vector<Index> label;               // [places] where labelled
+  std::vector<T> start;                   // [labels] the value that each label's front started with
+  std::vector<T> fixed_value;             // [places], label-setting only: the value once it is fixed
   std::vector<Part> parts;
   std::vector<Channel> channels;
   std::vector<Outlook> outlook;    // [parts]
