@@ -83,18 +83,42 @@ constexpr std::array<std::uint32_t, 1 << kHilbertBits> kSpread = [] {
   return spread;
 }();
 
+// In a cube of 2^kBits cells a side.
+template <int kBits>
+std::uint64_t place_on_curve(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  static_assert(kBits % 2 == 0 && kBits <= kHilbertBits);
+  const std::uint32_t octants_of_all = kSpread[x] | kSpread[y] << 1 | kSpread[z] << 2;
+  std::uint64_t place = 0;
+  unsigned state = 0;
+  for (int bit = 3 * (kBits - 2); bit >= 0; bit -= 6) {
+    const unsigned octants = octants_of_all >> bit & 63u;
+    const TwoSteps step = kTwoSteps[state * 64 + octants];
+    place = place << 6 | step.places;
+    state = step.next_state;
+  }
+  return place;
+}
+
 // A place on the curve and a vertex there, as one number that sorts by the place.
 using Keyed = std::uint64_t;
-constexpr int kKeyBits = 3 * kHilbertBits;
+
+// How the places are sorted: by digits.
+struct Digits {
+  int cube_bits;       // cells along one axis: two to this
+  int count, of_bits;  // of a place
+};
+constexpr Digits kFine{kHilbertBits, 3, 10}, kCoarse{8, 2, 12};
+static_assert(kFine.count * kFine.of_bits == 3 * kFine.cube_bits && 3 * kFine.cube_bits <= 32);
+static_assert(kCoarse.count * kCoarse.of_bits == 3 * kCoarse.cube_bits);
 
 // The vertices by their keys, equal ones in the order given. `items` is used up.
+template <Digits kDigits>
 VertexOrder radix_sorted(UninitializedArray<Keyed>& items) {
-  constexpr int kDigitBits = 10, kDigits = kKeyBits / kDigitBits;
-  static_assert(kKeyBits % kDigitBits == 0 && kKeyBits <= 32);
-  const auto digit = [](Keyed k, int i) { return (k >> (32 + i * kDigitBits)) & ((1 << kDigitBits) - 1); };
-  std::array<std::array<Index, 1 << kDigitBits>, kDigits> start{};
+  constexpr int kCount = kDigits.count, kBits = kDigits.of_bits;
+  const auto digit = [](Keyed k, int i) { return (k >> (32 + i * kBits)) & ((1 << kBits) - 1); };
+  std::array<std::array<Index, 1 << kBits>, kCount> start{};
   for (const Keyed k : items) {
-    for (int i = 0; i < kDigits; ++i) ++start[static_cast<std::size_t>(i)][digit(k, i)];
+    for (int i = 0; i < kCount; ++i) ++start[static_cast<std::size_t>(i)][digit(k, i)];
   }
   UninitializedArray<Keyed> other(items.size());
   populate(other);
@@ -103,11 +127,11 @@ VertexOrder radix_sorted(UninitializedArray<Keyed>& items) {
   order.vertex_rank.resize(items.size());
   populate(order.vertices);
   populate(order.vertex_rank);
-  for (int i = 0; i < kDigits; ++i) {
+  for (int i = 0; i < kCount; ++i) {
     auto& place = start[static_cast<std::size_t>(i)];
     Index sum = 0;
     for (Index& s : place) sum += std::exchange(s, sum);
-    if (i + 1 < kDigits) {
+    if (i + 1 < kCount) {
       for (const Keyed k : items) other[place[digit(k, i)]++] = k;
       items.swap(other);
     } else {
@@ -121,16 +145,13 @@ VertexOrder radix_sorted(UninitializedArray<Keyed>& items) {
   return order;
 }
 
-VertexOrder hilbert_order(std::span<const Vec3> positions) {
-  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
-  for (const Vec3& p : positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+template <Digits kDigits>
+VertexOrder hilbert_order(std::span<const Vec3> positions, const Box& bounds) {
+  const auto [low, high] = bounds;
   // Halves, so that the extent of coordinates near the largest double stays finite.
   const Vec3 half = 0.5 * high - 0.5 * low;
   const double extent = std::max({half.x, half.y, half.z});
-  constexpr double kCells = (1 << kHilbertBits) - 1;
+  constexpr double kCells = (1 << kDigits.cube_bits) - 1;
   // First to the unit cube, as the inverse of a tiny extent may be infinite.
   const double unit = extent > 0 ? std::clamp(std::ldexp(1.0, std::ilogb(extent)), 0x1p-1000, 0x1p1000) : 1.0;
   const double up = 1 / unit, cells = extent > 0 ? kCells / (extent * up) : 0;
@@ -141,9 +162,16 @@ VertexOrder hilbert_order(std::span<const Vec3> positions) {
   populate(items);
   for (Index v = 0; v < items.size(); ++v) {
     const Vec3 p = positions[v];
-    items[v] = detail::hilbert_index(cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z)) << 32 | v;
+    const auto place = place_on_curve<kDigits.cube_bits>(cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z));
+    items[v] = place << 32 | v;
   }
-  return radix_sorted(items);
+  return radix_sorted<kDigits>(items);
+}
+
+// Fewer cells than vertices are no harm as long as they stay few in a cell.
+VertexOrder hilbert_order(std::span<const Vec3> positions, const Box& bounds) {
+  constexpr std::size_t kFew = std::size_t{1} << 17;
+  return positions.size() < kFew ? hilbert_order<kCoarse>(positions, bounds) : hilbert_order<kFine>(positions, bounds);
 }
 
 VertexOrder breadth_first_order(const Mesh& mesh) {
@@ -172,21 +200,11 @@ VertexOrder breadth_first_order(const Mesh& mesh) {
 }  // namespace
 
 std::uint64_t detail::hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  const std::uint32_t octants_of_all = kSpread[x] | kSpread[y] << 1 | kSpread[z] << 2;
-  std::uint64_t index = 0;
-  unsigned state = 0;
-  static_assert(kHilbertBits % 2 == 0);
-  for (int bit = 3 * (kHilbertBits - 2); bit >= 0; bit -= 6) {
-    const unsigned octants = octants_of_all >> bit & 63u;
-    const TwoSteps step = kTwoSteps[state * 64 + octants];
-    index = index << 6 | step.places;
-    state = step.next_state;
-  }
-  return index;
+  return place_on_curve<kHilbertBits>(x, y, z);
 }
 
 VertexOrder vertex_locality_order(const Mesh& mesh) {
-  return mesh.has_positions() ? hilbert_order(mesh.positions()) : breadth_first_order(mesh);
+  return mesh.has_positions() ? hilbert_order(mesh.positions(), mesh.bounds()) : breadth_first_order(mesh);
 }
 
 // By the least place of a face's vertices: a counting sort.

@@ -20,9 +20,9 @@ struct LocalityOrder : VertexOrder {
   UninitializedArray<Index> faces;  // [face_count] new to old, by the least place of a face's vertices, then by number
 };
 
-// Along a Hilbert curve through the bounding cube of the positions (2^10 cells a side); breadth first, from the lowest
-// vertex of each component, where the mesh has no positions. Ties by number, so the result is unique. O(vertices +
-// faces): a radix sort.
+// Along a Hilbert curve through the bounding cube of the positions (2^10 cells a side, 2^8 below 2^17 vertices);
+// breadth first, from the lowest vertex of each component, where the mesh has no positions. Ties by number, so the
+// result is unique. O(vertices + faces): a radix sort.
 LocalityOrder locality_order(const Mesh& mesh);
 
 // Its vertices alone, and its faces from old to new, once the vertices are known.

@@ -60,25 +60,63 @@ struct Geometry {
   UninitializedArray<double> double_areas;  // [face_count]
 };
 
-void check_faces(Index vertex_count, std::span<const Face> faces) {
+[[noreturn]] void throw_index_error(Index vertex_count, std::span<const Face> faces) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const Index v : faces[f]) {
+      if (v < vertex_count) continue;
+      throw Error(ErrorCode::InvalidMesh, "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
+                                              ", but there are " + std::to_string(vertex_count) + " vertices");
+    }
+  }
+  throw Error(ErrorCode::Internal, "all faces name vertices that are there");
+}
+
+// A copy of the faces; throws as the constructor of Mesh does.
+UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> faces) {
   if (faces.size() > kNoIndex / 3) {
     throw Error(ErrorCode::TooLarge, std::to_string(faces.size()) + " faces do not fit into 32-bit halfedge numbers");
   }
+  UninitializedArray<Face> copy(faces.size());
+  populate(copy);
+  Index highest = 0;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (const Index v : faces[f]) {
-      if (v >= vertex_count) {
-        throw Error(ErrorCode::InvalidMesh, "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
-                                                ", but there are " + std::to_string(vertex_count) + " vertices");
-      }
-    }
+    const Face t = faces[f];
+    highest = std::max({highest, t[0], t[1], t[2]});
+    copy[f] = t;
   }
+  if (!faces.empty() && highest >= vertex_count) throw_index_error(vertex_count, faces);
+  return copy;
 }
 
-template <class T>
-UninitializedArray<T> copied(std::span<const T> from) {
-  UninitializedArray<T> copy(from.size());
+[[noreturn]] void throw_position_error(std::span<const Vec3> positions) {
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const Vec3& p = positions[v];
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    throw Error(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + " has a coordinate that is not finite: (" +
+                                            std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
+                                            std::to_string(p.z) + ")");
+  }
+  throw Error(ErrorCode::Internal, "all coordinates are finite");
+}
+
+// A copy of the positions, and their bounds; throws as the constructor of Mesh does.
+UninitializedArray<Vec3> checked_copy(std::span<const Vec3> positions, Box& bounds) {
+  if (positions.size() >= kNoIndex) {
+    throw Error(ErrorCode::TooLarge, std::to_string(positions.size()) + " vertices do not fit into 32-bit indices");
+  }
+  UninitializedArray<Vec3> copy(positions.size());
   populate(copy);
-  std::copy(from.begin(), from.end(), copy.begin());
+  Box box;
+  Vec3 zero;  // stays so: 0 times what is not finite is NaN
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const Vec3 p = positions[v];
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    zero = zero + 0 * p;
+    copy[v] = p;
+  }
+  if (!(zero == Vec3{})) throw_position_error(positions);
+  bounds = box;
   return copy;
 }
 
@@ -118,15 +156,12 @@ Sample sample_edges(std::span<const Vec3> positions, std::span<const Face> faces
 // How far two powers of two apart squares and fourth powers keep their digits.
 constexpr double kOneSize = 0x1p100;
 
-double unit_from_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
+double unit_from_positions(std::span<const Vec3> positions, std::span<const Face> faces, const Box& bounds) {
   constexpr std::size_t kSample = 4096;
   Sample sample = sample_edges(positions, faces, std::max<std::size_t>(1, faces.size() / kSample));
-  const bool is_large = faces.size() > kSample;
-  double largest = sample.largest;
-  if (is_large) {
-    for (const Vec3& p : positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  if (is_large && !(sample.mean > largest / kOneSize)) sample = sample_edges(positions, faces, 1);
+  const auto [low, high] = bounds;
+  const double largest = std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});
+  if (faces.size() > kSample && !(sample.mean > largest / kOneSize)) sample = sample_edges(positions, faces, 1);
   return power_of_two_below(sample.mean);
 }
 
@@ -150,6 +185,7 @@ struct Mesh::Arrays {
   Index vertex_count = 0;
   bool has_positions = true;
   UninitializedArray<Vec3> positions;
+  Box bounds;  // of the positions
   UninitializedArray<Face> faces;
   std::vector<double> input_lengths;  // [halfedge_count], meshes from lengths only
 
@@ -190,7 +226,7 @@ struct Mesh::Data {
   }
   double get_unit() const {
     return unit.get([this] {
-      return arrays->has_positions ? unit_from_positions(arrays->positions, arrays->faces)
+      return arrays->has_positions ? unit_from_positions(arrays->positions, arrays->faces, arrays->bounds)
                                    : arrays->unit_from_lengths();
     });
   }
@@ -301,22 +337,10 @@ Mesh::Mesh() : data_(std::make_shared<Data>()) {}
 Mesh::Mesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
 Mesh::Mesh(std::span<const Vec3> positions, std::span<const Face> faces) {
-  if (positions.size() >= kNoIndex) {
-    throw Error(ErrorCode::TooLarge, std::to_string(positions.size()) + " vertices do not fit into 32-bit indices");
-  }
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    const Vec3& p = positions[v];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-      throw Error(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + " has a coordinate that is not finite: (" +
-                                              std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
-                                              std::to_string(p.z) + ")");
-    }
-  }
-  check_faces(static_cast<Index>(positions.size()), faces);
   auto arrays = std::make_shared<Arrays>();
+  arrays->positions = checked_copy(positions, arrays->bounds);
   arrays->vertex_count = static_cast<Index>(positions.size());
-  arrays->positions = copied(positions);
-  arrays->faces = copied(faces);
+  arrays->faces = checked_copy(arrays->vertex_count, faces);
   auto data = std::make_shared<Data>();
   data->arrays = std::move(arrays);
   data_ = std::move(data);
@@ -328,11 +352,10 @@ Mesh Mesh::from_lengths(Index vertex_count, std::span<const Face> faces,
     throw Error(ErrorCode::InvalidArgument, std::to_string(faces.size()) + " faces, but lengths for " +
                                                 std::to_string(lengths.size()) + ": one triple per face is needed");
   }
-  check_faces(vertex_count, faces);
   auto arrays = std::make_shared<Arrays>();
   arrays->vertex_count = vertex_count;
   arrays->has_positions = false;
-  arrays->faces.assign(faces.begin(), faces.end());
+  arrays->faces = checked_copy(vertex_count, faces);
   arrays->input_lengths.reserve(3 * lengths.size());
   for (const auto& l : lengths) arrays->input_lengths.insert(arrays->input_lengths.end(), l.begin(), l.end());
   auto data = std::make_shared<Data>();
@@ -369,6 +392,7 @@ Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> ve
   auto arrays = std::make_shared<Arrays>();
   arrays->vertex_count = old.vertex_count;
   arrays->has_positions = old.has_positions;
+  arrays->bounds = old.bounds;
   arrays->positions.resize(old.positions.size());
   populate(arrays->positions);
   for (std::size_t i = 0; i < arrays->positions.size(); ++i) arrays->positions[i] = old.positions[vertices[i]];
@@ -398,6 +422,7 @@ bool Mesh::has_positions() const noexcept { return data_->arrays->has_positions;
 bool Mesh::has_slits() const noexcept { return !data_->slits.empty(); }
 std::span<const Vec3> Mesh::positions() const noexcept { return data_->arrays->positions; }
 std::span<const Face> Mesh::faces() const noexcept { return data_->arrays->faces; }
+const Box& Mesh::bounds() const noexcept { return data_->arrays->bounds; }
 std::span<const Index> Mesh::opposite() const { return data_->get_opposite(); }
 std::span<const Link> Mesh::links() const { return data_->get_links(); }
 Index Mesh::opposite(Index h) const {

@@ -34,6 +34,11 @@ enum class Link : std::uint8_t {
 //
 // Lengths and areas are in units of unit(), a power of two near the mean edge length, so that solvers see numbers near
 // one whatever the scale of the coordinates; multiplying by unit() is exact.
+// The smallest box along the axes that holds some points; inside out (+inf, -inf) where there are none.
+struct Box {
+  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+};
+
 class Mesh {
  public:
   // No vertices, no faces.
@@ -72,6 +77,7 @@ class Mesh {
   bool has_slits() const noexcept;
   std::span<const Vec3> positions() const noexcept;  // [vertex_count]
   std::span<const Face> faces() const noexcept;      // [face_count]
+  const Box& bounds() const noexcept;                // of the positions. O(1).
 
   static constexpr Index face_of(Index h) { return h / 3; }
   static constexpr Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
