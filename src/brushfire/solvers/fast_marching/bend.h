@@ -16,6 +16,11 @@ namespace brushfire::detail {
 struct Patch {
   float deficit = 0;  // 2 pi less the sum of the angles; 0 where the vertex is no inner one, or flat to kFlat
   float area = 0;
+
+  Patch& operator+=(const Patch& other) {
+    deficit += other.deficit, area += other.area;
+    return *this;
+  }
 };
 
 // What rounding and quick_angle() make of a flat vertex is less.

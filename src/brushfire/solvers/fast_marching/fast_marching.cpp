@@ -393,11 +393,7 @@ class FastMarching final : public Engine {
     constexpr double kLongest = 0x1p24;
     double longest = 0;
     if (mesh.has_positions()) {
-      Vec3 low{kInfinity, kInfinity, kInfinity}, high = -1 * low;
-      for (const Vec3& p : mesh.positions()) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-      }
+      const auto [low, high] = mesh.bounds();
       const Vec3 extent = (1 / mesh.unit()) * high - (1 / mesh.unit()) * low;
       longest = std::max({extent.x, extent.y, extent.z});
     } else {

@@ -1,4 +1,4 @@
-// Puts the sides and triangles around one vertex into blocks.
+// Puts the sides and triangles around vertices into blocks.
 #pragma once
 
 #include <brushfire/core/populate.h>
@@ -10,6 +10,11 @@
 #include <limits>
 #include <span>
 #include <utility>
+#include <vector>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include <brushfire/solvers/fast_marching/vector_target.h>
 
@@ -23,127 +28,184 @@ struct Corner {
   Corner mirrored() const { return {b, a, length_b, length_a, dot, cross}; }
 };
 
-// Writes blocks one after the other. The block at hand is the last one.
+// Begins the rings of the vertices in ascending order, and adds to any that has been begun.
 template <class T>
 class LaneWriter {
  public:
-  // `none`: the end of sides that are not there; `expected` blocks (there may be more).
-  LaneWriter(Index none, std::size_t expected) : none_(none) {
-    grow(expected + 1);
-    populate_more();
+  explicit LaneWriter(Index vertex_count) : none_(vertex_count) {
+    grow(std::size_t{vertex_count} + vertex_count / 2 + 1);            // what is not written costs nothing
+    heads_.reserve(std::size_t{vertex_count} + vertex_count / 4 + 1);  // ghosts will follow
+    heads_.resize(vertex_count);
+    populate(heads_);
+    next_.reserve(vertex_count / 2);
+    populate(links_.data(), vertex_count * sizeof(LaneLinks));
+  }
+
+  // Vertices up to `end` are about to begin their rings.
+  void make_room(Index end) {
+    while (first_present_ < end) populate_more(first_present_, none_);
+  }
+  // The first block of vertex v, and how its sides are linked: to be written.
+  RingBlock<T>* first_block(Index v) { return blocks_.data() + v; }
+  LaneLinks* first_links(Index v) { return links_.data() + v; }
+  // The ring of v is what was written there, or empty.
+  BRUSHFIRE_INLINE void begin(Index v) { heads_[v] = {}; }
+  void begin_empty(Index v) {
+    blank(v);
+    begin(v);
   }
 
   // Corners of which each ends on the side where the next one begins; `closed`: the last one on that of the first.
-  void add_fan(std::span<const Corner> fan, bool closed) {
+  void add_fan(Index v, std::span<const Corner> fan, bool closed) {
     const Index count = static_cast<Index>(fan.size());
-    if (count_ + count + (closed ? 0 : 1) > kLanes) finish();
+    Lane at = free_lane(v);
+    if (at.lane > 0 && at.lane + count + (closed ? 0 : 1) > kLanes) at = next_block(v, at);
     if (closed && count <= kLanes) {
-      const Index first = count_;
-      for (const Corner& c : fan) add_triangle(c, count_ + 1 < first + count ? count_ + 1 : first);
+      const Index first = at.lane;
+      for (const Corner& c : fan) set(at, c, at.lane + 1 < first + count ? at.lane + 1 : first);
       return;
     }
     for (Index i = 0; i < count;) {
-      const Index room = kLanes - 1 - count_;  // one stays for the side that ends the piece
-      for (const Index end = std::min(count, i + room); i < end; ++i) add_triangle(fan[i], count_ + 1);
-      add_edge(fan[i - 1].b, fan[i - 1].length_b);
-      if (i < count) finish();
+      const Index room = kLanes - 1 - at.lane;  // one stays for the side that ends the piece
+      for (const Index end = std::min(count, i + room); i < end; ++i) set(at, fan[i], at.lane + 1);
+      set_edge(at, fan[i - 1].b, fan[i - 1].length_b);
+      if (i < count) at = next_block(v, at);
     }
   }
 
   // A side without a triangle.
-  void add_edge(Index a, double length) {
-    if (count_ == kLanes) finish();
-    set({a, none_, length, 0, kNan, 0}, count_);
+  void add_edge(Index v, Index a, double length) {
+    Lane at = free_lane(v);
+    if (at.lane == kLanes) at = next_block(v, at);
+    set_edge(at, a, length);
   }
 
   // An unfolded triangle, whose second side may be one of those that are there. It offers values to its first end.
-  void add_unfolded(const Corner& c) {
-    Index second = second_side(c);
-    if (count_ + (second == kLanes ? 2 : 1) > kLanes) {
-      finish();
+  void add_unfolded(Index v, const Corner& c) {
+    Lane at{v, free_lane_of(v)};
+    Index second = second_side(at, c);
+    for (Index i = heads_[v].more; i != 0 && (second == kLanes || at.lane == kLanes); i = next_[i - none_]) {
+      at = {i, free_lane_of(i)};
+      second = second_side(at, c);
+    }
+    if (at.lane + (second == kLanes ? 2 : 1) > kLanes) {
+      at = next_block(v, at);
       second = kLanes;
     }
     const bool there = second < kLanes;
-    add_triangle(c, there ? second : count_ + 1);
-    if (!there) add_edge(c.b, c.length_b);
+    set(at, c, there ? second : at.lane + 1);
+    if (!there) set_edge(at, c.b, c.length_b);
   }
 
-  // A whole block of which so many sides are used; no other one has been begun.
-  BRUSHFIRE_INLINE void add_block(const RingBlock<T>& block, const LaneLinks& links, Index count) {
-    blocks_[done_] = block;
-    links_[done_] = links;
-    count_ = filled_ = count;
+  void prefetch_ring(Index v) const {
+    prefetch(&blocks_[v]);
+    prefetch(&blocks_[v].dot);
+    prefetch(&links_[v]);
   }
 
-  // Completes the block that has been begun; the next one follows it.
-  BRUSHFIRE_INLINE void finish() {
-    if (count_ == 0) return;
-    complete();
-    count_ = filled_ = 0;
-    if (++done_ == blocks_.size()) grow(done_ + done_ / 2);
-    if (done_ == populated_) populate_more();
-  }
-
-  Index blocks_done() const { return done_; }
-  const RingBlock<T>& block(Index i) const { return blocks_[i]; }
-
-  // All blocks, once.
-  void take(UninitializedArray<RingBlock<T>>& blocks, UninitializedArray<LaneLinks>& links) {
-    blocks_.resize(done_);
-    links_.resize(done_);
-    blocks = std::move(blocks_);
-    links = std::move(links_);
+  // All that was written, once.
+  void take(Rings<T>& rings) {
+    blocks_.resize(none_ + next_.size());
+    links_.resize(none_ + next_.size());
+    rings.blocks = std::move(blocks_);
+    rings.heads = std::move(heads_);
+    rings.layout.links = std::move(links_);
+    rings.layout.next = std::move(next_);
+    rings.layout.vertex_count = none_;
   }
 
  private:
-  // Of a whole block the rest is blank already.
-  void complete() {
-    while (filled_ == 0 && count_ < kLanes) add_edge(none_, kInfinity);
+  // Where the next side goes; lane kLanes: nowhere.
+  struct Lane {
+    Index block, lane;
+  };
+
+  // In the last block of v.
+  Lane free_lane(Index v) const {
+    Index last = v;
+    for (Index i = heads_[v].more; i != 0; i = next_[i - none_]) last = i;
+    return {last, free_lane_of(last)};
+  }
+  Index free_lane_of(Index block) const {
+    constexpr std::uint32_t kAll = 1u << kLanes;
+    return static_cast<Index>(std::countr_zero(lanes_with(blocks_[block], none_) | kAll));
   }
 
-  // No triangles.
-  static constexpr LaneLinks kAlone = {{0x00, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77}};
+  // The sides that end in w: a bit for each.
+  static std::uint32_t lanes_with(const RingBlock<T>& block, Index w) {
+#ifdef __SSE2__
+    const __m128i wanted = _mm_set1_epi32(static_cast<int>(w));
+    const auto* const ends = reinterpret_cast<const __m128i*>(block.end);
+    const __m128i four = _mm_cmpeq_epi32(_mm_load_si128(ends), wanted);
+    const __m128i others = _mm_cmpeq_epi32(_mm_load_si128(ends + 1), wanted);
+    const __m128i words = _mm_packs_epi32(four, others);
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(words, _mm_setzero_si128())));
+#else
+    std::uint32_t lanes = 0;
+    for (Index k = 0; k < kLanes; ++k) lanes |= (block.end[k] == w ? 1u : 0u) << k;
+    return lanes;
+#endif
+  }
 
-  static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  Lane next_block(Index v, Lane after) {
+    const Index block = none_ + static_cast<Index>(next_.size());
+    if (block == blocks_.size()) grow(blocks_.size() + blocks_.size() / 4);
+    if (block == next_present_) populate_more(next_present_, static_cast<Index>(blocks_.size()));
+    next_.push_back(0);
+    blank(block);
+    (after.block == v ? heads_[v].more : next_[after.block - none_]) = block;
+    return {block, 0};
+  }
 
-  void add_triangle(const Corner& c, Index second) { set(c, second); }
+  static constexpr T kNever = std::numeric_limits<T>::infinity(), kNone = std::numeric_limits<T>::quiet_NaN();
+
+  void blank(Index i) {
+    RingBlock<T>& block = blocks_[i];
+    for (Index k = 0; k < kLanes; ++k) {
+      block.end[k] = none_, block.length[k] = kNever, block.dot[k] = kNone, block.cross[k] = 0;
+    }
+    links_[i] = {{0x00, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77}};  // no triangles
+  }
 
   // The side that ends where the second one of c does, at that length (those of unfolded sides are computed another way
   // than those of edges); kLanes: none.
-  Index second_side(const Corner& c) const {
-    if (count_ == 0) return kLanes;
+  Index second_side(Lane at, const Corner& c) const {
     constexpr T kSame = 16 * std::numeric_limits<T>::epsilon();
-    const RingBlock<T>& block = blocks_[done_];
-    std::uint32_t sides = 0;  // whose ends are that one; what lies behind the used ones was never written
-    for (Index k = 0; k < count_; ++k) sides |= (block.end[k] == c.b ? 1u : 0u) << k;
-    for (; sides != 0; sides &= sides - 1) {
+    const RingBlock<T>& block = blocks_[at.block];
+    for (std::uint32_t sides = lanes_with(block, c.b); sides != 0; sides &= sides - 1) {
       const auto k = static_cast<Index>(std::countr_zero(sides));
       if (std::abs(block.length[k] - static_cast<T>(c.length_b)) <= kSame * block.length[k]) return k;
     }
     return kLanes;
   }
 
-  void set(const Corner& c, Index second) {
-    RingBlock<T>& block = blocks_[done_];
-    if (count_ == 0) std::fill_n(block.end, kLanes, none_), links_[done_] = kAlone;
-    block.end[count_] = c.a;
-    block.length[count_] = static_cast<T>(c.length_a);
-    block.dot[count_] = static_cast<T>(c.dot);
-    block.cross[count_] = static_cast<T>(c.cross);
-    LaneLinks& links = links_[done_];
-    links.links[count_] = static_cast<std::uint8_t>((links.links[count_] & 0xf0) | second);
-    if (second != count_ && links.back(second) == second) {
-      links.links[second] = static_cast<std::uint8_t>(links.second(second) | count_ << 4);
-    }
-    ++count_;
+  void set_edge(Lane& at, Index a, double length) {
+    RingBlock<T>& block = blocks_[at.block];
+    block.end[at.lane] = a;
+    block.length[at.lane] = static_cast<T>(length);
+    ++at.lane;
   }
 
-  // Some megabytes ahead, and no more than there is room for.
-  void populate_more() {
-    constexpr std::size_t kBlocks = (std::size_t{2} << 20) / sizeof(RingBlock<T>);
-    const std::size_t count = std::min(kBlocks, blocks_.size() - done_);
-    populate(&blocks_[done_], count * sizeof(RingBlock<T>));
-    populated_ = done_ + static_cast<Index>(kBlocks);
+  void set(Lane& at, const Corner& c, Index second) {
+    RingBlock<T>& block = blocks_[at.block];
+    block.end[at.lane] = c.a;
+    block.length[at.lane] = static_cast<T>(c.length_a);
+    block.dot[at.lane] = static_cast<T>(c.dot);
+    block.cross[at.lane] = static_cast<T>(c.cross);
+    LaneLinks& links = links_[at.block];
+    links.links[at.lane] = static_cast<std::uint8_t>((links.links[at.lane] & 0xf0) | second);
+    if (links.back(second) == second) {
+      links.links[second] = static_cast<std::uint8_t>(links.second(second) | at.lane << 4);
+    }
+    ++at.lane;
+  }
+
+  // Pages of two more megabytes of blocks.
+  void populate_more(Index& present, Index end) {
+    constexpr Index kBlocks = (Index{2} << 20) / sizeof(RingBlock<T>);
+    const Index count = std::min(kBlocks, end - present);
+    populate(&blocks_[present], count * sizeof(RingBlock<T>));
+    present += count;
   }
 
   void grow(std::size_t size) {
@@ -151,11 +213,12 @@ class LaneWriter {
     links_.resize(size);
   }
 
-  UninitializedArray<RingBlock<T>> blocks_;
-  UninitializedArray<LaneLinks> links_;
-  Index none_, done_ = 0;         // blocks that are complete
-  Index populated_ = 0;           // where pages are present up to
-  Index count_ = 0, filled_ = 0;  // sides of the one at hand, and how many of them came by filled()
+  Index none_;                               // the end of sides that are not there
+  UninitializedArray<RingBlock<T>> blocks_;  // the first ones of all vertices, then further ones
+  UninitializedArray<LaneLinks> links_;      // [blocks]
+  UninitializedArray<typename Rings<T>::Head> heads_;
+  std::vector<Index> next_;
+  Index first_present_ = 0, next_present_ = none_;  // blocks up to which pages are present
 };
 
 }  // namespace brushfire::detail

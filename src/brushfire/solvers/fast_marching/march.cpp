@@ -59,7 +59,7 @@ BRUSHFIRE_INLINE void accept(MarchState<T>& s, Part<T>& part, Index w, T offer, 
 // Riccati equation of geodesic circles). Bounded so that no vertex turns it over, and it stays a circle.
 template <class T>
 BRUSHFIRE_INLINE void bend_front(const Rings<T>& rings, MarchState<T>& s, Index v) {
-  const T bend = rings.bend[v];
+  const T bend = rings.heads[v].bend;
   auto& at = s.front_at[v];
   const T radius = at.value - at.root;
   if (bend == 0 || !(radius > 0)) return;
@@ -103,39 +103,45 @@ BRUSHFIRE_INLINE void relax(const Rings<T>& rings, MarchState<T>& s, Part<T>& pa
     turn.start = s.start[turn.label];
   }
   turn.root = Front::kBends ? s.front_at[v].root : turn.start;
-  const Index end = rings.layout.block_offset[v + 1];
-  for (Index i = rings.layout.block_offset[v]; i < end; ++i) {
+  if (s.layout->is_ghost(v)) return;
+  Index i = v;
+  do {
     candidates.count = 0;
     Maker<Front, kLabelled, T>::offers(rings.blocks[i], rings.layout.links[i], s, turn, candidates);
     for (Index c = 0; c < candidates.count; ++c) {
       accept<Front, kLabelled>(s, part, candidates.end[c], candidates.value[c], candidates.root[c], turn.label);
     }
-  }
+    i = rings.next_block(v, i);
+  } while (i != 0);
 }
 
-// What a vertex that comes up soon will need: first where its blocks are, then the blocks.
+// What a vertex that comes up soon will need: first what says where its further blocks are, then the blocks.
 template <class T>
 BRUSHFIRE_INLINE void prefetch_state(const Rings<T>& rings, const MarchState<T>& s, Index v) {
-  prefetch(&rings.layout.block_offset[v]);
   prefetch(&s.front_at[v]);
-  prefetch(&rings.bend[v]);
+  prefetch(&rings.heads[v]);
   prefetch(&s.open[v]);
 }
 template <class T>
-BRUSHFIRE_INLINE void prefetch_blocks(const Rings<T>& rings, Index v) {
+BRUSHFIRE_INLINE void prefetch_block(const RingBlock<T>& block) {
   constexpr std::size_t kCacheLine = 64;
-  const Index first = rings.layout.block_offset[v], last = rings.layout.block_offset[v + 1];
-  prefetch(&rings.layout.links[first]);
-  const char* block = reinterpret_cast<const char*>(rings.blocks.data() + first);
-  const char* end = reinterpret_cast<const char*>(rings.blocks.data() + last);
-  for (; block < end; block += kCacheLine) prefetch(block);
+  const char* const at = reinterpret_cast<const char*>(&block);
+  for (std::size_t i = 0; i < sizeof block; i += kCacheLine) prefetch(at + i);
+}
+template <class T>
+BRUSHFIRE_INLINE void prefetch_blocks(const Rings<T>& rings, Index v) {
+  if (v >= rings.layout.vertex_count) return;  // a ghost
+  prefetch(&rings.layout.links[v]);
+  prefetch_block(rings.blocks[v]);
+  const Index more = rings.heads[v].more;  // none: block 0, which does no harm
+  prefetch(&rings.layout.links[more]);
+  prefetch_block(rings.blocks[more]);
 }
 // The values at the ends of the sides in its first block.
 template <class T>
 BRUSHFIRE_INLINE void prefetch_ends(const Rings<T>& rings, const MarchState<T>& s, Index v) {
-  const Index first = rings.layout.block_offset[v];
-  if (first == rings.blocks.size()) return;  // a ghost, or a vertex without faces
-  for (const Index end : rings.blocks[first].end) prefetch(&s.front_at[end]);
+  if (v >= rings.layout.vertex_count) return;
+  for (const Index end : rings.blocks[v].end) prefetch(&s.front_at[end]);
 }
 
 constexpr std::size_t kStatesAhead = 12, kBlocksAhead = 5, kEndsAhead = 2;
@@ -309,8 +315,8 @@ void march_label_setting(const Rings<T>& rings, MarchState<T>& s, const std::fun
     if (++whole.pops % kSlice == 0) poll();
     const Index label = s.label[v];
     const Turn<T> turn{t, s.start[label], s.start[label], label};
-    const Index end = rings.layout.block_offset[v + 1];
-    for (Index i = rings.layout.block_offset[v]; i < end; ++i) {
+    Index i = v;
+    do {
       candidates.count = 0;
       make_offers<LiteralCircularFront, true>(
           rings.blocks[i], rings.layout.links[i], [&](Index w) { return s.fixed_value[w]; }, s, turn, candidates);
@@ -324,7 +330,8 @@ void march_label_setting(const Rings<T>& rings, MarchState<T>& s, const std::fun
         s.open[w] = 1;
         queue.emplace(value, w);
       }
-    }
+      i = rings.next_block(v, i);
+    } while (i != 0);
   }
 }
 

@@ -8,7 +8,7 @@
 namespace brushfire::detail {
 
 int part_shift(Index part_size) {
-  return std::min(31, static_cast<int>(std::bit_width(std::max<Index>(1, part_size) - 1)));
+  return std::min(kWholeMesh, static_cast<int>(std::bit_width(std::max<Index>(1, part_size) - 1)));
 }
 
 PartsBuilder::PartsBuilder(Index vertex_count, int shift) : seen_(vertex_count / 64 + 1) {

@@ -17,6 +17,8 @@
 
 namespace brushfire::detail {
 
+inline constexpr int kWholeMesh = 31;  // the shift of a part that has all vertices
+
 // Of places: the vertices first, then one that stands for "no vertex", then the ghosts, part by part.
 struct Parts {
   // Where a value is to be told: at a place of the receiver, through a channel.
@@ -33,7 +35,7 @@ struct Parts {
   };
 
   Index vertex_count = 0;
-  int shift = 31;                      // part = place >> shift
+  int shift = kWholeMesh;              // part = place >> shift
   std::vector<Index> ghost_offset{0};  // [parts + 1]
   std::vector<Index> owner;            // [ghosts] the vertex that it stands for
   std::vector<Index> near_offset{0};   // [ghosts + 1]
@@ -84,7 +86,7 @@ struct Parts {
   }
 };
 
-// Parts of 2^shift vertices or the whole mesh (shift 31).
+// Parts of 2^shift vertices or the whole mesh (shift kWholeMesh).
 int part_shift(Index part_size);
 
 // Collects which vertices of a part name which ones of other parts, part by part, in ascending order of the vertices.

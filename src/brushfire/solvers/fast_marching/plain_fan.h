@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -34,11 +35,12 @@ inline constexpr Index kFans = 16;
 // The fans of vertices that follow each other; what is said of a vertex that is not the middle of such a fan is void.
 template <class T>
 struct PlainFans {
-  RingBlock<T> block[kFans];
-  LaneLinks links[kFans];
-  // Of the triangles, the sums: their angles at the vertex, twice their areas, their first sides.
+  // Of the triangles, the sums: their angles at the vertex, twice their areas, their first sides. 0 where not plain.
   T angle[kFans], area[kFans], length[kFans];
   bool plain[kFans];
+  // The corners whose angle is more than a right one, or seems to be.
+  Index obtuse[(kFans + 1) * kLanes];  // whole registers are written
+  Index obtuse_count = 0;
 };
 
 // Not so small that squares and fourth powers lose their digits.
@@ -49,13 +51,19 @@ inline constexpr T kSmallestSquare = std::is_same_v<T, float> ? T(0x1p-60) : T(0
 template <class T>
 class FanInLoops {
  public:
-  // The fans of vertices first .. first + count - 1; count <= kFans.
-  BRUSHFIRE_INLINE static void fill(const FanMesh& mesh, Index first, Index count, PlainFans<T>& fans) {
-    for (Index i = 0; i < count; ++i) fans.plain[i] = fill_one(mesh, first + i, i, fans);
+  // The fans of vertices first .. first + count - 1; count <= kFans. Block i becomes that of vertex first + i.
+  BRUSHFIRE_INLINE static void fill(const FanMesh& mesh, Index first, Index count, RingBlock<T>* blocks,
+                                    LaneLinks* links, PlainFans<T>& fans) {
+    fans.obtuse_count = 0;
+    for (Index i = 0; i < count; ++i) {
+      fans.angle[i] = fans.area[i] = fans.length[i] = 0;
+      fans.plain[i] = fill_one(mesh, first + i, i, blocks[i], links[i], fans);
+    }
   }
 
  private:
-  BRUSHFIRE_INLINE static bool fill_one(const FanMesh& mesh, Index v, Index i, PlainFans<T>& fans) {
+  BRUSHFIRE_INLINE static bool fill_one(const FanMesh& mesh, Index v, Index i, RingBlock<T>& block, LaneLinks& links,
+                                        PlainFans<T>& fans) {
     Fan fan;
     if (!find(mesh, v, fan)) return false;
     Sides sides;
@@ -63,16 +71,18 @@ class FanInLoops {
     Geometry g;
     if (!measure(sides, fan, g)) return false;
     constexpr T kNever = std::numeric_limits<T>::infinity(), kNone = std::numeric_limits<T>::quiet_NaN();
-    RingBlock<T>& block = fans.block[i];
     for (Index k = 0; k < kLanes; ++k) {
       const bool used = k < fan.count;
       block.end[k] = used ? fan.a[k] : mesh.none;
       block.length[k] = used ? g.length[k] : kNever;
       block.dot[k] = used ? g.dot[k] : kNone;
       block.cross[k] = g.cross[k];
-      fans.links[i].links[k] = static_cast<std::uint8_t>(fan.second[k] | fan.back[k] << 4);
+      links.links[k] = static_cast<std::uint8_t>(fan.second[k] | fan.back[k] << 4);
     }
-    fans.angle[i] = fans.area[i] = fans.length[i] = 0;
+    for (Index k = 0; k < fan.count; ++k) {
+      fans.obtuse[fans.obtuse_count] = mesh.corners[mesh.corner_offsets[v] + k];
+      fans.obtuse_count += g.dot[k] < 0 ? 1u : 0u;
+    }
     for (Index k = 0; k < kLanes; ++k) {  // 0 in unused lanes
       fans.angle[i] += g.angle[k];
       fans.area[i] += g.cross[k];
@@ -181,10 +191,20 @@ class FanInRegisters {
   using V = Lanes<T>;
 
  public:
-  BRUSHFIRE_AVX2 static void fill(const FanMesh& mesh, Index first, Index count, PlainFans<T>& fans) {
+  BRUSHFIRE_AVX2 static void fill(const FanMesh& mesh, Index first, Index count, RingBlock<T>* blocks, LaneLinks* links,
+                                  PlainFans<T>& fans) {
+    // Stage by stage, and from one to the next through memory: what compilers keep in registers they take apart lane
+    // by lane.
     Work work[kFans];
+    fans.obtuse_count = 0;
     prefetch_after(mesh, first + count);
-    for (Index i = 0; i < count; ++i) fans.plain[i] = find(mesh, first + i, work[i]);
+    for (Index i = 0; i < count; ++i) fans.plain[i] = find_faces(mesh, first + i, work[i]);
+    for (Index i = 0; i < count; ++i) {
+      if (fans.plain[i]) find_ends(mesh, first + i, work[i]);
+    }
+    for (Index i = 0; i < count; ++i) {
+      if (fans.plain[i]) fans.plain[i] = find_links(first + i, work[i]);
+    }
     for (Index i = 0; i < count; ++i) {
       if (fans.plain[i]) measure_sides(mesh, first + i, work[i]);
     }
@@ -192,19 +212,34 @@ class FanInRegisters {
       if (fans.plain[i]) fans.plain[i] = measure(work[i]);
     }
     for (Index i = 0; i < count; ++i) {
-      if (fans.plain[i]) finish(mesh, work[i], i, fans);
+      if (fans.plain[i]) {
+        finish(mesh, work[i], blocks[i], links[i]);
+        sum(mesh, first + i, work[i], i, fans);
+      } else {
+        fans.angle[i] = fans.area[i] = fans.length[i] = 0;
+      }
     }
   }
 
  private:
-  struct Ends {
-    alignas(32) Index a[kLanes];
-    alignas(32) Index b[kLanes];
+  // Eight numbers, twice: what is loaded from the k-th on are the eight turned by k.
+  struct Ring {
+    alignas(32) Index item[2 * kLanes];
+    BRUSHFIRE_AVX2_INLINE void set(__m256i eight) {
+      _mm256_store_si256(reinterpret_cast<__m256i*>(item), eight);
+      _mm256_store_si256(reinterpret_cast<__m256i*>(item + kLanes), eight);
+    }
+    BRUSHFIRE_AVX2_INLINE __m256i turned_by(Index k) const {
+      return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(item + k));
+    }
   };
 
-  // What is known of one fan in between.
+  // What is known of one fan in between. Corner k lies between the ends a and b of its sides.
   struct Work {
-    Ends ends;
+    alignas(32) Index first[kLanes];    // the first number of the corner's face
+    alignas(32) Index shuffle[kLanes];  // where the shuffle of the corner's number begins
+    alignas(32) Index at[kLanes];       // a; the vertex itself in lanes that are not used
+    Ring a, b;
     Index count;
     __m256i second, back;
     V x, y, z, length, dot, cross;
@@ -225,83 +260,92 @@ class FanInRegisters {
     }
   }
 
-  BRUSHFIRE_AVX2_INLINE static bool find(const FanMesh& mesh, Index v, Work& work) {
+  BRUSHFIRE_AVX2_INLINE static bool find_faces(const FanMesh& mesh, Index v, Work& work) {
     const Index begin = mesh.corner_offsets[v], count = mesh.corner_offsets[v + 1] - begin;
     if (count > kLanes || count < 3 || !mesh.plain) return false;
-    const __m256i used = used_lanes(count);
     work.count = count;
-    work.ends = ends_of(mesh, begin, used);
-    return find_links(v, work.ends, used, work.second, work.back);
-  }
-
-  BRUSHFIRE_AVX2_INLINE static void finish(const FanMesh& mesh, const Work& work, Index i, PlainFans<T>& fans) {
-    const __m256i used = used_lanes(work.count), none = _mm256_set1_epi32(static_cast<int>(mesh.none));
-    const __m256i a = _mm256_load_si256(reinterpret_cast<const __m256i*>(work.ends.a));
-    const V in_use = wide_mask(V{}, used);
-    RingBlock<T>& block = fans.block[i];
-    _mm256_store_si256(reinterpret_cast<__m256i*>(block.end), _mm256_blendv_epi8(none, a, used));
-    store(block.length, select(in_use, work.length, all(std::numeric_limits<T>::infinity())));
-    store(block.dot, select(in_use, work.dot, all(std::numeric_limits<T>::quiet_NaN())));
-    store(block.cross, work.cross);
-    store_links(work.second, work.back, fans.links[i]);
-    const std::array<T, 4> sums = sums_of(angle_of(work.dot, work.cross), work.cross, work.length);
-    fans.angle[i] = sums[0], fans.area[i] = sums[1], fans.length[i] = sums[2];
-  }
-
-  // The two other corners of a face, from each of its corners on: where their bytes are.
-  static constexpr std::array<std::array<std::uint8_t, 16>, 3> kOthers{
-      {{4, 5, 6, 7, 8, 9, 10, 11}, {8, 9, 10, 11, 0, 1, 2, 3}, {0, 1, 2, 3, 4, 5, 6, 7}}};
-
-  // No vertices, and different ones, in lanes that are not used.
-  BRUSHFIRE_AVX2_INLINE static Ends ends_of(const FanMesh& mesh, Index begin, __m256i used) {
-    const __m256i h = _mm256_maskload_epi32(reinterpret_cast<const int*>(mesh.corners.data() + begin), used);
+    const auto* const corners = reinterpret_cast<const int*>(mesh.corners.data() + begin);
+    const __m256i h = _mm256_maskload_epi32(corners, used_lanes(count));
     // h / 3, of the even lanes and of the odd ones.
     const __m256i inverse = _mm256_set1_epi64x(0xaaaaaaab);
     const __m256i even = _mm256_srli_epi64(_mm256_mul_epu32(h, inverse), 33);
     const __m256i odd = _mm256_srli_epi64(_mm256_mul_epu32(_mm256_srli_epi64(h, 32), inverse), 33);
     const __m256i face = _mm256_or_si256(even, _mm256_slli_epi64(odd, 32));
     const __m256i first = _mm256_add_epi32(face, _mm256_slli_epi32(face, 1));
-    alignas(32) Index first_of[kLanes], corner_of[kLanes];
-    _mm256_store_si256(reinterpret_cast<__m256i*>(first_of), first);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(corner_of), _mm256_sub_epi32(h, first));
+    _mm256_store_si256(reinterpret_cast<__m256i*>(work.first), first);
+    const __m256i corner = _mm256_sub_epi32(h, first);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(work.shuffle), _mm256_slli_epi32(corner, 4));
+    return true;
+  }
+
+  BRUSHFIRE_AVX2_INLINE static void finish(const FanMesh& mesh, const Work& work, RingBlock<T>& block,
+                                           LaneLinks& links) {
+    const __m256i used = used_lanes(work.count), none = _mm256_set1_epi32(static_cast<int>(mesh.none));
+    const __m256i a = work.a.turned_by(0);
+    const V in_use = wide_mask(V{}, used);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(block.end), _mm256_blendv_epi8(none, a, used));
+    store(block.length, select(in_use, work.length, all(std::numeric_limits<T>::infinity())));
+    store(block.dot, select(in_use, work.dot, all(std::numeric_limits<T>::quiet_NaN())));
+    store(block.cross, work.cross);
+    store_links(work.second, work.back, links);
+  }
+
+  BRUSHFIRE_AVX2_INLINE static void sum(const FanMesh& mesh, Index v, const Work& work, Index i, PlainFans<T>& fans) {
+    const std::array<T, 4> sums = sums_of(angle_of(work.dot, work.cross), work.cross, work.length);
+    fans.angle[i] = sums[0], fans.area[i] = sums[1], fans.length[i] = sums[2];
+    const std::uint32_t obtuse = bits(work.dot < all(T(0)));  // 0 in lanes that are not used
+    const auto* const corners = reinterpret_cast<const int*>(mesh.corners.data() + mesh.corner_offsets[v]);
+    const __m256i h = _mm256_maskload_epi32(corners, used_lanes(work.count));
+    auto* const to = reinterpret_cast<__m256i*>(fans.obtuse + fans.obtuse_count);
+    _mm256_storeu_si256(to, _mm256_permutevar8x32_epi32(h, packing(obtuse)));
+    fans.obtuse_count += static_cast<Index>(std::popcount(obtuse));
+  }
+
+  // The two other corners of a face, from each of its corners on: where their bytes are.
+  alignas(16) static constexpr std::array<std::uint8_t, 48> kOthers{
+      4, 5, 6,  7,  8, 9, 10, 11, 0, 0, 0, 0, 0, 0, 0, 0,  //
+      8, 9, 10, 11, 0, 1, 2,  3,  0, 0, 0, 0, 0, 0, 0, 0,  //
+      0, 1, 2,  3,  4, 5, 6,  7};
+
+  // No vertices, and different ones, in lanes that are not used.
+  BRUSHFIRE_AVX2_INLINE static void find_ends(const FanMesh& mesh, Index v, Work& work) {
     const auto* const flat = reinterpret_cast<const int*>(mesh.faces.data());
     const __m128i three = _mm_setr_epi32(-1, -1, -1, 0);
     __m128i pair[kLanes];
     for (Index k = 0; k < kLanes; ++k) {
-      const auto* const others = reinterpret_cast<const __m128i*>(kOthers[corner_of[k]].data());
-      pair[k] = _mm_shuffle_epi8(_mm_maskload_epi32(flat + first_of[k], three), _mm_loadu_si128(others));
+      const auto* const others = reinterpret_cast<const __m128i*>(kOthers.data() + work.shuffle[k]);
+      pair[k] = _mm_shuffle_epi8(_mm_maskload_epi32(flat + work.first[k], three), _mm_load_si128(others));
     }
     const __m128i a01 = _mm_unpacklo_epi32(pair[0], pair[1]), a23 = _mm_unpacklo_epi32(pair[2], pair[3]);
     const __m128i a45 = _mm_unpacklo_epi32(pair[4], pair[5]), a67 = _mm_unpacklo_epi32(pair[6], pair[7]);
     const __m256i a = _mm256_set_m128i(_mm_unpacklo_epi64(a45, a67), _mm_unpacklo_epi64(a01, a23));
     const __m256i b = _mm256_set_m128i(_mm_unpackhi_epi64(a45, a67), _mm_unpackhi_epi64(a01, a23));
-    const __m256i no_index = _mm256_set1_epi32(-1), neither = _mm256_set1_epi32(-2);
-    Ends ends;
-    _mm256_store_si256(reinterpret_cast<__m256i*>(ends.a), _mm256_blendv_epi8(no_index, a, used));
-    _mm256_store_si256(reinterpret_cast<__m256i*>(ends.b), _mm256_blendv_epi8(neither, b, used));
-    return ends;
+    const __m256i no_index = _mm256_set1_epi32(-1), neither = _mm256_set1_epi32(-2), used = used_lanes(work.count);
+    work.a.set(_mm256_blendv_epi8(no_index, a, used));
+    work.b.set(_mm256_blendv_epi8(neither, b, used));
+    const __m256i here = _mm256_set1_epi32(static_cast<int>(v));
+    _mm256_store_si256(reinterpret_cast<__m256i*>(work.at), _mm256_blendv_epi8(here, a, used));
   }
 
   // False where not every side is the first of one corner and the second of another one.
-  BRUSHFIRE_AVX2_INLINE static bool find_links(Index v, const Ends& ends, __m256i used, __m256i& second,
-                                               __m256i& back) {
-    const __m256i a = _mm256_load_si256(reinterpret_cast<const __m256i*>(ends.a));
-    const __m256i b = _mm256_load_si256(reinterpret_cast<const __m256i*>(ends.b));
-    // Sets of lanes, a bit for each: where b[k] is some a[j], and where a[k] is some b[j].
+  BRUSHFIRE_AVX2_INLINE static bool find_links(Index v, Work& work) {
+    const __m256i a = work.a.turned_by(0), b = work.b.turned_by(0), used = used_lanes(work.count);
+    // Sets of lanes, a bit for each, counted from the own one on: where b is some a, and where a is some b.
     __m256i firsts = _mm256_setzero_si256(), seconds = firsts;
-    for (Index j = 0; j < kLanes; ++j) {
-      const __m256i bit = _mm256_set1_epi32(1 << j);
-      const __m256i a_j = _mm256_set1_epi32(static_cast<int>(ends.a[j]));
-      const __m256i b_j = _mm256_set1_epi32(static_cast<int>(ends.b[j]));
-      firsts = _mm256_or_si256(firsts, _mm256_and_si256(_mm256_cmpeq_epi32(a_j, b), bit));
-      seconds = _mm256_or_si256(seconds, _mm256_and_si256(_mm256_cmpeq_epi32(b_j, a), bit));
+    for (Index k = 0; k < kLanes; ++k) {
+      const __m256i bit = _mm256_set1_epi32(1 << k);
+      firsts = _mm256_or_si256(firsts, _mm256_and_si256(_mm256_cmpeq_epi32(b, work.a.turned_by(k)), bit));
+      seconds = _mm256_or_si256(seconds, _mm256_and_si256(_mm256_cmpeq_epi32(a, work.b.turned_by(k)), bit));
     }
     const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), at = _mm256_set1_epi32(static_cast<int>(v));
     __m256i wrong = _mm256_or_si256(_mm256_cmpeq_epi32(a, at), _mm256_cmpeq_epi32(b, at));
     wrong = _mm256_or_si256(wrong, _mm256_cmpeq_epi32(a, b));
     wrong = _mm256_or_si256(wrong, _mm256_or_si256(not_one(firsts), not_one(seconds)));
-    second = _mm256_blendv_epi8(lane, number_of(firsts), used);
-    back = _mm256_blendv_epi8(lane, number_of(seconds), used);
+    const __m256i seven = _mm256_set1_epi32(7);
+    const __m256i second = _mm256_and_si256(_mm256_add_epi32(lane, number_of(firsts)), seven);
+    const __m256i back = _mm256_and_si256(_mm256_add_epi32(lane, number_of(seconds)), seven);
+    work.second = _mm256_blendv_epi8(lane, second, used);
+    work.back = _mm256_blendv_epi8(lane, back, used);
     return _mm256_testz_si256(wrong, used) != 0;
   }
 
@@ -324,8 +368,8 @@ class FanInRegisters {
     const __m256d at = _mm256_maskload_pd(positions + 3 * std::size_t{v}, three), scale = _mm256_set1_pd(mesh.scale);
     __m256d side[kLanes];
     for (Index k = 0; k < kLanes; ++k) {
-      const std::size_t a = k < work.count ? work.ends.a[k] : v;
-      side[k] = _mm256_mul_pd(scale, _mm256_sub_pd(_mm256_maskload_pd(positions + 3 * a, three), at));
+      const __m256d end = _mm256_maskload_pd(positions + 3 * std::size_t{work.at[k]}, three);
+      side[k] = _mm256_mul_pd(scale, _mm256_sub_pd(end, at));
     }
     transpose(side, work.x, work.y, work.z);
   }

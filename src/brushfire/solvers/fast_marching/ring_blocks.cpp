@@ -3,38 +3,21 @@
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
 
 #include <brushfire/core/planar.h>
+#include <brushfire/core/populate.h>
 #include <brushfire/solvers/fast_marching/bend.h>
 #include <brushfire/solvers/fast_marching/lane_writer.h>
-#include <brushfire/solvers/fast_marching/obtuse_corners.h>
 #include <brushfire/solvers/fast_marching/plain_fan.h>
-#include <brushfire/solvers/fast_marching/unfold.h>
+#include <brushfire/solvers/fast_marching/unfolded_corners.h>
 #include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <limits>
 #include <type_traits>
 #include <utility>
 
 namespace brushfire::detail {
 namespace {
-
-// Items in pieces of a size that allocators keep at hand: memory that is touched for the first time is slow.
-template <class Item>
-class Pieces {
- public:
-  std::size_t size() const { return size_; }
-  Item& operator[](std::size_t i) { return pieces_[i / kPiece][i % kPiece]; }
-  void push_back(const Item& item) {
-    if (size_ == pieces_.size() * kPiece) pieces_.emplace_back(kPiece);
-    (*this)[size_++] = item;
-  }
-
- private:
-  static constexpr std::size_t kPiece = 1024;
-  std::vector<UninitializedArray<Item>> pieces_;
-  std::size_t size_ = 0;
-};
 
 template <class T>
 class RingBuilder {
@@ -50,99 +33,35 @@ class RingBuilder {
               1 / mesh.unit(),
               mesh.vertex_count(),
               mesh.has_positions() && !mesh.has_slits()},
-        part_shift_(part_shift(part_size)) {}
+        part_shift_(part_shift(part_size)),
+        lanes_(mesh.vertex_count()),
+        unfolded_(mesh, variant) {}
 
   Rings<T> build() {
-    unfold_obtuse_corners();
     fill();
     bend_fronts();
-    for (const Index h : unsplit_) mark_unsplit(h);
+    rings_.layout.longest_unfolding = unfolded_.most_crossed();
+    for (const Index h : unfolded_.unsplit()) mark_unsplit(h);
     separate_parts();
     return std::move(rings_);
   }
 
  private:
-  void unfold_obtuse_corners() {
-    const Unfolder unfolder(mesh_, variant_);
-    constexpr std::size_t kAtOnce = 2048;  // faces that stay in a cache
-    std::array<Index, kAtOnce + 1> obtuse;
-    for (std::size_t begin = 0; begin < faces_.size(); begin += kAtOnce) {
-      const std::size_t count = find_obtuse(begin, std::min(begin + kAtOnce, faces_.size()), obtuse.data());
-      for (const Index h : std::span(obtuse).first(count)) unfold(unfolder, h);
-    }
-    first_of_.assign(mesh_.vertex_count(), kNoIndex);
-    for (Index e = static_cast<Index>(2 * unfolded_.size()); e-- > 0;) {
-      Unfolded& t = unfolded_[e / 2];
-      t.next[e % 2] = std::exchange(first_of_[t.end[e % 2]], e);
-    }
-  }
-
-  // What the ends of an unfolded triangle's edge need of it, and lists by vertex: every triangle is in two, as 2t in
-  // that of its first end, as 2t + 1 in that of the second.
-  struct Unfolded {
-    Index corner;                  // the vertex whose corner was unfolded
-    std::array<Index, 2> end;      // the others
-    std::array<Index, 2> next;     // in the list of each; kNoIndex: none
-    std::array<T, 2> length, dot;  // from each end to the corner; that side times the edge
-    T between, cross;              // the length of the edge; twice the area
-  };
-
-  static Unfolded measured(const UnfoldedTriangle& t) {
-    const Vec2 along = t.at_second - t.at_first;
-    return {t.corner_vertex,
-            {t.first, t.second},
-            {},
-            {static_cast<T>(norm(t.at_first)), static_cast<T>(norm(t.at_second))},
-            {static_cast<T>(brushfire::dot(t.at_first, t.at_first - t.at_second)),
-             static_cast<T>(brushfire::dot(t.at_second, along))},
-            static_cast<T>(norm(along)),
-            static_cast<T>(std::abs(brushfire::cross(t.at_first, t.at_second)))};
-  }
-
-  void unfold(const Unfolder& unfolder, Index h) {
-    if (!mesh_.is_face_usable(Mesh::face_of(h))) return;
-    triangles_.clear();
-    const Unfolding result = unfolder.unfold(h, triangles_);
-    rings_.layout.longest_unfolding = std::max(rings_.layout.longest_unfolding, result.crossed);
-    if (!result.split) unsplit_.push_back(h);
-    for (const UnfoldedTriangle& t : triangles_) unfolded_.push_back(measured(t));
-  }
-
-  // The obtuse corners of some faces; returns how many.
-  std::size_t find_obtuse(std::size_t begin, std::size_t end, Index* obtuse) const {
-    if (mesh_.has_positions()) {
-#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-      if (in_registers()) return find_obtuse4(fans_.positions, faces_, fans_.scale, begin, end, obtuse);
-#endif
-      return detail::find_obtuse(fans_.positions, faces_, fans_.scale, begin, end, obtuse);
-    }
-    std::size_t count = 0;
-    for (std::size_t f = begin; f < end; ++f) {
-      const auto [a, b, c] = mesh_.face_geometry(static_cast<Index>(f)).lengths;
-      obtuse[count] = obtuse_corner({a * a, b * b, c * c}, static_cast<Index>(f));
-      count += obtuse[count] != kNoIndex;
-    }
-    return count;
-  }
-
   void fill() {
-    const std::size_t count = mesh_.vertex_count();
-    rings_.layout.block_offset.resize(count + 1);
-    patches_.resize(count + 1);
-    patches_[count] = {};
-    plain_sides_.resize(count);
-    LaneWriter<T> lanes(fans_.none, count + count / 2);  // what is not written costs nothing
+    patches_.resize(mesh_.vertex_count() + 1);
+    populate(patches_);
+    patches_.back() = {};
+    plain_sides_.resize(mesh_.vertex_count());
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
     if (in_registers()) {
-      fill<FanInRegisters<T>>(lanes);
+      fill<FanInRegisters<T>>();
     } else {
-      fill<FanInLoops<T>>(lanes);
+      fill<FanInLoops<T>>();
     }
 #else
-    fill<FanInLoops<T>>(lanes);
+    fill<FanInLoops<T>>();
 #endif
-    rings_.layout.block_offset[count] = lanes.blocks_done();
-    lanes.take(rings_.blocks, rings_.layout.links);
+    lanes_.take(rings_);
     if (sum_of_lengths_ > 0) rings_.layout.mean_edge = sum_of_lengths_ / static_cast<double>(mesh_.halfedge_count());
   }
 
@@ -151,100 +70,129 @@ class RingBuilder {
 #endif
 
   template <class Fan>
-  void fill(LaneWriter<T>& lanes) {
+  void fill() {
     PlainFans<T> fans;
-    for (Index first = 0; first < fans_.none; first += kFans) {
-      const Index count = std::min(kFans, fans_.none - first);
-      Fan::fill(fans_, first, count, fans);
-      for (Index i = 0; i < count; ++i) {
-        const Index v = first + i;
-        prefetch_unfolded(v + kUnfoldedAhead);
-        rings_.layout.block_offset[v] = lanes.blocks_done();
-        if (fans.plain[i]) {
-          lanes.add_block(fans.block[i], fans.links[i], faces_at(v));
-          note_plain(v, fans.angle[i], fans.area[i], fans.length[i]);
-        } else {
-          fill_any(v, lanes);
-        }
-        for (Index e = first_of_[v]; e != kNoIndex;) {
-          const Unfolded& t = unfolded_[e / 2];
-          const Index own = e % 2;
-          lanes.add_unfolded({t.corner, t.end[1 - own], t.length[own], t.between, t.dot[own], t.cross});
-          e = t.next[own];
-        }
-        lanes.finish();
-        if (names_other_parts(v, lanes)) at_border_.push_back(v);
+    for (Index first = 0; first < fans_.none; first = begun_) {
+      begun_ = std::min(first + kFans, fans_.none);
+      lanes_.make_room(begun_);
+      Fan::fill(fans_, first, begun_ - first, lanes_.first_block(first), lanes_.first_links(first), fans);
+      note(first, begun_ - first, fans);
+      obtuse_.insert(obtuse_.end(), fans.obtuse, fans.obtuse + fans.obtuse_count);
+      for (Index v = first; v < begun_; ++v) {
+        lanes_.begin(v);
+        if (!fans.plain[v - first]) fill_any(v);
       }
+      if (part_shift_ != kWholeMesh) note_border(first, begun_);
+      if (obtuse_.size() >= kUnfoldAtOnce) unfold_obtuse_corners();
     }
+    unfold_obtuse_corners();
+    for (const Late& t : late_) lanes_.add_unfolded(t.at, t.corner);
   }
 
-  static constexpr Index kUnfoldedAhead = 8;
-  void prefetch_unfolded(Index v) {
-    if (v < fans_.none && first_of_[v] != kNoIndex) prefetch(&unfolded_[first_of_[v] / 2]);
+  // So few that what they need is still in a cache.
+  static constexpr std::size_t kUnfoldAtOnce = 512;
+
+  void unfold_obtuse_corners() {
+    unfolded_.unfold(obtuse_, *this);
+    obtuse_.clear();
+  }
+
+  // For UnfoldedCorners.
+  friend class UnfoldedCorners<T>;
+  void prefetch(Index v) const { lanes_.prefetch_ring(v); }
+  void add_unfolded(Index v, const Corner& corner) {
+    if (((corner.a ^ v) | (corner.b ^ v)) >> part_shift_ != 0) at_border_.push_back(v);
+    if (v < begun_) {
+      lanes_.add_unfolded(v, corner);
+    } else {
+      late_.push_back({v, corner});
+    }
   }
 
   Index faces_at(Index v) const { return fans_.corner_offsets[v + 1] - fans_.corner_offsets[v]; }
 
-  BRUSHFIRE_INLINE bool names_other_parts(Index v, const LaneWriter<T>& lanes) const {
-    Index differ = 0;
-    for (Index i = rings_.layout.block_offset[v]; i < lanes.blocks_done(); ++i) {
-      const RingBlock<T>& block = lanes.block(i);
+  // Remembers vertices one of whose sides ends in another part.
+  void note_border(Index first, Index end) {
+    for (Index v = first; v < end; ++v) {
+      const RingBlock<T>& block = *lanes_.first_block(v);
+      Index differ = 0;
       for (Index k = 0; k < kLanes; ++k) differ |= block.end[k] == fans_.none ? 0 : block.end[k] ^ v;
+      if (differ >> part_shift_ != 0) at_border_.push_back(v);
     }
-    return differ >> part_shift_ != 0;
   }
 
-  void note_plain(Index v, T angle, T area, T length) {
-    sum_of_lengths_ += static_cast<double>(length);
-    const double deficit = 2 * kPi - static_cast<double>(angle);
-    patches_[v] = {std::abs(deficit) < kFlat<T> ? 0.0f : static_cast<float>(deficit), static_cast<float>(area / 6)};
-    plain_sides_[v] = static_cast<std::uint8_t>(faces_at(v));
+  void note(Index first, Index count, const PlainFans<T>& fans) {
+    for (Index i = 0; i < count; ++i) {
+      const double deficit = 2 * kPi - static_cast<double>(fans.angle[i]);
+      const float own = std::abs(deficit) < kFlat<T> ? 0.0f : static_cast<float>(deficit);
+      patches_[first + i] = {own, static_cast<float>(fans.area[i] / 6)};
+      plain_sides_[first + i] = static_cast<std::uint8_t>(faces_at(first + i));
+      sum_of_lengths_ += static_cast<double>(fans.length[i]);
+    }
   }
 
   // Any vertex: boundaries, more faces than lanes, faces that are mirrored, doubled or degenerate, lengths only.
-  void fill_any(Index v, LaneWriter<T>& lanes) {
+  void fill_any(Index v) {
     double deficit = 2 * kPi, around = 0;
-    bool inner = true;  // every edge has two faces
+    lanes_.begin_empty(v);
     loose_.clear();
+    ends_.clear();
+    Index differ = 0;
     for (const Index h : mesh_.corners(v)) {
       const Index f = Mesh::face_of(h), next = Mesh::next(h), previous = Mesh::previous(h);
       const Face& t = faces_[f];
       const Index a = t[next % 3], b = t[previous % 3];
-      const auto [length, area] = mesh_.face_geometry(f);
+      const auto [length, area] = unfolded_.unfolder().geometry(f);
       const double la = length[h % 3], lb = length[previous % 3], lab = length[next % 3];
       sum_of_lengths_ += la;
+      differ |= (a ^ v) | (b ^ v);
       if (a == b || a == v || b == v) {
-        lanes.add_edge(a, la);
-        lanes.add_edge(b, lb);
+        lanes_.add_edge(v, a, la);
+        lanes_.add_edge(v, b, lb);
         continue;
       }
       const double shorter = std::min(la, lb), longer = std::max(la, lb);
       const double dot = 0.5 * (shorter * shorter + (longer - lab) * (longer + lab));  // keeps digits in needles
       loose_.push_back({a, b, la, lb, dot, area});
+      ends_.insert(ends_.end(), {a, b});
+      if (dot < 0) obtuse_.push_back(h);
       deficit -= quick_angle(dot, area);
       around += area / 6;
-      inner = inner && has_two_faces(h) && has_two_faces(previous);
     }
-    add_fans(lanes);
-    const bool flat = !inner || std::abs(deficit) < kFlat<T>;
+    const bool inner = is_inner(v), flat = !inner || std::abs(deficit) < kFlat<T>;
     patches_[v] = {flat ? 0.0f : static_cast<float>(deficit), static_cast<float>(around)};
     plain_sides_[v] = 0;
+    if (differ >> part_shift_ != 0) at_border_.push_back(v);
+    add_fans(v, inner);
   }
 
+  // Whether every edge at v has two faces.
+  bool is_inner(Index v) const {
+    if (mesh_.has_slits() || loose_.size() > kMany) {
+      const std::span<const Index> corners = mesh_.corners(v);
+      return std::all_of(corners.begin(), corners.end(), [&](Index h) {
+        return !mesh_.is_face_usable(Mesh::face_of(h)) || (has_two_faces(h) && has_two_faces(Mesh::previous(h)));
+      });
+    }
+    return std::all_of(ends_.begin(), ends_.end(),
+                       [&](Index end) { return std::count(ends_.begin(), ends_.end(), end) == 2; });
+  }
+
+  static constexpr std::size_t kMany = 64;  // corners: the searches are quadratic
+
   // Strings the loose corners together to fans, turning them over where needed.
-  void add_fans(LaneWriter<T>& lanes) {
-    constexpr std::size_t kMany = 64;  // the search is quadratic
+  void add_fans(Index v, bool inner) {
     if (loose_.size() > kMany) {
-      for (const Corner& c : loose_) lanes.add_fan({&c, 1}, false);
+      for (const Corner& c : loose_) lanes_.add_fan(v, {&c, 1}, false);
       return;
     }
     while (!loose_.empty()) {
       fan_.clear();
-      take(first_of_fan());
+      take(inner ? 0 : first_of_fan());
       while (continue_fan()) {
       }
       const bool closed = fan_.size() > 2 && fan_.back().b == fan_.front().a;
-      lanes.add_fan(fan_, closed);
+      lanes_.add_fan(v, fan_, closed);
     }
   }
 
@@ -282,27 +230,37 @@ class RingBuilder {
 
   // Patches are smoothed once, over the other ends of each vertex's halfedges.
   void bend_fronts() {
-    rings_.bend.resize(mesh_.vertex_count());
     constexpr Index kAhead = 12;
-    for (Index i = 0; i < fans_.none; ++i) {
-      if (i + kAhead < fans_.none) prefetch(&rings_.blocks[rings_.layout.block_offset[i + kAhead]]);
-      Patch around = patches_[i];
-      const auto add = [&](const Patch& other) { around.deficit += other.deficit, around.area += other.area; };
-      if (plain_sides_[i] > 0) {
-        // All lanes, as there is no telling how many are used: no side ends in no patch.
-        const Index* const end = rings_.blocks[rings_.layout.block_offset[i]].end;
-        for (Index k = 0; k < kLanes; ++k) add(patches_[plain_sides_[i] > k ? end[k] : fans_.none]);
-      } else {
-        for (const Index h : mesh_.corners(i)) add(patches_[mesh_.to(h)]);
-      }
-      rings_.bend[i] = static_cast<T>(front_bend(patches_[i], around));
+    for (Index v = 0; v < fans_.none; ++v) {
+      if (v + kAhead < fans_.none) detail::prefetch(&rings_.blocks[v + kAhead]);
+      const Patch around = plain_sides_[v] > 0 ? plain_sum(v) : any_sum(v);
+      rings_.heads[v].bend = static_cast<T>(front_bend(patches_[v], around));
     }
+  }
+
+  Patch any_sum(Index v) const {
+    Patch sum = patches_[v];
+    for (const Index h : mesh_.corners(v)) sum += patches_[mesh_.to(h)];
+    return sum;
+  }
+
+  // All lanes, as there is no telling how many are used: no side ends in no patch.
+  Patch plain_sum(Index v) const {
+    const Index* const end = rings_.blocks[v].end;
+    const Index sides = plain_sides_[v];
+    Index other[kLanes];
+    for (Index k = 0; k < kLanes; ++k) other[k] = k < sides ? end[k] : fans_.none;
+    Patch sum = patches_[v];
+    for (const Index w : other) sum += patches_[w];
+    return sum;
   }
 
   // Puts ghosts in place of vertices of other parts.
   void separate_parts() {
     RingLayout& layout = rings_.layout;
     PartsBuilder builder(fans_.none, part_shift_);
+    std::sort(at_border_.begin(), at_border_.end());
+    at_border_.erase(std::unique(at_border_.begin(), at_border_.end()), at_border_.end());
     for (std::size_t begin = 0, end = 0; begin < at_border_.size(); begin = end) {
       const Index part = at_border_[begin] >> part_shift_;
       while (end < at_border_.size() && at_border_[end] >> part_shift_ == part) ++end;
@@ -313,23 +271,29 @@ class RingBuilder {
       for_each_foreign_end(border, [&](Index, Index& named) { named = ghosts[i++]; });
     }
     layout.parts = builder.take();
-    layout.block_offset.resize(layout.parts.places() + 1, layout.block_offset.back());
-    rings_.bend.resize(layout.parts.places());
-    rings_.bend[fans_.none] = 0;
+    rings_.heads.resize(layout.parts.places());
+    rings_.heads[fans_.none] = {};
     for (std::size_t g = 0; g < layout.parts.owner.size(); ++g) {
-      rings_.bend[layout.parts.first_ghost() + g] = rings_.bend[layout.parts.owner[g]];
+      rings_.heads[layout.parts.first_ghost() + g] = {rings_.heads[layout.parts.owner[g]].bend, 0};
     }
   }
 
   template <class Act>
   void for_each_foreign_end(std::span<const Index> vertices, const Act& act) {
     for (const Index v : vertices) {
-      for (Index i = rings_.layout.block_offset[v]; i < rings_.layout.block_offset[v + 1]; ++i) {
+      for_each_block(v, [&](Index i) {
         for (Index& end : rings_.blocks[i].end) {
           if (end < fans_.none && (end ^ v) >> part_shift_ != 0) act(v, end);
         }
-      }
+      });
     }
+  }
+
+  template <class Act>
+  void for_each_block(Index v, const Act& act) const {
+    Index i = v;
+    do act(i);
+    while ((i = rings_.next_block(v, i)) != 0);
   }
 
   // The corner at h is a target from the two other vertices of its face.
@@ -341,7 +305,7 @@ class RingBuilder {
   }
 
   void mark_unsplit(Index at, Index target, Index other) {
-    for (Index i = rings_.layout.block_offset[at]; i < rings_.layout.block_offset[at + 1]; ++i) {
+    for_each_block(at, [&](Index i) {
       const RingBlock<T>& block = rings_.blocks[i];
       LaneLinks& lanes = rings_.layout.links[i];
       for (Index k = 0; k < kLanes; ++k) {
@@ -349,7 +313,7 @@ class RingBuilder {
         if (a == target && b == other) lanes.links[k] |= LaneLinks::kAnyOrderFirst;
         if (a == other && b == target) lanes.links[k] |= LaneLinks::kAnyOrderSecond;
       }
-    }
+    });
   }
 
   const Mesh& mesh_;
@@ -359,14 +323,20 @@ class RingBuilder {
   int part_shift_;
   double sum_of_lengths_ = 0;
   Rings<T> rings_;
-  std::vector<UnfoldedTriangle> triangles_;  // of one corner
-  Pieces<Unfolded> unfolded_;
-  std::vector<Index> unsplit_;                    // corners whose unfolding ended early
-  std::vector<Index> first_of_;                   // [vertex_count] lists of unfolded triangles
+  LaneWriter<T> lanes_;
+  Index begun_ = 0;            // vertices whose rings have been begun
+  std::vector<Index> obtuse_;  // corners to be unfolded
+  UnfoldedCorners<T> unfolded_;
+  struct Late {
+    Index at;
+    Corner corner;
+  };
+  std::vector<Late> late_;                        // unfolded triangles at vertices whose rings had not been begun
   UninitializedArray<Patch> patches_;             // [vertex_count]
   UninitializedArray<std::uint8_t> plain_sides_;  // [vertex_count] of a plain fan; 0 for any other vertex
   std::vector<Corner> loose_, fan_;               // of one vertex
-  std::vector<Index> at_border_;                  // vertices whose blocks name vertices of other parts, ascending
+  std::vector<Index> ends_;                       // of the sides of its loose corners
+  std::vector<Index> at_border_;                  // vertices whose blocks name vertices of other parts
 };
 
 }  // namespace

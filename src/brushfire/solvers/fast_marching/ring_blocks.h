@@ -1,6 +1,7 @@
 // The triangles around every vertex, laid out for vector registers.
 #pragma once
 
+#include <brushfire/core/inline.h>
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/fast_marching/parts.h>
@@ -38,20 +39,32 @@ struct LaneLinks {
   bool any_order_second(Index k) const { return (links[k] & kAnyOrderSecond) != 0; }
 };
 
-// Where the blocks of each vertex are: everything that does not depend on T.
+// What does not depend on T.
 struct RingLayout {
-  UninitializedArray<Index> block_offset;  // [places + 1]; ghosts have no blocks
-  UninitializedArray<LaneLinks> links;     // [blocks]
-  double mean_edge = 1;                    // in mesh.unit()
-  int longest_unfolding = 1;               // faces that the longest unfolding of a corner crosses
+  Index vertex_count = 0;
+  UninitializedArray<LaneLinks> links;  // [blocks]
+  std::vector<Index> next;              // [blocks beyond the first ones] the vertex's next one; 0: none
+  double mean_edge = 1;                 // in mesh.unit()
+  int longest_unfolding = 1;            // faces that the longest unfolding of a corner crosses
   Parts parts;
 };
 
+// Block v is the first one of vertex v; further ones follow those of all vertices.
 template <class T>
 struct Rings {
+  struct Head {
+    T bend = 0;      // by how much the curvature of a front falls that passes the vertex
+    Index more = 0;  // its second block; 0: none
+  };
+
   RingLayout layout;
   UninitializedArray<RingBlock<T>> blocks;
-  UninitializedArray<T> bend;  // [places] by how much the curvature of a front falls that passes it
+  UninitializedArray<Head> heads;  // [places] ghosts have no blocks
+
+  // The block of v that comes after block i; 0: none.
+  BRUSHFIRE_INLINE Index next_block(Index v, Index i) const {
+    return i == v ? heads[v].more : layout.next[i - layout.vertex_count];
+  }
 };
 
 // O(vertices + faces), and what the unfolding of obtuse corners takes. The mesh should be in a local order. Results

@@ -3,8 +3,6 @@
 
 #include <brushfire/core/planar.h>
 #include <brushfire/mesh/detail/face_geometry.h>
-#include <brushfire/solvers/fast_marching/double8.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,48 +20,11 @@ Vec2 apex_over_edge(const Mesh::FaceGeometry& face, Index k, bool mirrored) {
                                    face.double_area);
 }
 
-#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-
-// Lane k: number k + 1 of three.
-BRUSHFIRE_AVX2_INLINE __m256d turned(__m256d a) { return _mm256_permute4x64_pd(a, 0b11'00'10'01); }
-
-// Lengths and area as edges_of(), lengths_of() and double_area_of() compute them, the three edges at once. False where
-// squares may have vanished, or are not finite.
-BRUSHFIRE_AVX2 bool geometry3(const double* positions, const Face& t, double scale, Mesh::FaceGeometry& geometry) {
-  const __m256i three = _mm256_setr_epi64x(-1, -1, -1, 0);
-  const __m256d scales = _mm256_set1_pd(scale);
-  const __m256d a = _mm256_maskload_pd(positions + 3 * std::size_t{t[0]}, three);
-  const __m256d b = _mm256_maskload_pd(positions + 3 * std::size_t{t[1]}, three);
-  const __m256d c = _mm256_maskload_pd(positions + 3 * std::size_t{t[2]}, three);
-  const __m256d edge[4] = {_mm256_mul_pd(scales, _mm256_sub_pd(b, a)), _mm256_mul_pd(scales, _mm256_sub_pd(c, b)),
-                           _mm256_mul_pd(scales, _mm256_sub_pd(a, c)), _mm256_setzero_pd()};
-  __m256d x, y, z;
-  transpose4(edge, x, y, z);
-  const __m256d squared = squares_sum(x, y, z);
-  const __m256d fine = _mm256_and_pd(_mm256_cmp_pd(squared, _mm256_set1_pd(0x1p-900), _CMP_GT_OQ),
-                                     _mm256_cmp_pd(squared, _mm256_set1_pd(0x1p1000), _CMP_LT_OQ));
-  if ((_mm256_movemask_pd(fine) & 7) != 7) return false;
-  // The cross product of the two other edges, for each.
-  const __m256d x1 = turned(x), y1 = turned(y), z1 = turned(z), x2 = turned(x1), y2 = turned(y1), z2 = turned(z1);
-  const __m256d cross_x = _mm256_sub_pd(_mm256_mul_pd(y1, z2), _mm256_mul_pd(z1, y2));
-  const __m256d cross_y = _mm256_sub_pd(_mm256_mul_pd(z1, x2), _mm256_mul_pd(x1, z2));
-  const __m256d cross_z = _mm256_sub_pd(_mm256_mul_pd(x1, y2), _mm256_mul_pd(y1, x2));
-  alignas(32) double length[4], area_squared[4];
-  _mm256_store_pd(length, _mm256_sqrt_pd(squared));
-  _mm256_store_pd(area_squared, squares_sum(cross_x, cross_y, cross_z));
-  const std::size_t longer = length[1] > length[0] ? 1 : 0, longest = length[2] > length[longer] ? 2 : longer;
-  geometry = {{length[0], length[1], length[2]}, std::sqrt(area_squared[longest])};
-  return area_squared[longest] > 0x1p-900;
-}
-
-#endif
-
 }  // namespace
 
-Unfolder::Unfolder(const Mesh& mesh, Variant variant)
+Unfolder::Unfolder(const Mesh& mesh)
     : mesh_(mesh),
       plain_(mesh.has_positions() && !mesh.has_slits()),
-      in_registers_(plain_ && variant == Variant::Best && has_avx2()),
       positions_(mesh.positions()),
       faces_(mesh.faces()),
       corner_offsets_(mesh.corner_offsets()),
@@ -71,10 +32,6 @@ Unfolder::Unfolder(const Mesh& mesh, Variant variant)
       scale_(1 / mesh.unit()) {}
 
 Mesh::FaceGeometry Unfolder::geometry(Index f) const {
-#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-  Mesh::FaceGeometry found;
-  if (in_registers_ && geometry3(&positions_.data()->x, faces_[f], scale_, found)) return found;
-#endif
   if (!plain_) return mesh_.face_geometry(f);
   const std::array<Vec3, 3> edge = edges_of(positions_, faces_[f], scale_);
   const std::array<double, 3> lengths = lengths_of(edge);
@@ -103,7 +60,10 @@ Unfolding Unfolder::unfold(Index h, std::vector<UnfoldedTriangle>& triangles) co
   const Index own_face = h / 3, own = h - 3 * own_face, corner = faces_[own_face][own];
   Mesh::FaceGeometry face = geometry(own_face);
   Unfolding result;
-  if (face.lengths[own] == 0) return result;
+  const double first = face.lengths[own], second = face.lengths[previous_corner(own)];
+  const double across = face.lengths[next_corner(own)];
+  result.obtuse = first * first + second * second < across * across * (1 - kRightAngle);
+  if (!result.obtuse || face.lengths[own] == 0) return result;
   // Left and right bound what is left of the angle; left_end and right_end are the edge that is crossed next.
   Index left = faces_[own_face][next_corner(own)], right = faces_[own_face][previous_corner(own)];
   Vec2 at_left{face.lengths[own], 0}, at_right = apex_over_edge(face, own, false);

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
 
 #include <array>
 #include <span>
@@ -20,20 +19,10 @@ struct UnfoldedTriangle {
   Vec2 at_first, at_second;
 };
 
-inline constexpr double kRightAngle = 1e-9;  // rounding of coordinates tilts right angles by less than this
-
-// The halfedge that names the obtuse corner of face f, kNoIndex where there is none (right angles, up to rounding, are
-// not obtuse). squared_length[k]: of halfedge 3f + k.
-inline Index obtuse_corner(const std::array<double, 3>& squared_length, Index f) {
-  const auto [aa, bb, cc] = squared_length;
-  // Only the corner across the longest edge can be.
-  const double ab = aa >= bb ? aa : bb, most = ab >= cc ? ab : cc;
-  const double others = ab >= cc ? cc + (aa >= bb ? bb : aa) : aa + bb;
-  const Index across = ab >= cc ? (aa >= bb ? 2u : 0u) : 1u;
-  return others < most * (1 - kRightAngle) ? 3 * f + across : kNoIndex;
-}
+inline constexpr double kRightAngle = 1e-9;  // rounding of coordinates tilts right angles by less: not obtuse yet
 
 struct Unfolding {
+  bool obtuse = true;  // false: the corner is not, nothing was done
   int crossed = 0;     // edges that were crossed
   bool split = false;  // false: it ended at a boundary, a non-manifold edge or after kMaxUnfolded faces
 };
@@ -41,19 +30,22 @@ struct Unfolding {
 // Unrolls faces, one corner after the other.
 class Unfolder {
  public:
-  explicit Unfolder(const Mesh& mesh, Variant variant = Variant::Best);
+  explicit Unfolder(const Mesh& mesh);
 
-  // Splits the obtuse angle at the corner of halfedge h into acute ones: unrolls faces behind the opposite edge, one by
-  // one, until a vertex appears that splits it, and the same with what is left of the angle. Appends the triangles.
+  // Splits the angle at the corner of halfedge h, where it is obtuse, into acute ones: unrolls faces behind the
+  // opposite edge, one by one, until a vertex appears that splits it, and the same with what is left of the angle.
+  // Appends the triangles.
   Unfolding unfold(Index h, std::vector<UnfoldedTriangle>& triangles) const;
 
- private:
+  bool is_plain() const { return plain_; }  // positions, and no slits
+  // As those of the mesh, quicker.
+  Index neighbour(Index h) const;
   Mesh::FaceGeometry geometry(Index f) const;
-  Index neighbour(Index h) const;  // Mesh::neighbour()
 
+ private:
   const Mesh& mesh_;
   // What it looks up itself, where the mesh has positions and no slits.
-  bool plain_, in_registers_;
+  bool plain_;
   std::span<const Vec3> positions_;
   std::span<const Face> faces_;
   std::span<const Index> corner_offsets_, corners_;
