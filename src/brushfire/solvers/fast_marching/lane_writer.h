@@ -33,7 +33,8 @@ template <class T>
 class LaneWriter {
  public:
   explicit LaneWriter(Index vertex_count) : none_(vertex_count) {
-    grow(std::size_t{vertex_count} + vertex_count / 2 + 1);            // what is not written costs nothing
+    grow(std::size_t{vertex_count} + vertex_count / 2 + 1);  // what is not written costs nothing
+    first_pages_ = {blocks_.data(), vertex_count * sizeof(RingBlock<T>)};
     heads_.reserve(std::size_t{vertex_count} + vertex_count / 4 + 1);  // ghosts will follow
     heads_.resize(vertex_count);
     populate(heads_);
@@ -42,9 +43,7 @@ class LaneWriter {
   }
 
   // Vertices up to `end` are about to begin their rings.
-  void make_room(Index end) {
-    while (first_present_ < end) populate_more(first_present_, none_);
-  }
+  void make_room(Index end) { first_pages_.reach(blocks_.data() + end); }
   // The first block of vertex v, and how its sides are linked: to be written.
   RingBlock<T>* first_block(Index v) { return blocks_.data() + v; }
   LaneLinks* first_links(Index v) { return links_.data() + v; }
@@ -150,7 +149,7 @@ class LaneWriter {
   Lane next_block(Index v, Lane after) {
     const Index block = none_ + static_cast<Index>(next_.size());
     if (block == blocks_.size()) grow(blocks_.size() + blocks_.size() / 4);
-    if (block == next_present_) populate_more(next_present_, static_cast<Index>(blocks_.size()));
+    next_pages_.reach(&blocks_[block]);
     next_.push_back(0);
     blank(block);
     (after.block == v ? heads_[v].more : next_[after.block - none_]) = block;
@@ -200,17 +199,11 @@ class LaneWriter {
     ++at.lane;
   }
 
-  // Pages of two more megabytes of blocks.
-  void populate_more(Index& present, Index end) {
-    constexpr Index kBlocks = (Index{2} << 20) / sizeof(RingBlock<T>);
-    const Index count = std::min(kBlocks, end - present);
-    populate(&blocks_[present], count * sizeof(RingBlock<T>));
-    present += count;
-  }
-
   void grow(std::size_t size) {
     blocks_.resize(size);
     links_.resize(size);
+    const std::size_t written = none_ + next_.size();
+    next_pages_ = {blocks_.data() + written, (size - written) * sizeof(RingBlock<T>)};
   }
 
   Index none_;                               // the end of sides that are not there
@@ -218,7 +211,7 @@ class LaneWriter {
   UninitializedArray<LaneLinks> links_;      // [blocks]
   UninitializedArray<typename Rings<T>::Head> heads_;
   std::vector<Index> next_;
-  Index first_present_ = 0, next_present_ = none_;  // blocks up to which pages are present
+  PagesAhead first_pages_, next_pages_;  // of the first blocks, and of the others
 };
 
 }  // namespace brushfire::detail
