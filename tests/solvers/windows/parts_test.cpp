@@ -106,9 +106,9 @@ TEST(Parts, EveryFaceIsInOnePartWithVerticesOfItsOwnAndCopiesFormRings) {
 
 TEST(Parts, HoweverAMeshIsCutDistancesStayWithinTheirBounds) {
   for (const Case& c : cases()) {
-    const auto whole = make_windows(c.mesh, kOnePart);
+    const auto whole = make_windows(c.mesh, kOnePart, Merging::Always);
     for (const unsigned bits : {2u, 5u, 8u}) {
-      const auto cut = make_windows(c.mesh, bits);
+      const auto cut = make_windows(c.mesh, bits, Merging::Always);
       for (const DistanceOptions& options : ways()) {
         for (const std::vector<Source>& sources : source_lists(c.mesh)) {
           const std::string where = c.name + ", bits " + std::to_string(bits) + ", " +
@@ -127,7 +127,7 @@ TEST(Parts, HoweverAMeshIsCutDistancesStayWithinTheirBounds) {
 
 TEST(Parts, AnyNumberOfThreadsGivesTheSameBits) {
   for (const Case& c : cases()) {
-    const auto engine = make_windows(c.mesh, 4);
+    const auto engine = make_windows(c.mesh, 4, Merging::Always);
     for (DistanceOptions options : ways()) {
       for (const std::vector<Source>& sources : source_lists(c.mesh)) {
         for (const double radius : {kInfinity, 0.3}) {
@@ -147,7 +147,7 @@ TEST(Parts, AnyNumberOfThreadsGivesTheSameBits) {
 
 TEST(Parts, TargetsOnEdgesBetweenPartsAndEverywhereReadTheSame) {
   for (const Case& c : cases()) {
-    const auto whole = make_windows(c.mesh, kOnePart), cut = make_windows(c.mesh, 2);
+    const auto whole = make_windows(c.mesh, kOnePart, Merging::Always), cut = make_windows(c.mesh, 2, Merging::Always);
     for (DistanceOptions options : ways()) {
       for (Index f = 0; f < c.mesh.face_count(); f += 37) {
         for (const std::array<double, 3>& w :
@@ -174,7 +174,7 @@ TEST(Parts, TargetsOnEdgesBetweenPartsAndEverywhereReadTheSame) {
 
 TEST(Parts, AListOfWhatWasTouchedHoldsEveryVertexOnce) {
   for (const Case& c : cases()) {
-    const auto cut = make_windows(c.mesh, 3);
+    const auto cut = make_windows(c.mesh, 3, Merging::Always);
     DistanceOptions options;
     options.max_distance = 0.4;
     std::vector<Index> touched;
@@ -191,7 +191,7 @@ TEST(Parts, AListOfWhatWasTouchedHoldsEveryVertexOnce) {
 // Rays lead over the borders of parts, and every window that was kept has the mesh's own numbers.
 TEST(Parts, PathsLeadFromPartToPart) {
   for (const Case& c : cases()) {
-    const auto whole = make_windows(c.mesh, kOnePart), cut = make_windows(c.mesh, 3);
+    const auto whole = make_windows(c.mesh, kOnePart, Merging::Always), cut = make_windows(c.mesh, 3, Merging::Always);
     for (const bool all_points : {false, true}) {
       DistanceOptions options;
       options.method = Method::Exact;
@@ -217,7 +217,7 @@ TEST(Parts, PathsLeadFromPartToPart) {
 TEST(Parts, ARunThatIsStoppedLeavesNothingBehind) {
   const Mesh mesh = shapes::folded_sphere(4).mesh();
   const std::vector<Source> sources = source_lists(mesh)[3];
-  const auto engine = make_windows(mesh, 4);
+  const auto engine = make_windows(mesh, 4, Merging::Always);
   for (DistanceOptions options : ways()) {
     for (const unsigned threads : {1u, 3u}) {
       options.threads = threads;

@@ -8,6 +8,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/core/parallel.h>
 #include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/detail/least_budget.h>
 #include <brushfire/solvers/windows/detail/part.h>
 #include <brushfire/solvers/windows/detail/prefetch.h>
 #include <brushfire/solvers/windows/detail/results.h>
@@ -27,7 +28,8 @@ constexpr double kShort = 8;
 
 class WindowEngine final : public Engine {
  public:
-  WindowEngine(const Mesh& mesh, unsigned part_bits) : run_(mesh, part_bits), benches_(1) {
+  WindowEngine(const Mesh& mesh, unsigned part_bits, Merging merging)
+      : run_(mesh, part_bits), merging_(merging), benches_(1) {
     const Index n = run_.structure.vertex_count();
     run_.values.resize(n);
     for (const WindowStructure::Copy& c : run_.structure.copies) run_.values[c.vertex].next_copy = c.next;
@@ -78,7 +80,7 @@ class WindowEngine final : public Engine {
     run_.several = problem.sources.size() > 1;
     if (run_.several) run_.origins.resize(run_.values.size());
     if (run_.keeps_rays()) run_.rays.resize(run_.values.size());
-    run_.budget = budget_of(*problem.options);
+    run_.budget = budget_of(*problem.options, merging_ == Merging::Always ? 0 : least_share(outlook()));
     run_.in_lists = !run_.merges() && run_.radius > kShort * run_.structure.bucket_width;
     run_.bucket_width = run_.in_lists ? kExactBucket * run_.structure.bucket_width : run_.structure.bucket_width;
     run_.targets.place(problem.targets, run_.structure);
@@ -86,6 +88,11 @@ class WindowEngine final : public Engine {
     turn_ = 0;
     updates_ = 0;
     hire(problem.options->threads);
+  }
+
+  MergeOutlook outlook() const {
+    return {static_cast<double>(run_.structure.mesh.vertex_count()), static_cast<double>(run_.problem->sources.size()),
+            run_.structure.typical_defect};
   }
 
   // Threads for as many parts as there are.
@@ -246,6 +253,7 @@ class WindowEngine final : public Engine {
   }
 
   RunState run_;
+  Merging merging_;
   std::vector<Part> parts_;
   std::vector<Index> active_;     // parts in which something waits
   std::vector<Shares::Due> due_;  // those with something to do in this round
@@ -262,9 +270,9 @@ class WindowEngine final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits) {
+std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits, Merging merging) {
   if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
-  return std::make_unique<WindowEngine>(mesh, part_bits);
+  return std::make_unique<WindowEngine>(mesh, part_bits, merging);
 }
 
 }  // namespace brushfire::detail
