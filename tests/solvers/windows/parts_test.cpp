@@ -3,12 +3,13 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/windows/detail/engine.h>
-#include <brushfire/solvers/windows/detail/shares.h>
+#include <brushfire/solvers/detail/shares.h>
 #include <brushfire/solvers/windows/detail/structure.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <set>
 #include <string>
@@ -234,7 +235,7 @@ TEST(Parts, ARunThatIsStoppedLeavesNothingBehind) {
 }
 
 TEST(Shares, EveryPartIsTakenOnceAndLoadsAreNearlyEven) {
-  Shares shares;
+  Shares shares(std::chrono::microseconds(20));
   shares.reset(12, 3);
   std::vector<Shares::Due> due;
   for (Index p = 0; p < 12; ++p) due.push_back({p, 5 + p % 4});

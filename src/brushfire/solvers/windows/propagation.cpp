@@ -6,16 +6,16 @@
 // bucket of values at a time, and hear from each other only then. What a part does depends on its mail alone, and mail
 // is delivered in a fixed order: the numbers are the same for any number of threads.
 #include <brushfire/core/error.h>
-#include <brushfire/core/parallel.h>
+#include <brushfire/solvers/detail/crew.h>
 #include <brushfire/solvers/windows/detail/engine.h>
 #include <brushfire/solvers/windows/detail/least_budget.h>
 #include <brushfire/solvers/windows/detail/part.h>
 #include <brushfire/solvers/windows/detail/prefetch.h>
 #include <brushfire/solvers/windows/detail/results.h>
 #include <brushfire/solvers/windows/detail/run_state.h>
-#include <brushfire/solvers/windows/detail/shares.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 
 namespace brushfire::detail {
@@ -25,6 +25,9 @@ namespace {
 constexpr double kExactBucket = 0.2;
 // In buckets: exact runs not farther than this take windows one by one, lists of them would stay short.
 constexpr double kShort = 8;
+
+// What working on a part takes in a round, more or less.
+constexpr std::chrono::microseconds kPatience{20};
 
 class WindowEngine final : public Engine {
  public:
@@ -48,7 +51,7 @@ class WindowEngine final : public Engine {
     for (const LocatedSource& s : problem.sources) start(s);
     deliver(results);
     drain(results);
-    results.write(scratch_, team_.get());
+    results.write(scratch_, crew_.team());
   }
 
  private:
@@ -56,8 +59,8 @@ class WindowEngine final : public Engine {
 
   void forget() {
     const auto forget_part = [&](unsigned, std::size_t p) { parts_[p].forget(); };
-    if (team_) {
-      team_->run(parts_.size(), forget_part);
+    if (crew_.team()) {
+      crew_.team()->run(parts_.size(), forget_part);
     } else {
       for (std::size_t p = 0; p < parts_.size(); ++p) forget_part(0, p);
     }
@@ -87,21 +90,13 @@ class WindowEngine final : public Engine {
     next_target_check_ = problem.targets.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;
     turn_ = 0;
     updates_ = 0;
-    hire(problem.options->threads);
+    crew_.hire(problem.options->threads, parts_.size());
+    benches_.resize(std::max<std::size_t>(benches_.size(), crew_.size()));
   }
 
   MergeOutlook outlook() const {
     return {static_cast<double>(run_.structure.mesh.vertex_count()), static_cast<double>(run_.problem->sources.size()),
             run_.structure.typical_defect};
-  }
-
-  // Threads for as many parts as there are.
-  void hire(unsigned requested) {
-    const unsigned threads = std::min(thread_count(requested), run_.structure.part_count());
-    shares_.reset(parts_.size(), threads);
-    if (threads == (team_ ? team_->size() : 1)) return;
-    team_ = threads > 1 ? std::make_unique<ThreadTeam>(threads, ThreadTeam::Idle::Spins) : nullptr;
-    benches_.resize(std::max<std::size_t>(benches_.size(), threads));
   }
 
   // ---- sources
@@ -125,14 +120,7 @@ class WindowEngine final : public Engine {
 
   void drain(Results& results) {
     while (next_round()) {
-      if (team_) {
-        shares_.deal(due_);
-        team_->run(team_->size(), [&](unsigned worker, std::size_t) {
-          shares_.take(worker, [&](Index p) { parts_[p].work(turn_, benches_[worker]); });
-        });
-      } else {
-        for (const Shares::Due& d : due_) parts_[d.part].work(turn_, benches_.front());
-      }
+      crew_.work(due_, [this](unsigned worker, Index p) { parts_[p].work(turn_, benches_[worker]); });
       deliver(results);
       look_up();
       retire();
@@ -258,9 +246,8 @@ class WindowEngine final : public Engine {
   std::vector<Index> active_;     // parts in which something waits
   std::vector<Shares::Due> due_;  // those with something to do in this round
   std::vector<std::unique_ptr<Traffic>> spare_;
-  std::vector<Workbench> benches_;    // [threads]
-  std::unique_ptr<ThreadTeam> team_;  // where there are several threads
-  Shares shares_;
+  Crew crew_{kPatience};
+  std::vector<Workbench> benches_;  // [threads]
   std::vector<Index> scratch_;
   DistanceField* field_ = nullptr;
   std::int64_t turn_ = 0;  // number of the bucket
