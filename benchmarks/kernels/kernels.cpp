@@ -49,6 +49,14 @@ Run solve(Method method, Precision precision = Precision::Double) {
   return solve(options);
 }
 
+// One at which windows are merged on a mesh as small as this.
+Run solve_with_tolerance() {
+  DistanceOptions options;
+  options.method = Method::Windows;
+  options.tolerance = 1e-2;
+  return solve(options);
+}
+
 // Connectivity, lengths and areas, out of the arrays.
 Run connectivity() {
   const auto shape = std::make_shared<Shape>(shapes::folded_sphere(kLevels));
@@ -263,7 +271,7 @@ std::vector<Kernel> kernels() {
           {"march-float", kVertices, [] { return solve(Method::NovotniKlein, Precision::Float); }},
           {"march-double", kVertices, [] { return solve(Method::NovotniKlein); }},
           {"windows-exact", kVertices, [] { return solve(Method::Exact); }},
-          {"windows-1e-3", kVertices, [] { return solve(Method::Windows); }},
+          {"windows-1e-2", kVertices, solve_with_tolerance},
           {"window-propagation", kWindows, propagation},
           {"window-envelope", kWindows, envelopes},
           {"window-merge", kWindows, merges},

@@ -117,7 +117,7 @@ class Distances:
             :class:`Points`; at least one.
         :param method: one of :func:`methods`; the library's default if none is given.
         :param tolerance: for method ``"windows"``, which is meant where a tolerance is given: the relative error at every
-            vertex is at most this; in [0, 0.1], 0 is exact.
+            vertex is at most this; in [0, 0.1], 0 is exact, and so are those so small that an exact run is quicker.
         :param bound: for method ``"windows"``: ``"lower"`` gives values never above the distance, ``"upper"`` never below
             it, ``"estimate"`` (the default) values in between.
         :param precision: in which the marching methods compute: ``"float32"``, the default, is faster and good for about 6

@@ -22,6 +22,13 @@
 #include <thread>
 #endif
 
+#if BRUSHFIRE_HAS_THREADS && (defined(__unix__) || defined(__APPLE__))
+#include <pthread.h>
+#define BRUSHFIRE_HAS_FORK 1
+#else
+#define BRUSHFIRE_HAS_FORK 0
+#endif
+
 namespace brushfire {
 namespace {
 
@@ -114,6 +121,18 @@ void pause() {
 #endif
 }
 
+// How often the process has been forked off on the way to this one. A child has its parent's memory, but of its threads
+// only the one that forked.
+std::atomic<unsigned> forks{0};
+
+unsigned count_forks() {
+#if BRUSHFIRE_HAS_FORK
+  static const int watched = pthread_atfork(nullptr, nullptr, [] { forks.fetch_add(1); });
+  static_cast<void>(watched);
+#endif
+  return forks.load();
+}
+
 // Looks again and again whether `done`, for as long as going to sleep and waking up again would take.
 template <class Done>
 bool comes_soon(const Done& done) {
@@ -138,6 +157,7 @@ struct ThreadTeam::State {
   Loop* loop = nullptr;  // valid for those who have joined
   std::atomic<bool> quit{false};
   const bool spins;
+  const unsigned born_after = count_forks();
 
   std::mutex mutex;
   std::condition_variable wake, done;
@@ -145,6 +165,9 @@ struct ThreadTeam::State {
   std::atomic<bool> caller_sleeps{false};
   Failure failure;  // with the mutex
   std::vector<std::thread> helpers;
+
+  // In a child of the process that the helpers live in. They may have held the mutex, so nothing here is of any use.
+  bool is_bereft() const { return forks.load(std::memory_order_relaxed) != born_after; }
 
   void help(unsigned worker) {
     std::uint64_t seen = 0;
@@ -206,17 +229,24 @@ ThreadTeam::ThreadTeam(unsigned threads, Idle idle) : state_(std::make_unique<St
 }
 
 ThreadTeam::~ThreadTeam() {
+  if (state_->is_bereft()) {
+    // Whoever closes a condition variable waits for those who wait for it, and these never wake: left as it is.
+    static_cast<void>(state_.release());
+    return;
+  }
   state_->quit.store(true);
   state_->call();
   for (std::thread& t : state_->helpers) t.join();
 }
 
-unsigned ThreadTeam::size() const noexcept { return static_cast<unsigned>(state_->helpers.size()) + 1; }
+unsigned ThreadTeam::size() const noexcept {
+  return state_->is_bereft() ? 1 : static_cast<unsigned>(state_->helpers.size()) + 1;
+}
 
 void ThreadTeam::run(std::size_t count, const Body& body, const CancelToken* cancel) {
   Loop loop{count, &body, cancel};
   State& s = *state_;
-  const bool together = count > 1 && !s.helpers.empty();
+  const bool together = count > 1 && size() > 1;
   if (together) {
     s.loop = &loop;
     s.word.open();

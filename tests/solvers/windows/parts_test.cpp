@@ -3,12 +3,13 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/windows/detail/engine.h>
-#include <brushfire/solvers/windows/detail/shares.h>
+#include <brushfire/solvers/detail/shares.h>
 #include <brushfire/solvers/windows/detail/structure.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <set>
 #include <string>
@@ -106,9 +107,9 @@ TEST(Parts, EveryFaceIsInOnePartWithVerticesOfItsOwnAndCopiesFormRings) {
 
 TEST(Parts, HoweverAMeshIsCutDistancesStayWithinTheirBounds) {
   for (const Case& c : cases()) {
-    const auto whole = make_windows(c.mesh, kOnePart);
+    const auto whole = make_windows(c.mesh, kOnePart, Merging::Always);
     for (const unsigned bits : {2u, 5u, 8u}) {
-      const auto cut = make_windows(c.mesh, bits);
+      const auto cut = make_windows(c.mesh, bits, Merging::Always);
       for (const DistanceOptions& options : ways()) {
         for (const std::vector<Source>& sources : source_lists(c.mesh)) {
           const std::string where = c.name + ", bits " + std::to_string(bits) + ", " +
@@ -127,7 +128,7 @@ TEST(Parts, HoweverAMeshIsCutDistancesStayWithinTheirBounds) {
 
 TEST(Parts, AnyNumberOfThreadsGivesTheSameBits) {
   for (const Case& c : cases()) {
-    const auto engine = make_windows(c.mesh, 4);
+    const auto engine = make_windows(c.mesh, 4, Merging::Always);
     for (DistanceOptions options : ways()) {
       for (const std::vector<Source>& sources : source_lists(c.mesh)) {
         for (const double radius : {kInfinity, 0.3}) {
@@ -147,7 +148,7 @@ TEST(Parts, AnyNumberOfThreadsGivesTheSameBits) {
 
 TEST(Parts, TargetsOnEdgesBetweenPartsAndEverywhereReadTheSame) {
   for (const Case& c : cases()) {
-    const auto whole = make_windows(c.mesh, kOnePart), cut = make_windows(c.mesh, 2);
+    const auto whole = make_windows(c.mesh, kOnePart, Merging::Always), cut = make_windows(c.mesh, 2, Merging::Always);
     for (DistanceOptions options : ways()) {
       for (Index f = 0; f < c.mesh.face_count(); f += 37) {
         for (const std::array<double, 3>& w :
@@ -174,7 +175,7 @@ TEST(Parts, TargetsOnEdgesBetweenPartsAndEverywhereReadTheSame) {
 
 TEST(Parts, AListOfWhatWasTouchedHoldsEveryVertexOnce) {
   for (const Case& c : cases()) {
-    const auto cut = make_windows(c.mesh, 3);
+    const auto cut = make_windows(c.mesh, 3, Merging::Always);
     DistanceOptions options;
     options.max_distance = 0.4;
     std::vector<Index> touched;
@@ -191,7 +192,7 @@ TEST(Parts, AListOfWhatWasTouchedHoldsEveryVertexOnce) {
 // Rays lead over the borders of parts, and every window that was kept has the mesh's own numbers.
 TEST(Parts, PathsLeadFromPartToPart) {
   for (const Case& c : cases()) {
-    const auto whole = make_windows(c.mesh, kOnePart), cut = make_windows(c.mesh, 3);
+    const auto whole = make_windows(c.mesh, kOnePart, Merging::Always), cut = make_windows(c.mesh, 3, Merging::Always);
     for (const bool all_points : {false, true}) {
       DistanceOptions options;
       options.method = Method::Exact;
@@ -217,7 +218,7 @@ TEST(Parts, PathsLeadFromPartToPart) {
 TEST(Parts, ARunThatIsStoppedLeavesNothingBehind) {
   const Mesh mesh = shapes::folded_sphere(4).mesh();
   const std::vector<Source> sources = source_lists(mesh)[3];
-  const auto engine = make_windows(mesh, 4);
+  const auto engine = make_windows(mesh, 4, Merging::Always);
   for (DistanceOptions options : ways()) {
     for (const unsigned threads : {1u, 3u}) {
       options.threads = threads;
@@ -234,7 +235,7 @@ TEST(Parts, ARunThatIsStoppedLeavesNothingBehind) {
 }
 
 TEST(Shares, EveryPartIsTakenOnceAndLoadsAreNearlyEven) {
-  Shares shares;
+  Shares shares(std::chrono::microseconds(20));
   shares.reset(12, 3);
   std::vector<Shares::Due> due;
   for (Index p = 0; p < 12; ++p) due.push_back({p, 5 + p % 4});

@@ -2,10 +2,10 @@
 #include <brushfire/solvers/fast_marching/fast_marching.h>
 
 #include <brushfire/core/error.h>
-#include <brushfire/core/parallel.h>
 #include <brushfire/core/planar.h>
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/locality_order.h>
+#include <brushfire/solvers/detail/crew.h>
 #include <brushfire/solvers/detail/start.h>
 #include <brushfire/solvers/fast_marching/march.h>
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -67,6 +68,9 @@ class LocalMesh {
   UninitializedArray<Index> face_rank_;  // [face_count] the number here of each of the caller's faces
 };
 
+// Rounds are as short as it would take to wait for another thread, and a part is soon in another cache.
+constexpr std::chrono::microseconds kPatience{0};
+
 // The methods in one precision.
 template <class T>
 class Marcher {
@@ -75,8 +79,7 @@ class Marcher {
       : local_(local),
         mesh_(local.mesh()),
         rings_(build_rings<T>(mesh_, part_size)),
-        state_(rings_.layout.parts),
-        hands_(rings_.layout.parts.count()) {
+        state_(rings_.layout.parts) {
     // Half a mean edge measured best; the front is that wide, and order inside it does not matter.
     state_.buckets_per_unit = static_cast<T>(2 / rings_.layout.mean_edge);
   }
@@ -104,7 +107,7 @@ class Marcher {
 
  private:
   void start(const Problem& problem) {
-    gather_team(problem.options->threads);
+    crew_.hire(problem.options->threads, rings_.layout.parts.count());
     for_each_part(state_.used, is_much(state_.touched()), [&](Index part) { state_.reset_part(part); });
     state_.reset();
     final_ = kInfinity;
@@ -148,30 +151,16 @@ class Marcher {
 
   // One round.
   void work(const CancelToken* cancel) {
-    by_load_.assign(state_.work.begin(), state_.work.end());
     constexpr std::size_t kWorthSharing = 64;
-    if (!team_ || state_.load < kWorthSharing) {
-      for (const Index part : by_load_) march_part_(rings_, state_, part);
+    if (!crew_.team() || state_.load < kWorthSharing) {
+      for (const Index part : state_.work) march_part_(rings_, state_, part);
       return;
     }
-    std::sort(by_load_.begin(), by_load_.end(), [&](Index a, Index b) { return load(a) > load(b); });
-    team_->run(std::min<std::size_t>(team_->size(), by_load_.size()),
-               [this, cancel](unsigned worker, std::size_t) { take_parts(worker, cancel); });
-  }
-  std::size_t load(Index part) const { return state_.outlook[part].load; }
-
-  // First those that the worker had before, as they lie in its processor's cache; then what is left.
-  void take_parts(unsigned worker, const CancelToken* cancel) {
-    for (const bool own : {true, false}) {
-      for (const Index part : by_load_) {
-        Hand& hand = hands_[part];
-        if (own && hand.worker.load(std::memory_order_relaxed) != worker) continue;
-        if (hand.round.exchange(state_.round, std::memory_order_relaxed) == state_.round) continue;
-        hand.worker.store(worker, std::memory_order_relaxed);
-        if (cancel && cancel->cancelled()) return;
-        march_part_(rings_, state_, part);
-      }
-    }
+    due_.clear();
+    for (const Index part : state_.work) due_.push_back({part, state_.outlook[part].load});
+    crew_.work(due_, [this, cancel](unsigned, Index part) {
+      if (!(cancel && cancel->cancelled())) march_part_(rings_, state_, part);
+    });
   }
 
   // Shares the parts out to the team. Where there is little to do, telling others of it would take longer.
@@ -181,18 +170,11 @@ class Marcher {
     const auto take = [&](unsigned, std::size_t) {
       for (std::size_t i = next++; i < parts.size(); i = next++) act(parts[i]);
     };
-    if (team_ && is_much) {
-      team_->run(std::min<std::size_t>(team_->size(), parts.size()), std::ref(take));
+    if (crew_.team() && is_much) {
+      crew_.team()->run(std::min<std::size_t>(crew_.size(), parts.size()), std::ref(take));
     } else {
       take(0, 0);
     }
-  }
-
-  void gather_team(unsigned threads) {
-    const unsigned useful = std::min(thread_count(threads), rings_.layout.parts.count());
-    if (useful == 1) return team_.reset();
-    if (!team_ || team_threads_ != useful) team_ = std::make_unique<ThreadTeam>(useful, ThreadTeam::Idle::Spins);
-    team_threads_ = useful;
   }
 
   void check_cancel(const Problem& problem) const {
@@ -341,17 +323,10 @@ class Marcher {
   mutable SeedSearch seeds_;
   MarchState<T> state_;
   MarchPart<T> march_part_ = nullptr;  // of this run
-  std::unique_ptr<ThreadTeam> team_;   // none: the caller alone
-  unsigned team_threads_ = 0;
-  std::vector<Index> by_load_;  // the parts that work in this round
-  // In whose hands a part is, and since which round.
-  struct Hand {
-    std::atomic<std::uint64_t> round{0};
-    std::atomic<unsigned> worker{0};
-  };
-  std::vector<Hand> hands_;   // [parts]
-  double base_ = 0;           // the lowest offset: values are kept relative to it
-  double final_ = kInfinity;  // where the front stopped
+  Crew crew_{kPatience};
+  std::vector<Shares::Due> due_;  // the parts that work in this round
+  double base_ = 0;               // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;      // where the front stopped
 };
 
 class FastMarching final : public Engine {

@@ -6,15 +6,16 @@
 // bucket of values at a time, and hear from each other only then. What a part does depends on its mail alone, and mail
 // is delivered in a fixed order: the numbers are the same for any number of threads.
 #include <brushfire/core/error.h>
-#include <brushfire/core/parallel.h>
+#include <brushfire/solvers/detail/crew.h>
 #include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/detail/least_budget.h>
 #include <brushfire/solvers/windows/detail/part.h>
 #include <brushfire/solvers/windows/detail/prefetch.h>
 #include <brushfire/solvers/windows/detail/results.h>
 #include <brushfire/solvers/windows/detail/run_state.h>
-#include <brushfire/solvers/windows/detail/shares.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 
 namespace brushfire::detail {
@@ -25,9 +26,13 @@ constexpr double kExactBucket = 0.2;
 // In buckets: exact runs not farther than this take windows one by one, lists of them would stay short.
 constexpr double kShort = 8;
 
+// What working on a part takes in a round, more or less.
+constexpr std::chrono::microseconds kPatience{20};
+
 class WindowEngine final : public Engine {
  public:
-  WindowEngine(const Mesh& mesh, unsigned part_bits) : run_(mesh, part_bits), benches_(1) {
+  WindowEngine(const Mesh& mesh, unsigned part_bits, Merging merging)
+      : run_(mesh, part_bits), merging_(merging), benches_(1) {
     const Index n = run_.structure.vertex_count();
     run_.values.resize(n);
     for (const WindowStructure::Copy& c : run_.structure.copies) run_.values[c.vertex].next_copy = c.next;
@@ -46,7 +51,7 @@ class WindowEngine final : public Engine {
     for (const LocatedSource& s : problem.sources) start(s);
     deliver(results);
     drain(results);
-    results.write(scratch_, team_.get());
+    results.write(scratch_, crew_.team());
   }
 
  private:
@@ -54,8 +59,8 @@ class WindowEngine final : public Engine {
 
   void forget() {
     const auto forget_part = [&](unsigned, std::size_t p) { parts_[p].forget(); };
-    if (team_) {
-      team_->run(parts_.size(), forget_part);
+    if (crew_.team()) {
+      crew_.team()->run(parts_.size(), forget_part);
     } else {
       for (std::size_t p = 0; p < parts_.size(); ++p) forget_part(0, p);
     }
@@ -78,23 +83,20 @@ class WindowEngine final : public Engine {
     run_.several = problem.sources.size() > 1;
     if (run_.several) run_.origins.resize(run_.values.size());
     if (run_.keeps_rays()) run_.rays.resize(run_.values.size());
-    run_.budget = budget_of(*problem.options);
+    run_.budget = budget_of(*problem.options, merging_ == Merging::Always ? 0 : least_share(outlook()));
     run_.in_lists = !run_.merges() && run_.radius > kShort * run_.structure.bucket_width;
     run_.bucket_width = run_.in_lists ? kExactBucket * run_.structure.bucket_width : run_.structure.bucket_width;
     run_.targets.place(problem.targets, run_.structure);
     next_target_check_ = problem.targets.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;
     turn_ = 0;
     updates_ = 0;
-    hire(problem.options->threads);
+    crew_.hire(problem.options->threads, parts_.size());
+    benches_.resize(std::max<std::size_t>(benches_.size(), crew_.size()));
   }
 
-  // Threads for as many parts as there are.
-  void hire(unsigned requested) {
-    const unsigned threads = std::min(thread_count(requested), run_.structure.part_count());
-    shares_.reset(parts_.size(), threads);
-    if (threads == (team_ ? team_->size() : 1)) return;
-    team_ = threads > 1 ? std::make_unique<ThreadTeam>(threads, ThreadTeam::Idle::Spins) : nullptr;
-    benches_.resize(std::max<std::size_t>(benches_.size(), threads));
+  MergeOutlook outlook() const {
+    return {static_cast<double>(run_.structure.mesh.vertex_count()), static_cast<double>(run_.problem->sources.size()),
+            run_.structure.typical_defect};
   }
 
   // ---- sources
@@ -118,14 +120,7 @@ class WindowEngine final : public Engine {
 
   void drain(Results& results) {
     while (next_round()) {
-      if (team_) {
-        shares_.deal(due_);
-        team_->run(team_->size(), [&](unsigned worker, std::size_t) {
-          shares_.take(worker, [&](Index p) { parts_[p].work(turn_, benches_[worker]); });
-        });
-      } else {
-        for (const Shares::Due& d : due_) parts_[d.part].work(turn_, benches_.front());
-      }
+      crew_.work(due_, [this](unsigned worker, Index p) { parts_[p].work(turn_, benches_[worker]); });
       deliver(results);
       look_up();
       retire();
@@ -246,13 +241,13 @@ class WindowEngine final : public Engine {
   }
 
   RunState run_;
+  Merging merging_;
   std::vector<Part> parts_;
   std::vector<Index> active_;     // parts in which something waits
   std::vector<Shares::Due> due_;  // those with something to do in this round
   std::vector<std::unique_ptr<Traffic>> spare_;
-  std::vector<Workbench> benches_;    // [threads]
-  std::unique_ptr<ThreadTeam> team_;  // where there are several threads
-  Shares shares_;
+  Crew crew_{kPatience};
+  std::vector<Workbench> benches_;  // [threads]
   std::vector<Index> scratch_;
   DistanceField* field_ = nullptr;
   std::int64_t turn_ = 0;  // number of the bucket
@@ -262,9 +257,9 @@ class WindowEngine final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits) {
+std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits, Merging merging) {
   if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
-  return std::make_unique<WindowEngine>(mesh, part_bits);
+  return std::make_unique<WindowEngine>(mesh, part_bits, merging);
 }
 
 }  // namespace brushfire::detail

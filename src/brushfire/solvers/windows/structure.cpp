@@ -19,9 +19,17 @@ Beyond beyond(const Mesh& mesh, std::span<const Index> opposite, Index h) {
   return opposite[other] == h && mesh.from(other) == mesh.to(h) ? Beyond::Face : Beyond::Several;
 }
 
+// What is typical of a mesh is found in as many places, more or less.
+constexpr std::size_t kSample = 4096;
+
+double median(std::span<double> numbers) {
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return *middle;
+}
+
 // Half the median edge (of a sample): the mean says nothing where few long edges stand beside many short ones.
 double typical_bucket(std::span<const WindowFace> faces) {
-  constexpr std::size_t kSample = 4096;
   std::vector<double> sample;
   const std::size_t stride = std::max<std::size_t>(1, 3 * faces.size() / kSample);
   for (std::size_t h = 0; h < 3 * faces.size(); h += stride) {
@@ -29,9 +37,20 @@ double typical_bucket(std::span<const WindowFace> faces) {
     if (length > 0) sample.push_back(length);
   }
   if (sample.empty()) return 1;
-  const auto median = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
-  std::nth_element(sample.begin(), median, sample.end());
-  return 0.5 * *median;
+  return 0.5 * median(sample);
+}
+
+// By how much the angles around a vertex differ from 2 pi, in the median (of a sample): large ones at a few corners and
+// creases say nothing about the rest. `has_circle(v)`: whether faces go all the way
+// round v.
+template <class HasCircle>
+double typical_defect_of(std::span<const double> total_angle, std::span<const Bend> bend, const HasCircle& has_circle) {
+  std::vector<double> sample;
+  const std::size_t stride = std::max<std::size_t>(1, total_angle.size() / kSample);
+  for (std::size_t v = 0; v < total_angle.size(); v += stride) {
+    if (bend[v] != Bend::Full && has_circle(v)) sample.push_back(std::abs(2 * kPi - total_angle[v]));
+  }
+  return sample.empty() ? 0 : median(sample);
 }
 
 // Appends the numbers of the vertices of faces, ascending, each once. `marks`: a bit for every number, all 0.
@@ -146,6 +165,8 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
     if (link == Link::Arc && total_angle[v] > kPi + kFlat) bend[v] = Bend::Boundary;
   }
   bucket_width = typical_bucket(faces);
+  const auto has_circle = [&](std::size_t v) { return links[outer_vertex(static_cast<Index>(v))] == Link::Circle; };
+  typical_defect = typical_defect_of(total_angle, bend, has_circle);
   cut_into_parts();
 }
 

@@ -4,6 +4,7 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/detail/engine.h>
 
+#include <cstdint>
 #include <memory>
 
 namespace brushfire::detail {
@@ -12,7 +13,12 @@ namespace brushfire::detail {
 // to be under way at a time, large enough for little to cross from one to the next.
 inline constexpr unsigned kPartBits = 15;
 
+// Whether a run with a tolerance merges windows only where that is quicker than an exact run (see least_budget.h), or
+// always: then the proof of the tolerance can be put to the test on small meshes, too.
+enum class Merging : std::uint8_t { WherePays, Always };
+
 // Throws Error(TooLarge) for meshes of 2^31 vertices.
-std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits = kPartBits);
+std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits = kPartBits,
+                                     Merging merging = Merging::WherePays);
 
 }  // namespace brushfire::detail

@@ -18,16 +18,12 @@ inline constexpr double kOffsetRounding = 8 * std::numeric_limits<double>::epsil
 // The relative error of exact runs, measured to be 1e-13 at most.
 inline constexpr double kExactBound = 1e-12;
 
-// A budget below this costs more windows than it saves time: whole lists of exact runs are quicker (measured on scans
-// of 6k to 0.8M vertices, docs/decisions/tolerance-speed.md).
-inline constexpr double kLeastShare = 8e-5;
-
-// What merges may spend: nothing in exact runs.
-inline MergeBudget budget_of(const DistanceOptions& options) {
+// What merges may spend: nothing in exact runs, nor where it would be less than `least` of the length.
+inline MergeBudget budget_of(const DistanceOptions& options, double least) {
   if (options.method == Method::Exact) return {};
   const double promise = options.tolerance - 1.01 * kRounding;
   const double share = options.bound == Bound::Estimate ? 2 * promise : promise;
-  return {share < kLeastShare ? 0 : share};
+  return {share < least ? 0 : share};
 }
 
 // A value, how far it may be off, and that as a share of the path's length.

@@ -60,7 +60,8 @@ struct WindowStructure {
   std::vector<Index> first_vertex;  // [parts + 1]
   std::vector<Copy> copies;         // ascending
   unsigned part_bits = 0;
-  double bucket_width = 1;  // half a typical edge
+  double bucket_width = 1;    // half a typical edge
+  double typical_defect = 0;  // the median of |2 pi - angles around a vertex|, of inner vertices
 
  private:
   void cut_into_parts();

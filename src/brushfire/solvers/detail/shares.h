@@ -4,6 +4,7 @@
 #include <brushfire/core/types.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <vector>
 
@@ -18,6 +19,10 @@ class Shares {
     Index part;
     std::size_t load;
   };
+
+  // Who is done early waits this long for the owner of the last part that is left to come, before taking it away: about
+  // what working on a part takes.
+  explicit Shares(std::chrono::microseconds patience) : patience_(patience) {}
 
   // Before the first round of a run.
   void reset(std::size_t parts, unsigned threads);
@@ -45,6 +50,7 @@ class Shares {
   // kNoIndex: all are taken.
   Index left_over() const;
 
+  std::chrono::microseconds patience_;
   const std::vector<Due>* due_ = nullptr;
   std::vector<unsigned> owner_;           // [parts]
   std::vector<std::size_t> load_;         // [threads]

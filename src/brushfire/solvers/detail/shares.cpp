@@ -1,8 +1,7 @@
 // Dealing out the parts of a round.
-#include <brushfire/solvers/windows/detail/shares.h>
+#include <brushfire/solvers/detail/shares.h>
 
 #include <algorithm>
-#include <chrono>
 
 namespace brushfire::detail {
 
@@ -35,8 +34,7 @@ void Shares::deal(const std::vector<Due>& due) {
 }
 
 Index Shares::left_over() const {
-  constexpr std::chrono::microseconds kPatience{20};  // what a part takes, more or less
-  const auto begin = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point begin{};  // of waiting
   while (true) {
     std::size_t count = 0;
     Index last = kNoIndex;
@@ -45,7 +43,10 @@ Index Shares::left_over() const {
       ++count;
       last = d.part;
     }
-    if (count != 1 || std::chrono::steady_clock::now() - begin > kPatience) return last;
+    if (count != 1 || patience_.count() == 0) return last;
+    const auto now = std::chrono::steady_clock::now();
+    if (begin == std::chrono::steady_clock::time_point{}) begin = now;
+    if (now - begin > patience_) return last;
   }
 }
 
