@@ -2,8 +2,8 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
-#include <brushfire/solvers/windows/detail/engine.h>
 #include <brushfire/solvers/detail/shares.h>
+#include <brushfire/solvers/windows/detail/engine.h>
 #include <brushfire/solvers/windows/detail/structure.h>
 
 #include <gtest/gtest.h>

@@ -76,10 +76,7 @@ template <class T>
 class Marcher {
  public:
   Marcher(const LocalMesh& local, Index part_size)
-      : local_(local),
-        mesh_(local.mesh()),
-        rings_(build_rings<T>(mesh_, part_size)),
-        state_(rings_.layout.parts) {
+      : local_(local), mesh_(local.mesh()), rings_(build_rings<T>(mesh_, part_size)), state_(rings_.layout.parts) {
     // Half a mean edge measured best; the front is that wide, and order inside it does not matter.
     state_.buckets_per_unit = static_cast<T>(2 / rings_.layout.mean_edge);
   }
