@@ -12,6 +12,8 @@ namespace {
 
 // How many events ahead each step of prefetching is.
 constexpr std::size_t kFacesAhead = 6, kAroundAhead = 3, kWindowsAhead = 1;
+// Of vertices that send light: what they know of it, the face that it came through, and the faces around.
+constexpr std::size_t kLightAhead = 8, kArrivalAhead = 6, kFanAhead = 4, kFanSteps = 4;
 
 }  // namespace
 
@@ -91,6 +93,39 @@ void Part::prefetch_first() const {
   for (std::size_t i = 0; i < kWindowsAhead; ++i) prefetch_windows(queue.peek_list(i));
 }
 
+// A shadow is found by going from face to face round the vertex, on both sides of the face that the light came through.
+inline void Part::prefetch_fan(Index v, std::size_t steps) const {
+  const Index h = run_->light[v].halfedge;
+  if (h == kNoIndex) return;
+  const Index start = h / 3, corner = previous3(h % 3);
+  for (Index exit : {3 * start + corner, 3 * start + previous3(corner)}) {
+    FanFace at;
+    for (std::size_t i = 0; i < steps; ++i) {
+      if (!next_in_fan(run_->structure, v, start, exit, at)) break;
+      exit = at.exit();
+      // Light leaves the faces opposite of where it came from.
+      if (i > 0 && i + 1 == steps) prefetch(&face(face(exit).opposite[next3(at.corner)]));
+    }
+    prefetch(&face(face(exit).opposite[exit % 3]));
+  }
+}
+
+inline void Part::prefetch_next_vertices() const {
+  const EventQueue& queue = traffic_->queue;
+  if (const Index v = queue.peek_vertex(kLightAhead); v != kNoIndex) {
+    prefetch(&run_->light[v]);
+    prefetch(&run_->values[v]);
+  }
+  if (const Index v = queue.peek_vertex(kArrivalAhead); v != kNoIndex) {
+    const Index h = run_->light[v].halfedge;
+    if (h != kNoIndex) prefetch(&face(h));
+  }
+  for (std::size_t steps = 0; steps < kFanSteps; ++steps) {
+    const Index v = queue.peek_vertex(kFanAhead - steps);
+    if (v != kNoIndex) prefetch_fan(v, steps);
+  }
+}
+
 void Part::work(std::int64_t last, Workbench& bench) {
   constexpr std::uint64_t kPoll = 1024;
   bench_ = &bench;
@@ -99,15 +134,16 @@ void Part::work(std::int64_t last, Workbench& bench) {
   prefetch_first();
   while (traffic_->queue.pop(last, event)) {
     if (++updates_ % kPoll == 0) poll();
-    prefetch_next();
     if (event.is_list) {
+      prefetch_next();
       if (goes_in_lists(event.index)) {
         spread_list(event.index);
       } else {
         spread(event.index);
       }
-    } else if (run_->light[event.index].waiting) {
-      shine(event.index);
+    } else {
+      if (!run_->in_lists) prefetch_next_vertices();  // exact runs gain nothing by it
+      if (run_->light[event.index].waiting) shine(event.index);
     }
   }
   send_news();

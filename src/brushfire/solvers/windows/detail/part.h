@@ -141,6 +141,8 @@ class alignas(kApart) Part {
   [[gnu::always_inline]] void prefetch_windows(Index h) const;
   [[gnu::always_inline]] void prefetch_next() const;
   void prefetch_first() const;
+  [[gnu::always_inline]] void prefetch_next_vertices() const;
+  [[gnu::always_inline]] void prefetch_fan(Index v, std::size_t steps) const;
   void poll() const;
   void send_news();
   void send_label(Index part, Index root);

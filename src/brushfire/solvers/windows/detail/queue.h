@@ -95,6 +95,11 @@ class EventQueue {
     const Bucket& b = buckets_[current_ % kBuckets];
     return list_position_ + ahead < b.lists.size() ? b.lists[list_position_ + ahead] : kNoIndex;
   }
+  // Likewise of vertices.
+  Index peek_vertex(std::size_t ahead) const {
+    const Bucket& b = buckets_[current_ % kBuckets];
+    return vertex_position_ + ahead < b.vertices.size() ? b.vertices[vertex_position_ + ahead] : kNoIndex;
+  }
 
  private:
   static constexpr std::int64_t kBuckets = 1 << 10;
