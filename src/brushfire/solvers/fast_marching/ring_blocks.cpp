@@ -1,5 +1,5 @@
-// Builds the blocks: unfolds obtuse corners, then writes every vertex's sides and triangles once, in the internal
-// order.
+// Builds the blocks: writes the sides and triangles around one vertex after the other, unfolds the obtuse corners that
+// are found on the way, and adds what comes of that to the vertices around.
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
 
 #include <brushfire/core/planar.h>
