@@ -23,7 +23,7 @@ ALL = {"methods": f"{MARCHING},{WINDOWS}"}
 SMALL = ALL | {"peers": f"{FAST},gc-heat,pygeodesic,gdist,igl-exact", "rounds": 5}
 SCAN = ALL | {"peers": f"{FAST},gc-heat,pygeodesic", "rounds": 5}
 STRETCHED = ALL | {"peers": f"{FAST},pygeodesic", "rounds": 3, "patience": 10}
-LARGE = ALL | {"peers": FAST, "rounds": 3, "patience": 300, "once": "windows:1e-5,exact,vtp,novotni-klein-2002"}
+LARGE = ALL | {"peers": FAST, "rounds": 5, "patience": 300, "once": "windows:1e-5,exact,vtp,novotni-klein-2002"}
 
 SUITE = {
     "fandisk": SMALL,
