@@ -96,7 +96,9 @@ BRUSHFIRE_AVX2_INLINE Double4 fine_squares(Double4 square) {
   return (all4(kLeastSquare) <= square) & (square <= all4(kMostSquare));
 }
 
-// The same operations in the same order.
+// The same operations in the same order. Written twice, as no template can serve both: compilers refuse to inline what
+// is for one instruction set (Double4) into what is for another or for any. EveryProcessorBuildsTheSameRings compares
+// them.
 template <class T>
 BRUSHFIRE_AVX2 CornerSets split_corners4(std::span<const Vec3> positions, double scale, const FacePair* pair,
                                          SplitCorners<T>& split) {
