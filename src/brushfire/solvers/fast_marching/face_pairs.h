@@ -18,10 +18,10 @@ inline Index third(const Face& t, Index a, Index b) { return t[0] + t[1] + t[2] 
 // Of the corner of halfedge h in a face with three vertices. Where there is not exactly one face behind, or it is the
 // same one turned over, an end takes the place of what is behind: nothing is split by that.
 inline FacePair face_pair(const Mesh& mesh, const Unfolder& unfolder, Index h) {
-  const Index edge = Mesh::next(h), other = unfolder.neighbour(edge);
-  const Index corner = mesh.from(h), end0 = mesh.from(edge), end1 = mesh.to(edge);
-  if (other == edge) return {{end0, end1}, corner, end0};
-  const Index behind = third(mesh.faces()[other / 3], end0, end1);
+  const Index edge = Mesh::next(h), corner = mesh.from(h), end0 = mesh.from(edge), end1 = mesh.to(edge);
+  const Index other = unfolder.face_over(h / 3, end0, end1);
+  if (other == kNoIndex) return {{end0, end1}, corner, end0};
+  const Index behind = third(mesh.faces()[other], end0, end1);
   return {{end0, end1}, corner, behind != corner ? behind : end0};
 }
 

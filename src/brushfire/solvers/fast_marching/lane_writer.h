@@ -33,7 +33,7 @@ template <class T>
 class LaneWriter {
  public:
   explicit LaneWriter(Index vertex_count) : none_(vertex_count) {
-    grow(std::size_t{vertex_count} + vertex_count / 2 + 1);  // what is not written costs nothing
+    grow(room_for(vertex_count));
     first_pages_ = {blocks_.data(), vertex_count * sizeof(RingBlock<T>)};
     heads_.reserve(std::size_t{vertex_count} + vertex_count / 4 + 1);  // ghosts will follow
     heads_.resize(vertex_count);
@@ -83,8 +83,8 @@ class LaneWriter {
   void add_unfolded(Index v, const Corner& c) {
     Lane at{v, free_lane_of(v)};
     Index second = second_side(at, c);
-    for (Index i = heads_[v].more; i != 0 && (second == kLanes || at.lane == kLanes); i = next_[i - none_]) {
-      at = {i, free_lane_of(i)};
+    if ((second == kLanes || at.lane == kLanes) && heads_[v].more != 0) {
+      at = free_lane(v);  // those in between are full, or nearly
       second = second_side(at, c);
     }
     if (at.lane + (second == kLanes ? 2 : 1) > kLanes) {
@@ -148,7 +148,7 @@ class LaneWriter {
 
   Lane next_block(Index v, Lane after) {
     const Index block = none_ + static_cast<Index>(next_.size());
-    if (block == blocks_.size()) grow(blocks_.size() + blocks_.size() / 4);
+    if (block == blocks_.size()) grow(blocks_.size() + blocks_.size() / 2);
     next_pages_.reach(&blocks_[block]);
     next_.push_back(0);
     blank(block);
@@ -197,6 +197,15 @@ class LaneWriter {
       links.links[second] = static_cast<std::uint8_t>(links.second(second) | at.lane << 4);
     }
     ++at.lane;
+  }
+
+  // What is not written costs nothing. glibc keeps freed memory up to twice the largest array that it has seen freed,
+  // of those up to 32 megabytes; with two blocks a vertex that is more than a solver takes in all, which then need not
+  // be asked for anew, page by page, by the next one.
+  static std::size_t room_for(std::size_t vertex_count) {
+    constexpr std::size_t kKept = std::size_t{32} << 20;
+    const std::size_t two = 2 * vertex_count + 1;
+    return two * sizeof(RingBlock<T>) < kKept ? two : vertex_count + vertex_count / 2 + 1;
   }
 
   void grow(std::size_t size) {

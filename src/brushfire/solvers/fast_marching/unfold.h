@@ -38,11 +38,19 @@ class Unfolder {
   Unfolding unfold(Index h, std::vector<UnfoldedTriangle>& triangles) const;
 
   bool is_plain() const { return plain_; }  // positions, and no slits
-  // As those of the mesh, quicker.
-  Index neighbour(Index h) const;
-  Mesh::FaceGeometry geometry(Index f) const;
+  // The other face at the edge of face f between v and w; kNoIndex where there is not exactly one.
+  Index face_over(Index f, Index v, Index w) const;
+  Mesh::FaceGeometry geometry(Index f) const;  // as the mesh's, quicker
 
  private:
+  // The face over an edge that runs from the left to the right of who looks at it.
+  struct Behind {
+    Index face = kNoIndex, vertex = kNoIndex;  // kNoIndex: none; the vertex that is not on the edge
+    double to_left = 0, to_right = 0;          // from that vertex to the edge's ends
+    double double_area = 0;
+  };
+  Behind look_over(Index f, Index left, Index right) const;
+
   const Mesh& mesh_;
   // What it looks up itself, where the mesh has positions and no slits.
   bool plain_;
