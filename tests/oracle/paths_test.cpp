@@ -31,6 +31,14 @@ TEST(AwkwardPaths, InSoupsAreGoodAndAsLongAsTheFieldSays) {
   }
 }
 
+// Light came round to two vertices at one place, to each by way of the other, while the source lay in a face of theirs
+// (seeds of 48,000 paths of which four were lost).
+TEST(AwkwardPaths, FromVerticesAtOnePlaceGoStraightToASourceInAFaceOfTheirs) {
+  for (const std::uint32_t seed : {124u, 281u, 346u, 381u}) {
+    test::expect_good_paths(random_soup(seed, 12 + seed % 20, 30 + seed % 40), 33, seed, "soup");
+  }
+}
+
 TEST(AwkwardPaths, ThroughRowsWithoutAltitudeAreGoodAndAsLongAsTheFieldSays) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed)
     test::expect_good_paths(needle_grid(seed, 8, 0), 40, seed, "flat rows");

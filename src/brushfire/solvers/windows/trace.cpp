@@ -176,6 +176,7 @@ class Tracer {
       return true;
     };
     if (ray_.root < n) {
+      if (value_of(ray_.root) >= below_) return false;
       for (Index i = 0; i < 3; ++i) {
         std::array<double, 3> weights{0, 0, 0};
         weights[i] = 1;
@@ -213,13 +214,25 @@ class Tracer {
   std::vector<Open> open_;                          // sheets of non-manifold edges that are still to be tried
 };
 
-// Straight to a corner of the face or to a source in it, if the value says that this may be; else no points.
-WindowField::Leg leg_within_face(const WindowFieldData& data, const FaceWeights& at, double value) {
+// A point in every face that holds it.
+std::vector<FaceWeights> in_all_faces(const Mesh& mesh, const FaceWeights& at) {
+  const PointLocation here = locate(mesh, {at.face, at.weights});
+  if (here.on != PointLocation::On::Vertex) return faces_around(mesh, here);
+  std::vector<FaceWeights> faces;
+  for (const Index h : mesh.corners(here.vertex)) {
+    FaceWeights& f = faces.emplace_back(FaceWeights{Mesh::face_of(h), {0, 0, 0}});
+    f.weights[h % 3] = 1;
+  }
+  return faces;
+}
+
+// Straight to a corner of the face or to a source in it, if the value says that this may be; else no points. `best` is
+// the best so far and `best_value` what it comes to.
+void offer_leg_within_face(const WindowFieldData& data, const FaceWeights& at, double value, double& best_value,
+                           WindowField::Leg& best) {
   PointLocation here;
   here.face = at.face;
   here.weights = at.weights;
-  WindowField::Leg best;
-  double best_value = value + kAtRoot * value;
   const auto offer = [&](const std::array<double, 3>& weights, double before, double length, Index vertex,
                          Index source) {
     if (!(before + length < best_value)) return;
@@ -239,6 +252,14 @@ WindowField::Leg leg_within_face(const WindowFieldData& data, const FaceWeights&
     const double length = distance_within(data.mesh, at.face, here, data.sources[s].at);
     offer(*weights, data.sources[s].offset + data.shift, length, kNoIndex, s);
   }
+}
+
+// The same in all faces that hold the point: where edges without length bring vertices to one place, light may have
+// come round to it through others than those that lie on its straight way.
+WindowField::Leg leg_within_a_face(const WindowFieldData& data, const FaceWeights& at, double value) {
+  WindowField::Leg best;
+  double best_value = value + kAtRoot * value;
+  for (const FaceWeights& f : in_all_faces(data.mesh, at)) offer_leg_within_face(data, f, value, best_value, best);
   return best;
 }
 
@@ -247,7 +268,7 @@ WindowField::Leg leg_within_face(const WindowFieldData& data, const FaceWeights&
 WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, double value) {
   WindowField::Leg leg;
   if (Tracer(data, ray, value, value).run(at, leg)) return leg;
-  leg = leg_within_face(data, at, value);
+  leg = leg_within_a_face(data, at, value);
   // Over an edge without length there may be another vertex in the way.
   if (leg.points.empty() && !Tracer(data, ray, value, kInfinity).run(at, leg)) leg = {};
   return leg;
