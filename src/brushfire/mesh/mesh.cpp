@@ -438,9 +438,7 @@ Mesh::FaceGeometry Mesh::face_geometry(Index f) const {
     const Geometry& g = d.get_geometry();
     return {{g.lengths[3 * f], g.lengths[3 * f + 1], g.lengths[3 * f + 2]}, g.double_areas[f]};
   }
-  const std::array<Vec3, 3> edge = edges_of(d.arrays->positions, d.arrays->faces[f], 1 / d.get_unit());
-  const std::array<double, 3> lengths = lengths_of(edge);
-  return {lengths, double_area_of(edge, lengths)};
+  return detail::geometry_of(d.arrays->positions, d.arrays->faces[f], 1 / d.get_unit());
 }
 
 Index Mesh::neighbour(Index h) const {

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/inline.h>
 #include <brushfire/core/types.h>
+#include <brushfire/mesh/mesh.h>
 
 #include <array>
 #include <cmath>
@@ -40,6 +41,12 @@ BRUSHFIRE_INLINE std::array<Vec3, 3> edges_of(std::span<const Vec3> positions, c
 
 BRUSHFIRE_INLINE std::array<double, 3> lengths_of(const std::array<Vec3, 3>& edge) {
   return {length_of(edge[0]), length_of(edge[1]), length_of(edge[2])};
+}
+
+BRUSHFIRE_INLINE Mesh::FaceGeometry geometry_of(std::span<const Vec3> positions, const Face& t, double scale) {
+  const std::array<Vec3, 3> edge = edges_of(positions, t, scale);
+  const std::array<double, 3> lengths = lengths_of(edge);
+  return {lengths, double_area_of(edge, lengths)};
 }
 
 }  // namespace brushfire::detail

@@ -34,10 +34,7 @@ Unfolder::Unfolder(const Mesh& mesh)
       scale_(1 / mesh.unit()) {}
 
 Mesh::FaceGeometry Unfolder::geometry(Index f) const {
-  if (!plain_) return mesh_.face_geometry(f);
-  const std::array<Vec3, 3> edge = edges_of(positions_, faces_[f], scale_);
-  const std::array<double, 3> lengths = lengths_of(edge);
-  return {lengths, double_area_of(edge, lengths)};
+  return plain_ ? geometry_of(positions_, faces_[f], scale_) : mesh_.face_geometry(f);
 }
 
 // Among the faces at one of the edge's ends.
@@ -65,10 +62,9 @@ Unfolder::Behind Unfolder::look_over(Index f, Index left, Index right) const {
   const Face& t = faces_[behind.face];
   behind.vertex = t[0] + t[1] + t[2] - left - right;
   if (plain_) {
-    const std::array<Vec3, 3> edge = edges_of(positions_, {left, right, behind.vertex}, scale_);
-    const std::array<double, 3> length = lengths_of(edge);
-    behind.to_right = length[1], behind.to_left = length[2];
-    behind.double_area = double_area_of(edge, length);
+    const Mesh::FaceGeometry face = geometry_of(positions_, {left, right, behind.vertex}, scale_);
+    behind.to_right = face.lengths[1], behind.to_left = face.lengths[2];
+    behind.double_area = face.double_area;
     return behind;
   }
   const Mesh::FaceGeometry face = mesh_.face_geometry(behind.face);

@@ -40,17 +40,54 @@ double typical_bucket(std::span<const WindowFace> faces) {
   return 0.5 * median(sample);
 }
 
+// The sum of angles in (0, pi), as the product of as many turns of the plane: an arc tangent for each would take longer
+// than all the rest.
+struct AngleSum {
+  double x = 1, y = 0;  // the sum's direction
+  Index turns = 0;      // that are full
+
+  // An angle of these cosine and sine.
+  void add(double cosine, double sine) {
+    const double turned_x = x * cosine - y * sine, turned_y = x * sine + y * cosine;
+    turns += y < 0 && turned_y >= 0 ? 1 : 0;
+    x = turned_x, y = turned_y;
+  }
+  double value() const { return 2 * kPi * (turns + (y < 0 ? 1 : 0)) + std::atan2(y, x); }
+  bool exceeds_pi() const { return (turns > 0 || y < 0) && value() > kPi + kFlat; }
+  bool exceeds_two_pi() const { return turns > 0 && value() > 2 * kPi + kFlat; }
+};
+
+// What the corners at a vertex are.
+struct Around {
+  AngleSum angles;
+  double shortest = kInfinity, longest = 0;  // of their edges
+
+  // Corner k of a face that has an area.
+  void add(const WindowFace& f, Index k) {
+    const double a = f.length[k], b = f.length[previous3(k)], c = f.length[next3(k)], inverse = 1 / (a * b);
+    angles.add(0.5 * (a * a + (b - c) * (b + c)) * inverse, f.double_area * inverse);
+    shortest = std::min({shortest, a, b});
+    longest = std::max({longest, a, b});
+  }
+};
+
 // By how much the angles around a vertex differ from 2 pi, in the median (of a sample): large ones at a few corners and
-// creases say nothing about the rest. `has_circle(v)`: whether faces go all the way
-// round v.
-template <class HasCircle>
-double typical_defect_of(std::span<const double> total_angle, std::span<const Bend> bend, const HasCircle& has_circle) {
+// creases say nothing about the rest.
+double typical_defect_of(std::span<const Around> around, std::span<const Bend> bend, std::span<const Link> links) {
   std::vector<double> sample;
-  const std::size_t stride = std::max<std::size_t>(1, total_angle.size() / kSample);
-  for (std::size_t v = 0; v < total_angle.size(); v += stride) {
-    if (bend[v] != Bend::Full && has_circle(v)) sample.push_back(std::abs(2 * kPi - total_angle[v]));
+  const std::size_t stride = std::max<std::size_t>(1, around.size() / kSample);
+  for (std::size_t v = 0; v < around.size(); v += stride) {
+    if (bend[v] == Bend::Full || links[v] != Link::Circle) continue;
+    sample.push_back(std::abs(2 * kPi - around[v].angles.value()));
   }
   return sample.empty() ? 0 : median(sample);
+}
+
+// The mesh in an order.
+Mesh renumbered(const Mesh& mesh, const LocalityOrder& order) {
+  UninitializedArray<Index> face_rank(mesh.face_count());
+  for (Index f = 0; f < mesh.face_count(); ++f) face_rank[order.faces[f]] = f;
+  return mesh.renumbered(order.vertices, order.vertex_rank, face_rank);
 }
 
 // Appends the numbers of the vertices of faces, ascending, each once. `marks`: a bit for every number, all 0.
@@ -119,54 +156,47 @@ Index WindowStructure::copy_in(Index part, Index v) const {
 }
 
 WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(locality_order(m)), part_bits(bits) {
-  const Mesh connected = mesh.for_a_while();
-  const auto opposite = connected.opposite();
-  const auto links = connected.links();
-  const Index n = mesh.vertex_count();
-  UninitializedArray<Index> face_rank(mesh.face_count());  // mesh's number to inner
-  for (Index f = 0; f < mesh.face_count(); ++f) face_rank[order.faces[f]] = f;
-  faces.resize(mesh.face_count());
-  bend.assign(n, Bend::None);
-  std::vector<double> total_angle(n, 0), shortest(n, kInfinity), longest(n, 0);
-  for (Index inner = 0; inner < mesh.face_count(); ++inner) {
-    const Index f = order.faces[inner];
-    WindowFace& face = faces[inner];
-    const Mesh::FaceGeometry geometry = mesh.face_geometry(f);
+  // Read here only, and much: what is near on the surface should be near in memory.
+  const Mesh local = renumbered(mesh, order);
+  const auto opposite = local.opposite();
+  const auto links = local.links();
+  faces.resize(local.face_count());
+  bend.assign(local.vertex_count(), Bend::None);
+  std::vector<Around> around(local.vertex_count());
+  for (Index f = 0; f < local.face_count(); ++f) {
+    WindowFace& face = faces[f];
+    const Mesh::FaceGeometry geometry = local.face_geometry(f);
     face.double_area = geometry.double_area;
     face.waiting = kNoIndex;
     face.has_target = false;
-    face.usable = mesh.is_face_usable(f);
+    face.usable = local.is_face_usable(f);
     const double base = std::max({geometry.lengths[0], geometry.lengths[1], geometry.lengths[2]});
     face.thin = face.double_area <= kThin * base * base;
     for (Index k = 0; k < 3; ++k) {
-      const Index h = 3 * f + k;
       face.length[k] = geometry.lengths[k];
-      face.vertex[k] = inner_vertex(mesh.faces()[f][k]);
-      face.opposite[k] = 3 * face_rank[opposite[h] / 3] + opposite[h] % 3;
-      face.beyond[k] = face.usable ? beyond(mesh, opposite, h) : Beyond::Nothing;
+      face.vertex[k] = local.faces()[f][k];
+      face.opposite[k] = opposite[3 * f + k];
+      face.beyond[k] = face.usable ? beyond(local, opposite, 3 * f + k) : Beyond::Nothing;
     }
+    // No area, no angle: light goes everywhere from there.
+    const bool has_angles = face.usable && face.double_area > kNoArea * base * base;
     for (Index k = 0; k < 3; ++k) {
-      const Index v = face.vertex[k];
-      // No area, no angle: light goes everywhere from there.
-      if (!face.usable || face.double_area <= kNoArea * base * base) {
-        bend[v] = Bend::Full;
-        continue;
+      if (has_angles) {
+        around[face.vertex[k]].add(face, k);
+      } else {
+        bend[face.vertex[k]] = Bend::Full;
       }
-      total_angle[v] += angle_at(face, k);
-      shortest[v] = std::min({shortest[v], face.length[k], face.length[previous3(k)]});
-      longest[v] = std::max({longest[v], face.length[k], face.length[previous3(k)]});
     }
   }
-  for (Index v = 0; v < n; ++v) {
-    const Link link = links[outer_vertex(v)];
-    if (link == Link::Other || longest[v] > kUnevenEdges * shortest[v]) bend[v] = Bend::Full;
+  for (Index v = 0; v < local.vertex_count(); ++v) {
+    const auto& [angles, shortest, longest] = around[v];
+    if (links[v] == Link::Other || longest > kUnevenEdges * shortest) bend[v] = Bend::Full;
     if (bend[v] == Bend::Full) continue;
-    if (link == Link::Circle && total_angle[v] > 2 * kPi + kFlat) bend[v] = Bend::Saddle;
-    if (link == Link::Arc && total_angle[v] > kPi + kFlat) bend[v] = Bend::Boundary;
+    if (links[v] == Link::Circle && angles.exceeds_two_pi()) bend[v] = Bend::Saddle;
+    if (links[v] == Link::Arc && angles.exceeds_pi()) bend[v] = Bend::Boundary;
   }
   bucket_width = typical_bucket(faces);
-  const auto has_circle = [&](std::size_t v) { return links[outer_vertex(static_cast<Index>(v))] == Link::Circle; };
-  typical_defect = typical_defect_of(total_angle, bend, has_circle);
+  typical_defect = typical_defect_of(around, bend, links);
   cut_into_parts();
 }
 
