@@ -1,22 +1,84 @@
 // Face records, angle sums, which vertices bend paths, and the cutting into parts.
 #include <brushfire/solvers/windows/detail/structure.h>
 
+#include <brushfire/core/populate.h>
 #include <brushfire/core/uninitialized.h>
+#include <brushfire/mesh/detail/connectivity.h>
+#include <brushfire/mesh/detail/face_geometry.h>
+#include <brushfire/solvers/windows/detail/prefetch.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <utility>
 
 namespace brushfire::detail {
 namespace {
 
-Beyond beyond(const Mesh& mesh, std::span<const Index> opposite, Index h) {
+// Which halfedges are over the same edge, and what the faces around a vertex form: by inner numbers.
+struct Connectivity {
+  UninitializedArray<Index> opposite;  // [halfedge_count] as Mesh::opposite()
+  std::vector<Link> links;             // [vertex_count]
+};
+
+// Found among renumbered faces: what is near on the surface should be near in memory.
+Connectivity connectivity_of(const Mesh& mesh, const LocalityOrder& order) {
+  if (mesh.has_slits()) {
+    UninitializedArray<Index> face_rank(mesh.face_count());
+    for (Index f = 0; f < mesh.face_count(); ++f) face_rank[order.faces[f]] = f;
+    const Mesh inner = mesh.renumbered(order.vertices, order.vertex_rank, face_rank);
+    const auto opposite = inner.opposite();
+    const auto links = inner.links();
+    return {{opposite.begin(), opposite.end()}, {links.begin(), links.end()}};
+  }
+  UninitializedArray<Face> faces(mesh.face_count());
+  populate(faces);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Face& t = mesh.faces()[order.faces[f]];
+    faces[f] = {order.vertex_rank[t[0]], order.vertex_rank[t[1]], order.vertex_rank[t[2]]};
+  }
+  const VertexCorners corners = build_corners(mesh.vertex_count(), faces);
+  UninitializedArray<Index> opposite = build_opposite(faces, corners);
+  std::vector<Link> links = build_links(faces, corners, opposite);
+  return {std::move(opposite), std::move(links)};
+}
+
+// The faces of a mesh in another order, and what comes soon fetched ahead: it may be anywhere.
+class FacesInOrder {
+ public:
+  FacesInOrder(const Mesh& mesh, const LocalityOrder& order)
+      : mesh_(mesh), order_(order), faces_(mesh.faces()), positions_(mesh.positions()), scale_(1 / mesh.unit()) {}
+
+  void prefetch_after(Index f) const {
+    constexpr Index kSoon = 12, kLater = 24;
+    if (f + kLater < faces_.size()) prefetch(&faces_[order_.faces[f + kLater]]);
+    if (f + kSoon >= faces_.size()) return;
+    for (const Index v : (*this)[f + kSoon]) {
+      prefetch(&order_.vertex_rank[v]);
+      if (!positions_.empty()) prefetch(&positions_[v]);
+    }
+  }
+  const Face& operator[](Index f) const { return faces_[order_.faces[f]]; }
+  Mesh::FaceGeometry geometry(Index f) const {
+    return positions_.empty() ? mesh_.face_geometry(order_.faces[f]) : geometry_of(positions_, (*this)[f], scale_);
+  }
+
+ private:
+  const Mesh& mesh_;
+  const LocalityOrder& order_;
+  std::span<const Face> faces_;
+  std::span<const Vec3> positions_;
+  double scale_;
+};
+
+Beyond beyond(std::span<const WindowFace> faces, std::span<const Index> opposite, Index h) {
   const Index other = opposite[h];
-  if (other == h) return Beyond::Nothing;
-  return opposite[other] == h && mesh.from(other) == mesh.to(h) ? Beyond::Face : Beyond::Several;
+  if (other == h || !faces[h / 3].usable) return Beyond::Nothing;
+  const bool other_way = faces[other / 3].vertex[other % 3] == faces[h / 3].vertex[next3(h % 3)];
+  return opposite[other] == h && other_way ? Beyond::Face : Beyond::Several;
 }
 
 // What is typical of a mesh is found in as many places, more or less.
@@ -60,14 +122,17 @@ struct AngleSum {
 // What the corners at a vertex are.
 struct Around {
   AngleSum angles;
-  double shortest = kInfinity, longest = 0;  // of their edges
+  float shortest = std::numeric_limits<float>::infinity(), longest = 0;  // of their edges
+
+  // Whether a corner's edges may differ by more than kUnevenEdges; also where floats cannot tell.
+  bool is_uneven() const { return !(static_cast<double>(longest) < kUnevenEdges * static_cast<double>(shortest)); }
 
   // Corner k of a face that has an area.
   void add(const WindowFace& f, Index k) {
     const double a = f.length[k], b = f.length[previous3(k)], c = f.length[next3(k)], inverse = 1 / (a * b);
     angles.add(0.5 * (a * a + (b - c) * (b + c)) * inverse, f.double_area * inverse);
-    shortest = std::min({shortest, a, b});
-    longest = std::max({longest, a, b});
+    shortest = std::min({shortest, static_cast<float>(a), static_cast<float>(b)});
+    longest = std::max({longest, static_cast<float>(a), static_cast<float>(b)});
   }
 };
 
@@ -81,13 +146,6 @@ double typical_defect_of(std::span<const Around> around, std::span<const Bend> b
     sample.push_back(std::abs(2 * kPi - around[v].angles.value()));
   }
   return sample.empty() ? 0 : median(sample);
-}
-
-// The mesh in an order.
-Mesh renumbered(const Mesh& mesh, const LocalityOrder& order) {
-  UninitializedArray<Index> face_rank(mesh.face_count());
-  for (Index f = 0; f < mesh.face_count(); ++f) face_rank[order.faces[f]] = f;
-  return mesh.renumbered(order.vertices, order.vertex_rank, face_rank);
 }
 
 // Appends the numbers of the vertices of faces, ascending, each once. `marks`: a bit for every number, all 0.
@@ -156,27 +214,26 @@ Index WindowStructure::copy_in(Index part, Index v) const {
 }
 
 WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(locality_order(m)), part_bits(bits) {
-  // Read here only, and much: what is near on the surface should be near in memory.
-  const Mesh local = renumbered(mesh, order);
-  const auto opposite = local.opposite();
-  const auto links = local.links();
-  faces.resize(local.face_count());
-  bend.assign(local.vertex_count(), Bend::None);
-  std::vector<Around> around(local.vertex_count());
-  for (Index f = 0; f < local.face_count(); ++f) {
+  const Index n = mesh.vertex_count();
+  const auto [opposite, links] = connectivity_of(mesh, order);
+  const FacesInOrder outer(mesh, order);
+  faces.resize(mesh.face_count());
+  bend.assign(n, Bend::None);
+  std::vector<Around> around(n);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    outer.prefetch_after(f);
     WindowFace& face = faces[f];
-    const Mesh::FaceGeometry geometry = local.face_geometry(f);
+    const Mesh::FaceGeometry geometry = outer.geometry(f);
     face.double_area = geometry.double_area;
     face.waiting = kNoIndex;
     face.has_target = false;
-    face.usable = local.is_face_usable(f);
+    face.usable = mesh.is_face_usable(order.faces[f]);
     const double base = std::max({geometry.lengths[0], geometry.lengths[1], geometry.lengths[2]});
     face.thin = face.double_area <= kThin * base * base;
     for (Index k = 0; k < 3; ++k) {
       face.length[k] = geometry.lengths[k];
-      face.vertex[k] = local.faces()[f][k];
+      face.vertex[k] = inner_vertex(outer[f][k]);
       face.opposite[k] = opposite[3 * f + k];
-      face.beyond[k] = face.usable ? beyond(local, opposite, 3 * f + k) : Beyond::Nothing;
     }
     // No area, no angle: light goes everywhere from there.
     const bool has_angles = face.usable && face.double_area > kNoArea * base * base;
@@ -188,12 +245,12 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
       }
     }
   }
-  for (Index v = 0; v < local.vertex_count(); ++v) {
-    const auto& [angles, shortest, longest] = around[v];
-    if (links[v] == Link::Other || longest > kUnevenEdges * shortest) bend[v] = Bend::Full;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) faces[h / 3].beyond[h % 3] = beyond(faces, opposite, h);
+  for (Index v = 0; v < n; ++v) {
+    if (links[v] == Link::Other || around[v].is_uneven()) bend[v] = Bend::Full;
     if (bend[v] == Bend::Full) continue;
-    if (links[v] == Link::Circle && angles.exceeds_two_pi()) bend[v] = Bend::Saddle;
-    if (links[v] == Link::Arc && angles.exceeds_pi()) bend[v] = Bend::Boundary;
+    if (links[v] == Link::Circle && around[v].angles.exceeds_two_pi()) bend[v] = Bend::Saddle;
+    if (links[v] == Link::Arc && around[v].angles.exceeds_pi()) bend[v] = Bend::Boundary;
   }
   bucket_width = typical_bucket(faces);
   typical_defect = typical_defect_of(around, bend, links);
