@@ -378,14 +378,6 @@ Mesh Mesh::with_slits(std::span<const Index> halfedges) const {
   return Mesh(std::move(data));
 }
 
-Mesh Mesh::for_a_while() const {
-  if (data_->opposite.ready()) return *this;
-  auto data = std::make_shared<Data>();
-  data->arrays = data_->arrays;
-  data->slits = data_->slits;
-  return Mesh(std::move(data));
-}
-
 Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> vertex_rank,
                       std::span<const Index> face_rank) const {
   const Arrays& old = *data_->arrays;

@@ -129,10 +129,6 @@ class Mesh {
   };
   FaceGeometry face_geometry(Index f) const;
 
-  // This mesh, to look up its connectivity for a while: where opposite() and links() have not been built yet, a copy
-  // that shares its arrays and corners(), and takes with it what is built for it.
-  Mesh for_a_while() const;
-
   // The angle at the corner that halfedge h starts from, in [0, pi]; pi/3 in a face whose vertices all coincide.
   double corner_angle(Index h) const;
 
