@@ -39,6 +39,11 @@ TEST(AwkwardPaths, FromVerticesAtOnePlaceGoStraightToASourceInAFaceOfTheirs) {
   }
 }
 
+// One pair needed 256 steps in 57 faces.
+TEST(AwkwardPaths, OverEdgesOfManyFacesManySheetsAreTried) {
+  test::expect_good_paths(random_soup(1062, 12 + 1062 % 20, 30 + 1062 % 40), 37, 1062, "soup");
+}
+
 TEST(AwkwardPaths, ThroughRowsWithoutAltitudeAreGoodAndAsLongAsTheFieldSays) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed)
     test::expect_good_paths(needle_grid(seed, 8, 0), 40, seed, "flat rows");

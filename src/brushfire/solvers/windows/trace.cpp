@@ -43,7 +43,8 @@ class Tracer {
     Position start{ray_.halfedge, ray_.source, in_frame(frame, ray_.halfedge % 3, at.weights), 0};
     if (ends_in_face(start, leg)) return true;
     open_.push_back({start, leg.points.size()});
-    std::size_t budget = 16 + 4 * static_cast<std::size_t>(mesh_.face_count());
+    // A ray crosses a face a few times at most; over edges of many faces it may have to try many sheets.
+    std::size_t budget = 16 + 64 * static_cast<std::size_t>(mesh_.face_count());
     while (!open_.empty() && budget-- > 0) {
       const auto [position, count] = open_.back();
       open_.pop_back();
