@@ -6,38 +6,39 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <gtest/gtest.h>
-
 #include <array>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
+#include <memory>
+#include <string>
 #include <string_view>
+#include <system_error>
 
 namespace brushfire::test {
 namespace {
 
-// A file in the test's temporary folder that is gone afterwards.
+// A file without a name, gone when it is closed.
 class ScratchFile {
  public:
-  ScratchFile() : path_(testing::TempDir() + "brushfire_stream_XXXXXX") { descriptor_ = mkstemp(path_.data()); }
-  ~ScratchFile() {
-    close(descriptor_);
-    unlink(path_.c_str());
+  ScratchFile() : file_(std::tmpfile(), &std::fclose) {
+    if (!file_) throw std::system_error(errno, std::generic_category(), "no temporary file");
   }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
 
-  int descriptor() const { return descriptor_; }
+  int descriptor() const { return fileno(file_.get()); }
+  // From its beginning on, wherever the program that has the descriptor is writing.
   std::string content() const {
-    std::ifstream file(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    std::string all;
+    std::array<char, 4096> some;
+    for (ssize_t got; (got = pread(descriptor(), some.data(), some.size(), static_cast<off_t>(all.size()))) > 0;) {
+      all.append(some.data(), static_cast<std::size_t>(got));
+    }
+    return all;
   }
 
  private:
-  std::string path_;
-  int descriptor_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 
 void send(int descriptor, std::string_view text) {
