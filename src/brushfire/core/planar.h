@@ -12,12 +12,14 @@ namespace brushfire {
 // Sixteen times the squared area of a triangle with these sides; negative where no such triangle exists. Heron's
 // formula with every difference factored, so that a thin triangle keeps its digits (Kahan 2014, Miscalculating Area
 // and Angles of a Needle-like Triangle).
-constexpr double heron(double l, double a, double b) {
+template <class Real>
+constexpr Real heron(Real l, Real a, Real b) {
   return (a + b - l) * (a + b + l) * (l - (a - b)) * (l + (a - b));
 }
 
 // The same with the sides in any order: sorted first, which is what makes the result accurate for needles.
-constexpr double heron_sorted(double a, double b, double c) {
+template <class Real>
+constexpr Real heron_sorted(Real a, Real b, Real c) {
   if (a < b) std::swap(a, b);
   if (a < c) std::swap(a, c);
   if (b < c) std::swap(b, c);
@@ -26,7 +28,8 @@ constexpr double heron_sorted(double a, double b, double c) {
 
 // The apex of a triangle over an edge of length `l` > 0; `a`, `b`: from the edge's first and second end to the apex.
 // The altitude comes from the area, not from the lengths, which lose it for flat triangles.
-constexpr Vec2 apex_over_edge(double l, double a, double b, double double_area) {
+template <class Real>
+constexpr BasicVec2<Real> apex_over_edge(Real l, Real a, Real b, Real double_area) {
   return {0.5 * (l + (a - b) * (a + b) / l), double_area / l};
 }
 

@@ -22,29 +22,50 @@ inline constexpr double kPi = 3.14159265358979323846;
 // The three vertices of a triangle, in order.
 using Face = std::array<Index, 3>;
 
-struct Vec2 {
-  double x = 0, y = 0;
-  friend constexpr bool operator==(const Vec2&, const Vec2&) = default;
-  friend constexpr Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
-  friend constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
-  friend constexpr Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
+template <class Real>
+struct BasicVec2 {
+  Real x = 0, y = 0;
+  friend constexpr bool operator==(const BasicVec2&, const BasicVec2&) = default;
+  friend constexpr BasicVec2 operator+(BasicVec2 a, BasicVec2 b) { return {a.x + b.x, a.y + b.y}; }
+  friend constexpr BasicVec2 operator-(BasicVec2 a, BasicVec2 b) { return {a.x - b.x, a.y - b.y}; }
+  friend constexpr BasicVec2 operator*(Real s, BasicVec2 a) { return {s * a.x, s * a.y}; }
+
+  friend constexpr Real dot(BasicVec2 a, BasicVec2 b) { return a.x * b.x + a.y * b.y; }
+  // Twice the signed area of (0, a, b): positive where b lies to the left of a.
+  friend constexpr Real cross(BasicVec2 a, BasicVec2 b) { return a.x * b.y - a.y * b.x; }
+  friend Real norm(BasicVec2 a) {
+    using std::sqrt;
+    return sqrt(dot(a, a));
+  }
 };
 
-constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-// Twice the signed area of (0, a, b): positive where b lies to the left of a.
-constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
+template <class Real>
+struct BasicVec3 {
+  Real x = 0, y = 0, z = 0;
+  friend constexpr bool operator==(const BasicVec3&, const BasicVec3&) = default;
+  friend constexpr BasicVec3 operator+(BasicVec3 a, BasicVec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend constexpr BasicVec3 operator-(BasicVec3 a, BasicVec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend constexpr BasicVec3 operator*(Real s, BasicVec3 a) { return {s * a.x, s * a.y, s * a.z}; }
 
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
-  friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
-  friend constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend constexpr Vec3 operator*(double s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend constexpr Real dot(BasicVec3 a, BasicVec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  friend constexpr BasicVec3 cross(BasicVec3 a, BasicVec3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  friend Real norm(BasicVec3 a) {
+    using std::sqrt;
+    return sqrt(dot(a, a));
+  }
 };
 
-constexpr double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-constexpr Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
+using Vec2 = BasicVec2<double>;
+using Vec3 = BasicVec3<double>;
+
+// Declared here as well, for whoever calls them by their full names.
+constexpr double dot(Vec2 a, Vec2 b);
+constexpr double cross(Vec2 a, Vec2 b);
+double norm(Vec2 a);
+constexpr double dot(Vec3 a, Vec3 b);
+constexpr Vec3 cross(Vec3 a, Vec3 b);
+double norm(Vec3 a);
 
 }  // namespace brushfire

@@ -11,7 +11,7 @@
 namespace brushfire {
 
 namespace detail {
-struct WindowFieldData;
+class WindowFieldReader;
 }
 
 // Made by a run with DistanceOptions::keep_paths or keep_windows (DistanceField::windows). Immutable; safe to read from
@@ -53,10 +53,10 @@ class WindowField {
   // The mesh of the run.
   const Mesh& mesh() const noexcept;
 
-  explicit WindowField(std::shared_ptr<const detail::WindowFieldData> data);
+  explicit WindowField(std::shared_ptr<const detail::WindowFieldReader> reader);
 
  private:
-  std::shared_ptr<const detail::WindowFieldData> data_;
+  std::shared_ptr<const detail::WindowFieldReader> reader_;
 };
 
 }  // namespace brushfire

@@ -18,7 +18,7 @@
 #include <chrono>
 #include <limits>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Exact runs are quicker with narrower buckets.
@@ -84,7 +84,7 @@ class WindowEngine final : public Engine {
     if (run_.several) run_.origins.resize(run_.values.size());
     if (run_.keeps_rays()) run_.rays.resize(run_.values.size());
     run_.budget = budget_of(*problem.options, merging_ == Merging::Always ? 0 : least_share(outlook()));
-    run_.in_lists = !run_.merges() && run_.radius > kShort * run_.structure.bucket_width;
+    run_.in_lists = !kWide && !run_.merges() && run_.radius > kShort * run_.structure.bucket_width;
     run_.bucket_width = run_.in_lists ? kExactBucket * run_.structure.bucket_width : run_.structure.bucket_width;
     run_.targets.place(problem.targets, run_.structure);
     next_target_check_ = problem.targets.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;
@@ -104,7 +104,7 @@ class WindowEngine final : public Engine {
   void start(const LocatedSource& s) {
     const WindowStructure& structure = run_.structure;
     const Index root = structure.vertex_count() + s.label;
-    const double sigma = s.offset + run_.shift;
+    const Real sigma = s.offset + run_.shift;
     if (s.at.on == PointLocation::On::Vertex) {
       const Index v = structure.inner_vertex(s.at.vertex);
       active_part(structure.part_of_vertex(v)).start_at_vertex(v, sigma, root);
@@ -182,7 +182,7 @@ class WindowEngine final : public Engine {
   // Nothing beyond the farthest target matters once all have been reached.
   void narrow_radius() {
     next_target_check_ = updates_ + run_.targets.size() + 256;
-    double farthest = 0;
+    Real farthest = 0;
     for (Index i = 0; i < run_.targets.size(); ++i) {
       const PointLocation& at = run_.problem->targets[i];
       const bool vertex = at.on == PointLocation::On::Vertex;
@@ -257,9 +257,8 @@ class WindowEngine final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits, Merging merging) {
-  if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
+std::unique_ptr<Engine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging) {
   return std::make_unique<WindowEngine>(mesh, part_bits, merging);
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -1,11 +1,13 @@
 // Bounds into values, inner numbers into the mesh's own, and the copies of a vertex into one.
 #include <brushfire/solvers/windows/detail/results.h>
 
+#include <brushfire/solvers/windows/detail/trace.h>
+
 #include <algorithm>
 #include <limits>
 #include <memory>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 void Results::write(std::vector<Index>& scratch, ThreadTeam* team) {
   finish_targets();
@@ -20,7 +22,7 @@ Index Results::label_of(Index root) const {
   return root >= n ? root - n : run_.several ? run_.origins[root].label : 0;
 }
 
-void Results::offer_target(Index target, double value, double slack, double lift, const Ray& ray, bool straight) {
+void Results::offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight) {
   TargetState& t = run_.targets[target];
   t.upper = std::min(t.upper, value + slack);
   if (!straight) return;
@@ -33,13 +35,13 @@ void Results::offer_target(Index target, double value, double slack, double lift
 // Around the corners of a target's face.
 void Results::finish_targets() {
   for (const TargetInFace& t : run_.targets.in_faces()) {
-    const std::array<double, 3> d = corner_distances_of(run_.structure, {t.face, t.weights});
+    const std::array<Real, 3> d = corner_distances_of(run_.structure, {t.face, t.weights});
     for (Index k = 0; k < 3; ++k) {
       const Index v = run_.structure.faces[t.face].vertex[k];
       const VertexValues& at = run_.values[v];
       if (at.upper == kInfinity) continue;
-      const double slack = std::max(0.0, at.upper - at.lower);
-      offer_target(t.target, at.lower + d[k], slack, std::clamp(at.estimate - at.lower, 0.0, slack),
+      const Real slack = std::max(Real{0}, at.upper - at.lower);
+      offer_target(t.target, at.lower + d[k], slack, std::clamp(at.estimate - at.lower, Real{0}, slack),
                    {{}, kNoIndex, v, WindowKind::Circular});
     }
   }
@@ -109,7 +111,7 @@ Results::Tally Results::write_vertices(const Part& part) {
     }
     const Index label = label_of(v);
     const Reading r = read(s.lower, s.upper, s.estimate, label);
-    field_.distance[outer] = r.value - run_.shift;
+    field_.distance[outer] = to_double(r.value - run_.shift);
     field_.source[outer] = label;
     if (!run_.problem->touched) field_.error_bound[outer] = r.bound;
     if (r.value <= run_.radius) tally.largest_bound = std::max(tally.largest_bound, r.relative);
@@ -124,12 +126,13 @@ void Results::write_targets() {
     const TargetState& t = run_.targets[i];
     if (t.upper == kInfinity) continue;
     field_.target_source[i] = label_of(t.ray.root);
-    field_.target_distance[i] = read(t.lower, t.upper, t.estimate, field_.target_source[i]).value - run_.shift;
+    field_.target_distance[i] =
+        to_double(read(t.lower, t.upper, t.estimate, field_.target_source[i]).value - run_.shift);
   }
 }
 
-Reading Results::read(double lower, double upper, double estimate, Index label) const {
-  return detail::read(lower, upper, estimate, run_.start_of(label), run_.budget.share, run_.problem->options->bound);
+Reading Results::read(Real lower, Real upper, Real estimate, Index label) const {
+  return reading_of(lower, upper, estimate, run_.start_of(label), run_.budget.share, run_.problem->options->bound);
 }
 
 // With the mesh's own numbers. Sources come behind the vertices: here behind the mesh's, in the run behind the copies.
@@ -176,7 +179,7 @@ void Results::keep() {
     }
     data->keep(kept);
   }
-  field_.windows = std::make_shared<WindowField>(std::move(data));
+  field_.windows = std::make_shared<WindowField>(make_reader(std::move(data)));
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -5,6 +5,7 @@
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/face_geometry.h>
+#include <brushfire/solvers/windows/detail/fan.h>
 #include <brushfire/solvers/windows/detail/prefetch.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 #include <tuple>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Which halfedges are over the same edge, and what the faces around a vertex form: by inner numbers.
@@ -62,15 +63,21 @@ class FacesInOrder {
     }
   }
   const Face& operator[](Index f) const { return faces_[order_.faces[f]]; }
-  Mesh::FaceGeometry geometry(Index f) const {
-    return positions_.empty() ? mesh_.face_geometry(order_.faces[f]) : geometry_of(positions_, (*this)[f], scale_);
+  FaceShape shape(Index f) const {
+    if constexpr (kWide) return shape_of(mesh_, order_.faces[f]);
+    const Mesh::FaceGeometry g =
+        positions_.empty() ? mesh_.face_geometry(order_.faces[f]) : geometry_of(positions_, (*this)[f], scale_);
+    FaceShape shape;
+    shape.length = {g.lengths[0], g.lengths[1], g.lengths[2]};
+    shape.double_area = g.double_area;
+    return shape;
   }
 
  private:
   const Mesh& mesh_;
   const LocalityOrder& order_;
   std::span<const Face> faces_;
-  std::span<const Vec3> positions_;
+  std::span<const brushfire::Vec3> positions_;
   double scale_;
 };
 
@@ -95,7 +102,7 @@ double typical_bucket(std::span<const WindowFace> faces) {
   std::vector<double> sample;
   const std::size_t stride = std::max<std::size_t>(1, 3 * faces.size() / kSample);
   for (std::size_t h = 0; h < 3 * faces.size(); h += stride) {
-    const double length = faces[h / 3].length[h % 3];
+    const double length = to_double(faces[h / 3].length[h % 3]);
     if (length > 0) sample.push_back(length);
   }
   if (sample.empty()) return 1;
@@ -105,18 +112,19 @@ double typical_bucket(std::span<const WindowFace> faces) {
 // The sum of angles in (0, pi), as the product of as many turns of the plane: an arc tangent for each would take longer
 // than all the rest.
 struct AngleSum {
-  double x = 1, y = 0;  // the sum's direction
+  Real x = 1, y = 0;  // the sum's direction
   Index turns = 0;      // that are full
 
   // An angle of these cosine and sine.
-  void add(double cosine, double sine) {
-    const double turned_x = x * cosine - y * sine, turned_y = x * sine + y * cosine;
+  void add(Real cosine, Real sine) {
+    const Real turned_x = x * cosine - y * sine, turned_y = x * sine + y * cosine;
     turns += y < 0 && turned_y >= 0 ? 1 : 0;
     x = turned_x, y = turned_y;
   }
-  double value() const { return 2 * kPi * (turns + (y < 0 ? 1 : 0)) + std::atan2(y, x); }
-  bool exceeds_pi() const { return (turns > 0 || y < 0) && value() > kPi + kFlat; }
-  bool exceeds_two_pi() const { return turns > 0 && value() > 2 * kPi + kFlat; }
+  double value() const { return 2 * kPi * (turns + (y < 0 ? 1 : 0)) + std::atan2(to_double(y), to_double(x)); }
+  // By more than kFlat; told by the direction, which knows small angles as well as large ones.
+  bool exceeds_pi() const { return turns > 0 || (y < 0 && (x >= 0 || y < kFlat * x)); }
+  bool exceeds_two_pi() const { return turns > 1 || (turns == 1 && (y < 0 || x <= 0 || y > kFlat * x)); }
 };
 
 // What the corners at a vertex are.
@@ -129,8 +137,9 @@ struct Around {
 
   // Corner k of a face that has an area.
   void add(const WindowFace& f, Index k) {
-    const double a = f.length[k], b = f.length[previous3(k)], c = f.length[next3(k)], inverse = 1 / (a * b);
-    angles.add(0.5 * (a * a + (b - c) * (b + c)) * inverse, f.double_area * inverse);
+    const Real a = f.length[k], b = f.length[previous3(k)], inverse = 1 / (a * b);
+    const Vec2 opening = opening_at(f, k);
+    angles.add(opening.x * inverse, opening.y * inverse);
     shortest = std::min({shortest, static_cast<float>(a), static_cast<float>(b)});
     longest = std::max({longest, static_cast<float>(a), static_cast<float>(b)});
   }
@@ -143,7 +152,7 @@ double typical_defect_of(std::span<const Around> around, std::span<const Bend> b
   const std::size_t stride = std::max<std::size_t>(1, around.size() / kSample);
   for (std::size_t v = 0; v < around.size(); v += stride) {
     if (bend[v] == Bend::Full || links[v] != Link::Circle) continue;
-    sample.push_back(std::abs(2 * kPi - around[v].angles.value()));
+    sample.push_back(abs(2 * kPi - around[v].angles.value()));
   }
   return sample.empty() ? 0 : median(sample);
 }
@@ -168,8 +177,8 @@ void collect_places(std::span<const WindowFace> faces, std::vector<std::uint64_t
 }  // namespace
 
 double angle_at(const WindowFace& f, Index i) {
-  const double a = f.length[i], b = f.length[previous3(i)], c = f.length[next3(i)];
-  return std::atan2(f.double_area, 0.5 * (a * a + (b - c) * (b + c)));
+  const Vec2 opening = opening_at(f, i);
+  return std::atan2(to_double(opening.y), to_double(opening.x));
 }
 
 // In a part faces are in the order of their least vertices, those of one vertex in the mesh's order.
@@ -223,15 +232,16 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
   for (Index f = 0; f < mesh.face_count(); ++f) {
     outer.prefetch_after(f);
     WindowFace& face = faces[f];
-    const Mesh::FaceGeometry geometry = outer.geometry(f);
-    face.double_area = geometry.double_area;
+    const FaceShape shape = outer.shape(f);
+    face.double_area = shape.double_area;
+    face.set_feet(shape);
     face.waiting = kNoIndex;
     face.has_target = false;
     face.usable = mesh.is_face_usable(order.faces[f]);
-    const double base = std::max({geometry.lengths[0], geometry.lengths[1], geometry.lengths[2]});
+    const Real base = std::max({shape.length[0], shape.length[1], shape.length[2]});
     face.thin = face.double_area <= kThin * base * base;
     for (Index k = 0; k < 3; ++k) {
-      face.length[k] = geometry.lengths[k];
+      face.length[k] = shape.length[k];
       face.vertex[k] = inner_vertex(outer[f][k]);
       face.opposite[k] = opposite[3 * f + k];
     }
@@ -322,4 +332,4 @@ void WindowStructure::close_rings(const std::vector<std::pair<Index, Index>>& li
   }
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

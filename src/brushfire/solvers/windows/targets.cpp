@@ -1,17 +1,12 @@
 // Which faces hold which targets.
 #include <brushfire/solvers/windows/detail/targets.h>
 
-#include <brushfire/solvers/detail/start.h>
-
 #include <tuple>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
-std::array<double, 3> corner_distances_of(const WindowStructure& structure, const FaceWeights& at) {
-  PointLocation here;
-  here.face = structure.outer_face(at.face);
-  here.weights = at.weights;
-  return corner_distances(structure.mesh, here);
+std::array<Real, 3> corner_distances_of(const WindowStructure& structure, const FaceWeights& at) {
+  return corner_distances_in(structure.faces[at.face], at.weights);
 }
 
 void Targets::place(std::span<const PointLocation> targets, WindowStructure& structure) {
@@ -36,4 +31,4 @@ void Targets::clear(WindowStructure& structure) {
   states_.clear();
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -21,4 +21,12 @@ enum class Merging : std::uint8_t { WherePays, Always };
 std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits = kPartBits,
                                      Merging merging = Merging::WherePays);
 
+// With these numbers, whatever the mesh; see real.h.
+inline namespace in_doubles {
+std::unique_ptr<Engine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging);
+}
+namespace in_double_doubles {
+std::unique_ptr<Engine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging);
+}
+
 }  // namespace brushfire::detail

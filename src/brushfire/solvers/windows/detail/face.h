@@ -3,10 +3,12 @@
 
 #include <brushfire/core/planar.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/windows/detail/face_shape.h>
+#include <brushfire/solvers/windows/detail/real.h>
 
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // A face is thin whose lowest altitude is less than this share of its longest edge.
 inline constexpr double kThin = 1e-3;
@@ -18,9 +20,9 @@ enum class Beyond : std::uint8_t {
   Several,  // a mirrored face, or a ring of three and more
 };
 
-struct alignas(64) WindowFace {
-  double length[3];    // of halfedge k, mesh.unit()
-  double double_area;  // mesh.unit()^2
+struct alignas(64) WindowFace : Feet<kWide> {
+  Real length[3];    // of halfedge k, mesh.unit()
+  Real double_area;  // mesh.unit()^2
   Index vertex[3];     // corner k, where halfedge k starts
   Index opposite[3];   // of halfedge k
   Index waiting;       // the first of the windows that wait on the face's halfedges: see WindowLists
@@ -29,7 +31,7 @@ struct alignas(64) WindowFace {
   bool has_target : 1;
   bool thin : 1;  // so low that light may go round through its neighbours for next to nothing: see WindowMemory
 };
-static_assert(sizeof(WindowFace) == 64);
+static_assert(sizeof(WindowFace) == 64 || kWide);
 
 // From tables of two bits an entry: these are asked at random all the time, and a branch would be guessed wrong.
 constexpr Index next3(Index k) { return 0b00'10'01u >> 2 * k & 3; }
@@ -37,16 +39,23 @@ constexpr Index previous3(Index k) { return 0b01'00'10u >> 2 * k & 3; }
 
 // A triangle over one of its edges a-b: a = (0,0), b = (length,0), apex above.
 struct Frame {
-  double length;  // a to b
-  double left;    // a to apex
-  double right;   // apex to b
+  Real length;  // a to b
+  Real left;    // a to apex
+  Real right;   // apex to b
   Vec2 apex;
+  Real rest;  // from the foot of the apex to b: length - apex.x
 };
 
-// The frame of halfedge k of a face; its length is > 0.
-[[gnu::always_inline]] inline Frame frame_of(const WindowFace& f, Index k) {
-  const double length = f.length[k], left = f.length[previous3(k)], right = f.length[next3(k)];
-  return {length, left, right, apex_over_edge(length, left, right, f.double_area)};
+// The frame of halfedge k of a face (a WindowFace or a FaceShape); its length is > 0.
+template <class F>
+[[gnu::always_inline]] inline Frame frame_of(const F& f, Index k) {
+  const Real length = f.length[k], left = f.length[previous3(k)], right = f.length[next3(k)];
+  if constexpr (kWide) {
+    return {length, left, right, {f.foot[k], f.double_area / length}, right * (f.foot[next3(k)] / length)};
+  } else {
+    const Vec2 apex = apex_over_edge(length, left, right, f.double_area);
+    return {length, left, right, apex, length - apex.x};
+  }
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

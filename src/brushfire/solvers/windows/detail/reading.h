@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // The part of a tolerance that is kept back for rounding, so that the promise holds to the letter.
 inline constexpr double kRounding = 4e-12;
@@ -28,17 +28,18 @@ inline MergeBudget budget_of(const DistanceOptions& options, double least) {
 
 // A value, how far it may be off, and that as a share of the path's length.
 struct Reading {
-  double value, bound, relative;
+  Real value;
+  double bound, relative;
 };
 
 // For lower <= distance <= upper of a place whose paths begin with the value `start`; `share`: of the budget, 0 where
 // the run was exact.
-inline Reading read(double lower, double upper, double estimate, double start, double share, Bound wanted) {
-  const double of_offset = kOffsetRounding * std::abs(start);
+inline Reading reading_of(Real lower, Real upper, Real estimate, Real start, double share, Bound wanted) {
+  const double of_offset = kOffsetRounding * std::abs(to_double(start));
   lower = std::min(lower, upper);  // in exact runs they differ by rounding
-  const double length = lower - start;
-  if (!(share > 0)) return {lower, kExactBound * length + of_offset, kExactBound};
-  double value = lower;
+  const Real length = lower - start;
+  if (!(share > 0)) return {lower, kExactBound * to_double(length) + of_offset, kExactBound};
+  Real value = lower;
   switch (wanted) {
     case Bound::Lower:
       break;
@@ -47,14 +48,14 @@ inline Reading read(double lower, double upper, double estimate, double start, d
       break;
     case Bound::Estimate: {
       // Anywhere within t of both ends: there is such a place because upper - lower <= 2 t length.
-      const double reach = 0.5 * share * length;
-      const double least = std::min(upper - reach, upper), most = std::max(lower + reach, lower);
+      const Real reach = 0.5 * share * length;
+      const Real least = std::min(upper - reach, upper), most = std::max(lower + reach, lower);
       value = std::clamp(std::clamp(estimate, lower, upper), least, std::max(least, most));
       break;
     }
   }
-  const double bound = std::max(value - lower, upper - value) + kRounding * length;
-  return {value, bound + of_offset, length > 0 ? bound / length : 0};
+  const double bound = to_double(std::max(value - lower, upper - value) + kRounding * length);
+  return {value, bound + of_offset, length > 0 ? bound / to_double(length) : 0};
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

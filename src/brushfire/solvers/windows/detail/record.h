@@ -4,12 +4,13 @@
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/windows/detail/face.h>
+#include <brushfire/solvers/windows/detail/face_shape.h>
 #include <brushfire/solvers/windows/detail/window.h>
 
 #include <span>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // The ray comes over `halfedge` from `source` (in the halfedge's frame; y >= 0: from inside of the halfedge's face or
 // its edge). kNoIndex: along an edge of a face with a repeated vertex, or the point is the source itself.
@@ -21,7 +22,7 @@ struct Ray {
 };
 
 struct PointRecord {
-  double value = kInfinity;  // mesh.unit(), offsets included
+  Real value = kInfinity;  // mesh.unit(), offsets included
   Index label = kNoIndex;
   Ray ray;
 };
@@ -34,7 +35,7 @@ struct KeptWindow {
 struct WindowFieldData {
   Mesh mesh;
   std::vector<LocatedSource> sources;
-  double shift = 0;   // what was added to every value so that none is negative
+  Real shift = 0;   // what was added to every value so that none is negative
   bool exact = true;  // no merging: rays lead back to roots
   bool all_points = false;
   std::vector<PointRecord> vertices;    // [vertex_count]; value NaN: farther than the run went
@@ -45,30 +46,35 @@ struct WindowFieldData {
 
   // Sets the last two.
   void keep(std::span<const KeptWindow> windows);
+
+  Frame frame_of_halfedge(Index h) const { return frame_of(shape_of(mesh, h / 3), h % 3); }
 };
 
 // A point of a face in the frame of the face's halfedge k; weights by corner.
-Vec2 in_frame(const Frame& frame, Index k, const std::array<double, 3>& weights);
+Vec2 in_frame(const Frame& frame, Index k, const std::array<Real, 3>& weights);
 
 // All descriptions of a point by faces that contain it: itself, and for a point on an edge, the edge's other faces.
 struct FaceWeights {
   Index face;
-  std::array<double, 3> weights;
+  std::array<Real, 3> weights;
 };
+SurfacePoint surface_point(const FaceWeights& at);
+
 template <class Visit>
 void for_each_face_around(const Mesh& mesh, const PointLocation& at, Visit&& visit) {
-  visit(FaceWeights{at.face, at.weights});
+  const std::array<Real, 3> weights = weights_from(at.weights);
+  visit(FaceWeights{at.face, weights});
   if (at.on != PointLocation::On::Edge) return;
   const Index h = at.halfedge, from = mesh.from(h);
   const auto opposite = mesh.opposite();
   for (Index g = opposite[h]; g != h; g = opposite[g]) {
     FaceWeights other{Mesh::face_of(g), {0, 0, 0}};
     const bool same_way = mesh.from(g) == from;
-    other.weights[g % 3] = at.weights[same_way ? h % 3 : next3(h % 3)];
-    other.weights[next3(g % 3)] = at.weights[same_way ? next3(h % 3) : h % 3];
+    other.weights[g % 3] = weights[same_way ? h % 3 : next3(h % 3)];
+    other.weights[next3(g % 3)] = weights[same_way ? next3(h % 3) : h % 3];
     visit(other);
   }
 }
 std::vector<FaceWeights> faces_around(const Mesh& mesh, const PointLocation& at);
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

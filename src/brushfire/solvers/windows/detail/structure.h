@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // How a vertex that is reached sends light on. A shortest path bends at a vertex only where it leaves at an angle of pi
 // or more on either side, so a Saddle lights what lies between. Full lights everything: that is more than needed, but
@@ -77,9 +77,9 @@ double angle_at(const WindowFace& f, Index i);
 inline constexpr double kUnevenEdges = 1e3;
 // A face whose altitude is less than this share of its longest edge: what it is made of is rounding of the lengths, and
 // so are its angles.
-inline constexpr double kNoArea = 1e-13;
+inline constexpr double kNoArea = 1e-13 * kFiner;
 // Angle sums beyond 2 pi (pi on a boundary) by less than this are rounding; a shadow so narrow hides nothing for longer
 // than that share of the distance.
-inline constexpr double kFlat = 1e-13;
+inline constexpr double kFlat = 1e-13 * kFiner;
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -1,0 +1,20 @@
+// This room once more, with windows made of DoubleDouble: see detail/real.h.
+#define BRUSHFIRE_WIDE_NUMBERS
+
+#include "envelope.cpp"
+#include "exact_cross.cpp"
+#include "exact_lists.cpp"
+#include "exact_trim.cpp"
+#include "face_shape.cpp"
+#include "merge.cpp"
+#include "part.cpp"
+#include "part_lists.cpp"
+#include "part_windows.cpp"
+#include "propagation.cpp"
+#include "record.cpp"
+#include "results.cpp"
+#include "ridge.cpp"
+#include "structure.cpp"
+#include "targets.cpp"
+#include "trace.cpp"
+#include "window_field.cpp"
