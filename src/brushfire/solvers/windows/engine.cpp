@@ -1,13 +1,51 @@
-// Which numbers a mesh needs.
+// Which numbers a run needs: doubles, or wider ones where lengths differ too much for them.
 #include <brushfire/solvers/windows/detail/engine.h>
 
 #include <brushfire/core/error.h>
 
+#include <algorithm>
+
 namespace brushfire::detail {
+namespace {
+
+// Doubles serve exact runs as long as they are sure to tell the distance between any two neighbours to this share of
+// it. Scans and most machine parts have 1e-14 to 1e-10 (docs/decisions/wide-numbers.md). Always said in error_bound.
+constexpr double kDoubtAllowed = 1e-9;
+// And runs with a tolerance to this share of the tolerance.
+constexpr double kOfTolerance = 1.0 / 64;
+
+// One part: what crosses from part to part forgets its trail (Trails), and threads would not make up for the numbers.
+constexpr unsigned kOnePart = 31;
+
+class Windows final : public Engine {
+ public:
+  Windows(const Mesh& mesh, unsigned part_bits, Merging merging)
+      : mesh_(mesh), merging_(merging), narrow_(in_doubles::make_engine(mesh, part_bits, merging)) {}
+
+  void set_up(const DistanceOptions& options) override { engine_for(options).set_up(options); }
+  void solve(const Problem& problem, DistanceField& field) override {
+    engine_for(*problem.options).solve(problem, field);
+  }
+  bool lists_touched() const override { return true; }
+
+ private:
+  Engine& engine_for(const DistanceOptions& options) {
+    const double tolerance = options.method == Method::Exact ? 0 : options.tolerance;
+    if (narrow_->doubt() <= std::max(kDoubtAllowed, kOfTolerance * tolerance)) return *narrow_;
+    if (!wide_) wide_ = in_double_doubles::make_engine(mesh_, kOnePart, merging_);
+    return *wide_;
+  }
+
+  Mesh mesh_;
+  Merging merging_;
+  std::unique_ptr<NumberedEngine> narrow_, wide_;
+};
+
+}  // namespace
 
 std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits, Merging merging) {
   if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
-  return in_doubles::make_engine(mesh, part_bits, merging);
+  return std::make_unique<Windows>(mesh, part_bits, merging);
 }
 
 }  // namespace brushfire::detail

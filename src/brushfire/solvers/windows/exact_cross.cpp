@@ -44,11 +44,11 @@ BRUSHFIRE_WIDE void look(const Real* __restrict b0, const Real* __restrict b1, c
 
 // Towards the edge on the left of a triangle; see propagate(): the ray through (b,0) meets that edge at the share
 // b q / (cx q - cy (b - x)) of its length. Returns how many of the results may be slivers.
-BRUSHFIRE_WIDE std::int64_t to_left(const Real* __restrict b0, const Real* __restrict b1,
-                                    const Real* __restrict x, const Real* __restrict y,
-                                    const Real* __restrict goes, const Real* __restrict passes,
-                                    std::ptrdiff_t count, Vec2 apex, Real length, Real* __restrict to_b0,
-                                    Real* __restrict to_b1, Real* __restrict to_x, Real* __restrict to_y) {
+BRUSHFIRE_WIDE std::int64_t to_left(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict x,
+                                    const Real* __restrict y, const Real* __restrict goes,
+                                    const Real* __restrict passes, std::ptrdiff_t count, Vec2 apex, Real length,
+                                    Real* __restrict to_b0, Real* __restrict to_b1, Real* __restrict to_x,
+                                    Real* __restrict to_y) {
   const Real ux = apex.x / length, uy = apex.y / length;
   std::int64_t dim = 0;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -69,11 +69,10 @@ BRUSHFIRE_WIDE std::int64_t to_left(const Real* __restrict b0, const Real* __res
 }
 
 // The same on the right; places are measured from the end of the edge.
-BRUSHFIRE_WIDE std::int64_t to_right(const Real* __restrict b0, const Real* __restrict b1,
-                                     const Real* __restrict x, const Real* __restrict y,
-                                     const Real* __restrict goes, const Real* __restrict passes,
-                                     std::ptrdiff_t count, Vec2 apex, Real base, Real length,
-                                     Real* __restrict to_b0, Real* __restrict to_b1, Real* __restrict to_x,
+BRUSHFIRE_WIDE std::int64_t to_right(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict x,
+                                     const Real* __restrict y, const Real* __restrict goes,
+                                     const Real* __restrict passes, std::ptrdiff_t count, Vec2 apex, Real base,
+                                     Real length, Real* __restrict to_b0, Real* __restrict to_b1, Real* __restrict to_x,
                                      Real* __restrict to_y) {
   const Real ux = (base - apex.x) / length, uy = -apex.y / length;
   std::int64_t dim = 0;

@@ -63,9 +63,8 @@ BRUSHFIRE_WIDE std::int64_t nearly_on_edge(const Real* __restrict b0, const Real
 }
 
 // How many of the windows another path makes superfluous (is_dominated()) or lie beyond the radius.
-BRUSHFIRE_WIDE std::int64_t useless(const Real* __restrict b0, const Real* __restrict b1,
-                                    const Real* __restrict d0, const Real* __restrict d1, std::ptrdiff_t count,
-                                    EdgeBounds edge, Real radius) {
+BRUSHFIRE_WIDE std::int64_t useless(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict d0,
+                                    const Real* __restrict d1, std::ptrdiff_t count, EdgeBounds edge, Real radius) {
   std::int64_t found = 0;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const std::int64_t by_start = edge.start + b1[i] < d1[i] * kDominated;

@@ -8,7 +8,9 @@
 namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
-Vec3 scaled(const brushfire::Vec3& p, double scale) { return {Real{p.x * scale}, Real{p.y * scale}, Real{p.z * scale}}; }
+Vec3 scaled(const brushfire::Vec3& p, double scale) {
+  return {Real{p.x * scale}, Real{p.y * scale}, Real{p.z * scale}};
+}
 
 FaceShape shape_from_positions(const Mesh& mesh, const Face& t) {
   const double scale = 1 / mesh.unit();  // a power of two: nothing is rounded
@@ -22,8 +24,8 @@ FaceShape shape_from_positions(const Mesh& mesh, const Face& t) {
     edge[k] = t[k] < t[next] ? corner[next] - corner[k] : Real{-1} * (corner[k] - corner[next]);
     shape.length[k] = norm(edge[k]);
   }
-  const auto longest = static_cast<std::size_t>(
-      std::max_element(shape.length.begin(), shape.length.end()) - shape.length.begin());
+  const auto longest =
+      static_cast<std::size_t>(std::max_element(shape.length.begin(), shape.length.end()) - shape.length.begin());
   shape.double_area = norm(cross(edge[(longest + 1) % 3], edge[(longest + 2) % 3]));
   for (std::size_t k = 0; k < 3; ++k) shape.set_foot(k, -dot(edge[k], edge[(k + 2) % 3]) / shape.length[k]);
   return shape;

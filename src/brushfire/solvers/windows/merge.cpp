@@ -90,6 +90,7 @@ bool merge_into(const Window& a, Window& b, const Joint& joint, Real start, cons
   b.slack = paid;
   b.lift = static_cast<float>(expected);
   b.root = a.root;
+  b.trail = kNoIndex;
   return true;
 }
 

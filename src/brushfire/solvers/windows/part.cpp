@@ -32,6 +32,7 @@ void Part::forget() {
   touched_ = 0;
   updates_ = 0;
   memory_.clear();
+  trails_.clear();
   kept_.clear();
   labels_.clear();
   if (!traffic_) return;

@@ -36,14 +36,16 @@ constexpr double kNear = 1e-3;
   // One branch to guess, not three.
   if (is_sliver(w) | (least_value(w) > run_->radius) | is_dominated(bounds_of(f, k), w.b0, w.b1, w.d0, w.d1)) return;
   if (goes_in_lists(h)) return is_on_edge(w) ? pass_at_once(h, w) : insert_into_list(h, w, origin);
-  if (f.thin) return insert_into_thin(h, w);
+  if (leaves_trail(f)) return insert_into_thin(h, w);
   wait(f, h, w);
 }
 void Part::insert_one(Index h, const Window& w, Origin origin) { insert(h, w, origin); }
 
 // What is new of it.
 void Part::insert_into_thin(Index h, Window w) {
-  if (memory_.learn(h, w)) wait(run_->structure.faces[h / 3], h, w);
+  WindowFace& f = run_->structure.faces[h / 3];
+  if (f.double_area > 0 && trails_.has_been(w.trail, h / 3)) return;
+  if (memory_.learn(h, w)) wait(f, h, w);
 }
 
 // To another part.
@@ -51,6 +53,7 @@ void Part::send(Index h, const Window& w, Origin origin) {
   if (is_sliver(w) || least_value(w) > run_->radius) return;
   send_label(run_->structure.part_of_face(h / 3), w.root);
   traffic_->outbox.windows.push_back({h, origin, w});
+  traffic_->outbox.windows.back().window.trail = kNoIndex;  // a trail is known in its part only
 }
 
 // A window leaves a face over its halfedge h; it is described from beyond, from the end of h to its start.
@@ -163,6 +166,7 @@ void Part::pass(Index h, const Frame& frame, const Window& waiting) {
   w.kind = WindowKind::Circular;  // known here: no other kind is ever started
   const WindowFace& f = run_->structure.faces[h / 3];
   const Index apex = f.vertex[previous3(h % 3)];
+  if (leaves_trail(f)) w.trail = trails_.with(w.trail, h / 3);
   const Ray ray{w.source, h, w.root, w.kind};
   const Arrival at = arrival(w, frame.apex);
   if (at.detour <= kSeen * at.value) {

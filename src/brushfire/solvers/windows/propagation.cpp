@@ -29,7 +29,7 @@ constexpr double kShort = 8;
 // What working on a part takes in a round, more or less.
 constexpr std::chrono::microseconds kPatience{20};
 
-class WindowEngine final : public Engine {
+class WindowEngine final : public NumberedEngine {
  public:
   WindowEngine(const Mesh& mesh, unsigned part_bits, Merging merging)
       : run_(mesh, part_bits), merging_(merging), benches_(1) {
@@ -42,6 +42,7 @@ class WindowEngine final : public Engine {
   }
 
   bool lists_touched() const override { return true; }
+  double doubt() const override { return run_.rounding.doubt; }
 
   void solve(const Problem& problem, DistanceField& field) override {
     field_ = &field;
@@ -83,7 +84,7 @@ class WindowEngine final : public Engine {
     run_.several = problem.sources.size() > 1;
     if (run_.several) run_.origins.resize(run_.values.size());
     if (run_.keeps_rays()) run_.rays.resize(run_.values.size());
-    run_.budget = budget_of(*problem.options, merging_ == Merging::Always ? 0 : least_share(outlook()));
+    run_.budget = budget_of(*problem.options, run_.rounding, merging_ == Merging::Always ? 0 : least_share(outlook()));
     run_.in_lists = !kWide && !run_.merges() && run_.radius > kShort * run_.structure.bucket_width;
     run_.bucket_width = run_.in_lists ? kExactBucket * run_.structure.bucket_width : run_.structure.bucket_width;
     run_.targets.place(problem.targets, run_.structure);
@@ -257,7 +258,7 @@ class WindowEngine final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging) {
+std::unique_ptr<NumberedEngine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging) {
   return std::make_unique<WindowEngine>(mesh, part_bits, merging);
 }
 

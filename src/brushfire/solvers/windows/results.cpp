@@ -132,7 +132,8 @@ void Results::write_targets() {
 }
 
 Reading Results::read(Real lower, Real upper, Real estimate, Index label) const {
-  return reading_of(lower, upper, estimate, run_.start_of(label), run_.budget.share, run_.problem->options->bound);
+  return reading_of(lower, upper, estimate, run_.start_of(label), run_.budget.share, run_.rounding,
+                    run_.problem->options->bound);
 }
 
 // With the mesh's own numbers. Sources come behind the vertices: here behind the mesh's, in the run behind the copies.

@@ -113,7 +113,7 @@ double typical_bucket(std::span<const WindowFace> faces) {
 // than all the rest.
 struct AngleSum {
   Real x = 1, y = 0;  // the sum's direction
-  Index turns = 0;      // that are full
+  Index turns = 0;    // that are full
 
   // An angle of these cosine and sine.
   void add(Real cosine, Real sine) {
@@ -239,6 +239,7 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
     face.has_target = false;
     face.usable = mesh.is_face_usable(order.faces[f]);
     const Real base = std::max({shape.length[0], shape.length[1], shape.length[2]});
+    unevenness.add(to_double(shape.length[0]), to_double(shape.length[1]), to_double(shape.length[2]));
     face.thin = face.double_area <= kThin * base * base;
     for (Index k = 0; k < 3; ++k) {
       face.length[k] = shape.length[k];

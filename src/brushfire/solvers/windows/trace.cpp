@@ -28,7 +28,7 @@ struct Position {
   Index halfedge;  // the next edge to cross, from inside of its face
   Vec2 source;     // the ray's root, in the halfedge's frame: below
   Vec2 point;      // where the ray is: above, or on the edge
-  Real length;   // so far
+  Real length;     // so far
 };
 
 class Tracer {
@@ -55,9 +55,7 @@ class Tracer {
   }
 
  private:
-  Frame frame_at(Index h) const {
-    return data_.frame_of_halfedge(h);
-  }
+  Frame frame_at(Index h) const { return data_.frame_of_halfedge(h); }
 
   Real value_of(Index v) const { return data_.vertices[v].value; }
 

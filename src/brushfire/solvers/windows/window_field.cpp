@@ -116,8 +116,7 @@ WindowField::Leg leg_without_ray(const WindowFieldData& data, const Found& found
   leg.vertex = root;
   leg.length = mesh.unit() * static_cast<double>(found.record.value - data.vertices[root].value);
   // Both are points of one face: for a point of an edge not always the one that it was given by.
-  const PointLocation here =
-      locate(mesh, vertex != kNoIndex ? vertex_point(mesh, vertex) : surface_point(found.at));
+  const PointLocation here = locate(mesh, vertex != kNoIndex ? vertex_point(mesh, vertex) : surface_point(found.at));
   const PointLocation there = locate(mesh, vertex_point(mesh, root));
   const Index face = common_face(mesh, here, there, here.face);
   leg.points = {{face, *weights_in(mesh, here, face)}, {face, *weights_in(mesh, there, face)}};

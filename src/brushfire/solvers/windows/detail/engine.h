@@ -17,16 +17,22 @@ inline constexpr unsigned kPartBits = 15;
 // always: then the proof of the tolerance can be put to the test on small meshes, too.
 enum class Merging : std::uint8_t { WherePays, Always };
 
-// Throws Error(TooLarge) for meshes of 2^31 vertices.
+// Throws Error(TooLarge) for meshes of 2^31 vertices. Works in doubles, and in wider numbers where doubles would not do
+// for the mesh and what is asked for.
 std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits = kPartBits,
                                      Merging merging = Merging::WherePays);
 
-// With these numbers, whatever the mesh; see real.h.
+// With numbers of one kind.
+class NumberedEngine : public Engine {
+ public:
+  // What rounding may do to the distance between neighbours on this mesh, as a share of it.
+  virtual double doubt() const = 0;
+};
 inline namespace in_doubles {
-std::unique_ptr<Engine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging);
+std::unique_ptr<NumberedEngine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging);
 }
 namespace in_double_doubles {
-std::unique_ptr<Engine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging);
+std::unique_ptr<NumberedEngine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging);
 }
 
 }  // namespace brushfire::detail

@@ -17,7 +17,7 @@ struct WindowColumns {
   Real *b0, *b1;  // the lit interval
   Real *x, *y;    // the virtual source
   Real* sigma;    // value there
-  Index* root;      // see Window::root
+  Index* root;    // see Window::root
 
   Window window(Index i) const {
     Window w;

@@ -21,13 +21,13 @@ enum class Beyond : std::uint8_t {
 };
 
 struct alignas(64) WindowFace : Feet<kWide> {
-  Real length[3];    // of halfedge k, mesh.unit()
-  Real double_area;  // mesh.unit()^2
-  Index vertex[3];     // corner k, where halfedge k starts
-  Index opposite[3];   // of halfedge k
-  Index waiting;       // the first of the windows that wait on the face's halfedges: see WindowLists
-  Beyond beyond[3];    // of halfedge k
-  bool usable : 1;     // three distinct vertices
+  Real length[3];     // of halfedge k, mesh.unit()
+  Real double_area;   // mesh.unit()^2
+  Index vertex[3];    // corner k, where halfedge k starts
+  Index opposite[3];  // of halfedge k
+  Index waiting;      // the first of the windows that wait on the face's halfedges: see WindowLists
+  Beyond beyond[3];   // of halfedge k
+  bool usable : 1;    // three distinct vertices
   bool has_target : 1;
   bool thin : 1;  // so low that light may go round through its neighbours for next to nothing: see WindowMemory
 };

@@ -12,6 +12,7 @@
 #include <brushfire/solvers/windows/detail/memory.h>
 #include <brushfire/solvers/windows/detail/queue.h>
 #include <brushfire/solvers/windows/detail/run_state.h>
+#include <brushfire/solvers/windows/detail/trails.h>
 
 #include <cstdint>
 #include <memory>
@@ -164,6 +165,8 @@ class alignas(kApart) Part {
   [[gnu::noinline]] void pass_at_once(Index h, const Window& w);
   [[gnu::noinline]] void insert_into_thin(Index h, Window w);
   void wait(WindowFace& f, Index h, const Window& w);
+  // Whether windows remember that they were in a face.
+  static bool leaves_trail(const WindowFace& f) { return kWide || f.thin; }
   void spread(Index h);
   std::span<Window> set_apart(std::span<Window> windows);
   std::span<Window> merged(std::span<Window> windows);
@@ -213,6 +216,7 @@ class alignas(kApart) Part {
   Index touched_ = 0;
   std::uint64_t updates_ = 0;
   WindowMemory memory_;
+  Trails trails_;  // of windows that cross thin faces (of all, in wide numbers)
   std::vector<KeptWindow> kept_;
   std::unordered_map<Index, Index> labels_;  // of roots in other parts, in runs with several sources
 };

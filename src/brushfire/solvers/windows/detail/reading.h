@@ -4,6 +4,7 @@
 
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/windows/detail/merge.h>
+#include <brushfire/solvers/windows/detail/rounding.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,19 +12,21 @@
 
 namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
-// The part of a tolerance that is kept back for rounding, so that the promise holds to the letter.
-inline constexpr double kRounding = 4e-12;
+// The part of a tolerance that is kept back for rounding, so that the promise holds to the letter: what rounding does
+// on even meshes, and what more it does on this one, to the nearest of vertices.
+inline constexpr double kReserve = 4e-12;
+inline double reserve_of(const Rounding& rounding) {
+  return std::max(kReserve, 2 * (rounding.relative + rounding.doubt));
+}
 // What adding the source's offset rounds away.
 inline constexpr double kOffsetRounding = 8 * std::numeric_limits<double>::epsilon();
-// The relative error of exact runs, measured to be 1e-13 at most.
-inline constexpr double kExactBound = 1e-12;
 
 // What merges may spend: nothing in exact runs, nor where it would be less than `least` of the length.
-inline MergeBudget budget_of(const DistanceOptions& options, double least) {
+inline MergeBudget budget_of(const DistanceOptions& options, const Rounding& rounding, double least) {
   if (options.method == Method::Exact) return {};
-  const double promise = options.tolerance - 1.01 * kRounding;
+  const double promise = options.tolerance - 1.01 * reserve_of(rounding);
   const double share = options.bound == Bound::Estimate ? 2 * promise : promise;
-  return {share < least ? 0 : share};
+  return {share < std::max(least, std::numeric_limits<double>::min()) ? 0 : share};
 }
 
 // A value, how far it may be off, and that as a share of the path's length.
@@ -32,21 +35,25 @@ struct Reading {
   double bound, relative;
 };
 
-// For lower <= distance <= upper of a place whose paths begin with the value `start`; `share`: of the budget, 0 where
-// the run was exact.
-inline Reading reading_of(Real lower, Real upper, Real estimate, Real start, double share, Bound wanted) {
-  const double of_offset = kOffsetRounding * std::abs(to_double(start));
+// For lower <= distance <= upper, to rounding, of a place whose paths begin with the value `start`; `share`: of the
+// budget, 0 where the run was exact. A bound that is wanted stays on its side whatever rounding did.
+inline Reading reading_of(Real lower, Real upper, Real estimate, Real start, double share, const Rounding& rounding,
+                          Bound wanted) {
   lower = std::min(lower, upper);  // in exact runs they differ by rounding
   const Real length = lower - start;
-  if (!(share > 0)) return {lower, kExactBound * to_double(length) + of_offset, kExactBound};
+  const bool exact = !(share > 0);
+  if (exact) upper = lower;
+  const double rounded = rounding.of(to_double(length)) + kOffsetRounding * std::abs(to_double(start));
   Real value = lower;
   switch (wanted) {
     case Bound::Lower:
+      value = length > 0 ? std::max(lower - rounded, start) : lower;
       break;
     case Bound::Upper:
-      value = upper;
+      value = upper + rounded;
       break;
     case Bound::Estimate: {
+      if (exact) break;
       // Anywhere within t of both ends: there is such a place because upper - lower <= 2 t length.
       const Real reach = 0.5 * share * length;
       const Real least = std::min(upper - reach, upper), most = std::max(lower + reach, lower);
@@ -54,8 +61,8 @@ inline Reading reading_of(Real lower, Real upper, Real estimate, Real start, dou
       break;
     }
   }
-  const double bound = to_double(std::max(value - lower, upper - value) + kRounding * length);
-  return {value, bound + of_offset, length > 0 ? bound / to_double(length) : 0};
+  const double bound = to_double(std::max(value - lower, upper - value)) + rounded;
+  return {value, bound, length > 0 ? (bound - kOffsetRounding * std::abs(to_double(start))) / to_double(length) : 0};
 }
 
 }  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

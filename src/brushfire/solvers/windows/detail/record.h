@@ -35,7 +35,7 @@ struct KeptWindow {
 struct WindowFieldData {
   Mesh mesh;
   std::vector<LocatedSource> sources;
-  Real shift = 0;   // what was added to every value so that none is negative
+  Real shift = 0;     // what was added to every value so that none is negative
   bool exact = true;  // no merging: rays lead back to roots
   bool all_points = false;
   std::vector<PointRecord> vertices;    // [vertex_count]; value NaN: farther than the run went

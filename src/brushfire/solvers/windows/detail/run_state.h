@@ -18,7 +18,8 @@ inline constexpr Index kFewTouched = 4;
 // While parts are at work, each writes only to entries of its own vertices and faces and reads no other part's entries
 // of the arrays by vertex; everything else stands still.
 struct RunState {
-  RunState(const Mesh& mesh, unsigned part_bits) : structure(mesh, part_bits) {}
+  RunState(const Mesh& mesh, unsigned part_bits)
+      : structure(mesh, part_bits), rounding(rounding_of(structure.unevenness)) {}
 
   WindowStructure structure;
   std::vector<VertexValues> values;  // [vertex_count]
@@ -30,9 +31,10 @@ struct RunState {
 
   const Problem* problem = nullptr;
   MergeBudget budget;
-  bool several = false;       // sources
-  bool in_lists = false;      // windows travel in lists
-  double bucket_width = 1;    // of the queues
+  Rounding rounding;
+  bool several = false;     // sources
+  bool in_lists = false;    // windows travel in lists
+  double bucket_width = 1;  // of the queues
   Real shift = 0;           // added to all values, so that none is negative
   Real radius = kInfinity;  // nothing beyond is wanted
 

@@ -4,6 +4,7 @@
 #include <brushfire/mesh/locality_order.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/windows/detail/face.h>
+#include <brushfire/solvers/windows/detail/rounding.h>
 
 #include <span>
 #include <utility>
@@ -61,6 +62,7 @@ struct WindowStructure {
   std::vector<Copy> copies;         // ascending
   unsigned part_bits = 0;
   double bucket_width = 1;    // half a typical edge
+  Unevenness unevenness;      // of the faces' edges
   double typical_defect = 0;  // the median of |2 pi - angles around a vertex|, of inner vertices
 
  private:

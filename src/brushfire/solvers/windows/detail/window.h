@@ -23,13 +23,14 @@ enum class WindowKind : std::uint32_t { Circular, Linear };
 // a proven upper bound (0 in exact runs).
 struct Window {
   Real b0 = 0, b1 = 0;  // the lit interval, 0 <= b0 < b1 <= length
-  Vec2 source;            // circular: the virtual source; linear: the unit vector towards it. y < 0, or see is_lit()
+  Vec2 source;          // circular: the virtual source; linear: the unit vector towards it. y < 0, or see is_lit()
   Real sigma = 0;       // circular: value at the virtual source; linear: value at the frame's origin
   Real d0 = 0, d1 = 0;  // values at b0 and b1
   Real slack = 0;       // a real path of length <= value + slack leads to every point of the interval
-  float lift = 0;  // by how much the distance is expected to exceed the value, in [0, slack]; no proof hangs on it
+  float lift = 0;       // by how much the distance is expected to exceed the value, in [0, slack]; no proof hangs on it
   Index root = kNoIndex;  // where the light comes from: vertex, or vertex count + position in the list of sources
   WindowKind kind = WindowKind::Circular;
+  Index trail = kNoIndex;  // which faces it has crossed: see Trails
 };
 
 // Weight of the frame's origin in the source's coordinates: moving the origin moves a point and leaves a direction.
@@ -69,7 +70,7 @@ inline Crossing crossing(const Window& w, Vec2 p) {
 // How a window reaches a point p of the face above.
 struct Arrival {
   Real value =
-      kInfinity;      // length of the path: straight where p is seen, bent at the nearer end of the interval if not
+      kInfinity;    // length of the path: straight where p is seen, bent at the nearer end of the interval if not
   Real detour = 0;  // by how much the bend makes it longer than the straight line; 0 where p is seen
 };
 [[gnu::always_inline]] inline Arrival arrival(const Window& w, Vec2 p) {
