@@ -408,6 +408,37 @@ Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> ve
   return Mesh(std::move(data));
 }
 
+Mesh Mesh::with_faces(std::span<const Index> kept) const {
+  const Arrays& old = *data_->arrays;
+  auto arrays = std::make_shared<Arrays>();
+  arrays->vertex_count = old.vertex_count;
+  arrays->has_positions = old.has_positions;
+  arrays->bounds = old.bounds;
+  arrays->positions = old.positions;
+  arrays->faces.resize(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    arrays->faces[i] = old.faces[kept[i]];
+    for (std::size_t k = 0; k < 3 && !has_positions(); ++k) {
+      arrays->input_lengths.push_back(unit() * lengths()[3 * std::size_t{kept[i]} + k]);
+    }
+  }
+  auto data = std::make_shared<Data>();
+  data->arrays = std::move(arrays);
+  data->unit.set(unit());
+  // A slit is named by any of the halfedges over its edge.
+  for (const Index slit : data_->slits) {
+    const Index v = from(slit), w = to(slit);
+    for (const Index corner : corners(v)) {
+      const auto i = std::lower_bound(kept.begin(), kept.end(), face_of(corner));
+      if (i == kept.end() || *i != face_of(corner)) continue;
+      const Index h = 3 * static_cast<Index>(i - kept.begin()) + corner % 3;
+      if (to(corner) == w) data->slits.push_back(h);
+      if (from(previous(corner)) == w) data->slits.push_back(previous(h));
+    }
+  }
+  return Mesh(std::move(data));
+}
+
 Index Mesh::vertex_count() const noexcept { return data_->arrays->vertex_count; }
 Index Mesh::face_count() const noexcept { return static_cast<Index>(data_->arrays->faces.size()); }
 bool Mesh::has_positions() const noexcept { return data_->arrays->has_positions; }

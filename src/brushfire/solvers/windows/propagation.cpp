@@ -7,6 +7,7 @@
 // is delivered in a fixed order: the numbers are the same for any number of threads.
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/detail/crew.h>
+#include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/windows/detail/engine.h>
 #include <brushfire/solvers/windows/detail/least_budget.h>
 #include <brushfire/solvers/windows/detail/part.h>
@@ -41,6 +42,7 @@ class WindowEngine final : public Engine {
     for (Index p = 0; p < run_.structure.part_count(); ++p) parts_.emplace_back(run_, p);
   }
 
+  bool has_books() const { return run_.structure.has_books; }
   bool lists_touched() const override { return true; }
 
   void solve(const Problem& problem, DistanceField& field) override {
@@ -259,7 +261,15 @@ class WindowEngine final : public Engine {
 
 std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits, Merging merging) {
   if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
-  return std::make_unique<WindowEngine>(mesh, part_bits, merging);
+  auto engine = std::make_unique<WindowEngine>(mesh, part_bits, merging);
+  // Copies of faces are looked for where their edges have been met: other meshes pay nothing for it. (Two copies on
+  // their own are a flat bag, and no harm.)
+  std::shared_ptr<const Sheets> sheets = engine->has_books() ? Sheets::of(mesh) : nullptr;
+  if (!sheets) return engine;
+  engine.reset();
+  return make_on_one_sheet(std::move(sheets), [part_bits, merging](const Mesh& single) -> std::unique_ptr<Engine> {
+    return std::make_unique<WindowEngine>(single, part_bits, merging);
+  });
 }
 
 }  // namespace brushfire::detail

@@ -245,7 +245,13 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
       }
     }
   }
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) faces[h / 3].beyond[h % 3] = beyond(faces, opposite, h);
+  bool any_several = false;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    const Beyond there = beyond(faces, opposite, h);
+    any_several |= there == Beyond::Several;
+    faces[h / 3].beyond[h % 3] = there;
+  }
+  for (Index h = 0; h < mesh.halfedge_count() && any_several && !has_books; ++h) has_books = opposite[opposite[h]] != h;
   for (Index v = 0; v < n; ++v) {
     if (links[v] == Link::Other || around[v].is_uneven()) bend[v] = Bend::Full;
     if (bend[v] == Bend::Full) continue;

@@ -60,6 +60,7 @@ struct WindowStructure {
   std::vector<Index> first_vertex;  // [parts + 1]
   std::vector<Copy> copies;         // ascending
   unsigned part_bits = 0;
+  bool has_books = false;     // some edge has three faces or more
   double bucket_width = 1;    // half a typical edge
   double typical_defect = 0;  // the median of |2 pi - angles around a vertex|, of inner vertices
 
