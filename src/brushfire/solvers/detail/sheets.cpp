@@ -23,12 +23,15 @@ std::array<Index, 3> sorted(Face t) {
   return t;
 }
 
-// The lowest of the faces over the same three vertices, for every face. Faces that name a vertex twice have no copies:
-// they conduct along their edges only.
-std::vector<Index> lowest_copies(const Mesh& mesh) {
+// The lowest of the faces over the same three vertices, for every face, or of those of them that are not `apart`. Faces
+// that name a vertex twice have no copies: they conduct along their edges only.
+std::vector<Index> lowest_copies(const Mesh& mesh, std::span<const Index> apart) {
+  const auto is_single = [&](Index f) {
+    return !mesh.is_face_usable(f) || std::binary_search(apart.begin(), apart.end(), f);
+  };
   std::vector<std::size_t> begin(std::size_t{mesh.vertex_count()} + 1, 0);
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.is_face_usable(f)) ++begin[sorted(mesh.faces()[f])[0]];
+    if (!is_single(f)) ++begin[sorted(mesh.faces()[f])[0]];
   }
   std::size_t sum = 0;
   for (std::size_t& b : begin) b = std::exchange(sum, sum + b);
@@ -36,7 +39,7 @@ std::vector<Index> lowest_copies(const Mesh& mesh) {
   std::vector<Index> lowest(mesh.face_count());
   for (Index f = 0; f < mesh.face_count(); ++f) {
     lowest[f] = f;
-    if (!mesh.is_face_usable(f)) continue;
+    if (is_single(f)) continue;
     const std::array<Index, 3> v = sorted(mesh.faces()[f]);
     faces[begin[v[0]]++] = {v[1], v[2], f};  // afterwards begin[v] is where the faces of v end
   }
@@ -115,22 +118,21 @@ class OneSheet final : public Engine {
 
 std::shared_ptr<const Sheets> Sheets::of(const Mesh& mesh, std::span<const Index> apart) {
   if (mesh.has_slits() && !mesh.has_positions()) return nullptr;
-  std::vector<Index> lowest = lowest_copies(mesh);
+  const std::vector<Index> lowest = lowest_copies(mesh, apart);
   std::shared_ptr<Sheets> sheets(new Sheets(mesh));
   std::vector<bool>& is_copied = sheets->is_copied_;
   sheets->number_.resize(mesh.face_count());
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    const bool stays = lowest[f] == f || std::binary_search(apart.begin(), apart.end(), f);
-    if (lowest[f] != f) is_copied[sheets->number_[lowest[f]]] = true;
-    if (!stays) {
+    if (lowest[f] != f) {
       sheets->number_[f] = sheets->number_[lowest[f]];
+      is_copied[sheets->number_[f]] = true;
       continue;
     }
     sheets->number_[f] = static_cast<Index>(sheets->face_.size());
     sheets->face_.push_back(f);
-    is_copied.push_back(lowest[f] != f);
+    is_copied.push_back(false);
   }
-  if (sheets->face_.size() == mesh.face_count() && apart.empty()) return nullptr;
+  if (sheets->face_.size() == mesh.face_count() && apart.empty()) return nullptr;  // no face has a copy
   sheets->single_ = mesh.with_faces(sheets->face_);
   return sheets;
 }

@@ -32,6 +32,7 @@ void Part::forget() {
   touched_ = 0;
   updates_ = 0;
   memory_.clear();
+  spines_.clear();
   kept_.clear();
   labels_.clear();
   if (!traffic_) return;
@@ -227,6 +228,7 @@ void Part::hear(Index v, double upper, double estimate) {
 
 void Part::receive(const Mail::OneWindow& window, Workbench& bench) {
   bench_ = &bench;
+  if (run_->structure.is_spine(window.halfedge)) return insert_into_rest(window.halfedge, window.window);
   insert_one(window.halfedge, window.window, window.origin);
 }
 

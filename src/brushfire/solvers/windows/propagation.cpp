@@ -42,7 +42,7 @@ class WindowEngine final : public Engine {
     for (Index p = 0; p < run_.structure.part_count(); ++p) parts_.emplace_back(run_, p);
   }
 
-  bool has_books() const { return run_.structure.has_books; }
+  bool has_spines() const { return run_.structure.has_spines; }
   bool lists_touched() const override { return true; }
 
   void solve(const Problem& problem, DistanceField& field) override {
@@ -264,7 +264,7 @@ std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits, Mergi
   auto engine = std::make_unique<WindowEngine>(mesh, part_bits, merging);
   // Copies of faces are looked for where their edges have been met: other meshes pay nothing for it. (Two copies on
   // their own are a flat bag, and no harm.)
-  std::shared_ptr<const Sheets> sheets = engine->has_books() ? Sheets::of(mesh) : nullptr;
+  std::shared_ptr<const Sheets> sheets = engine->has_spines() ? Sheets::of(mesh) : nullptr;
   if (!sheets) return engine;
   engine.reset();
   return make_on_one_sheet(std::move(sheets), [part_bits, merging](const Mesh& single) -> std::unique_ptr<Engine> {

@@ -22,7 +22,25 @@ namespace {
 struct Connectivity {
   UninitializedArray<Index> opposite;  // [halfedge_count] as Mesh::opposite()
   std::vector<Link> links;             // [vertex_count]
+  std::vector<WindowStructure::Crowd> crowds;
 };
+
+// Corners that make a crowd.
+constexpr Index kCrowd = 64;
+// At more, shortest ways in the link of a vertex take longer than light that goes everywhere.
+constexpr Index kManyFaces = 4096;
+
+std::vector<WindowStructure::Crowd> crowds_of(std::span<const Index> offset, std::span<const Index> corner,
+                                              const LocalityOrder& order) {
+  std::vector<WindowStructure::Crowd> crowds;
+  for (std::size_t v = 0; v + 1 < offset.size(); ++v) {
+    if (offset[v + 1] - offset[v] <= kCrowd) continue;
+    const std::span<const Index> its = corner.subspan(offset[v], offset[v + 1] - offset[v]);
+    crowds.push_back({order.vertices[v], {its.begin(), its.end()}});
+  }
+  std::sort(crowds.begin(), crowds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+  return crowds;
+}
 
 // Found among renumbered faces: what is near on the surface should be near in memory.
 Connectivity connectivity_of(const Mesh& mesh, const LocalityOrder& order) {
@@ -32,7 +50,9 @@ Connectivity connectivity_of(const Mesh& mesh, const LocalityOrder& order) {
     const Mesh inner = mesh.renumbered(order.vertices, order.vertex_rank, face_rank);
     const auto opposite = inner.opposite();
     const auto links = inner.links();
-    return {{opposite.begin(), opposite.end()}, {links.begin(), links.end()}};
+    return {{opposite.begin(), opposite.end()},
+            {links.begin(), links.end()},
+            crowds_of(inner.corner_offsets(), inner.all_corners(), order)};
   }
   UninitializedArray<Face> faces(mesh.face_count());
   populate(faces);
@@ -43,7 +63,7 @@ Connectivity connectivity_of(const Mesh& mesh, const LocalityOrder& order) {
   const VertexCorners corners = build_corners(mesh.vertex_count(), faces);
   UninitializedArray<Index> opposite = build_opposite(faces, corners);
   std::vector<Link> links = build_links(faces, corners, opposite);
-  return {std::move(opposite), std::move(links)};
+  return {std::move(opposite), std::move(links), crowds_of(corners.offset, corners.corner, order)};
 }
 
 // The faces of a mesh in another order, and what comes soon fetched ahead: it may be anywhere.
@@ -213,9 +233,30 @@ Index WindowStructure::copy_in(Index part, Index v) const {
   return kNoIndex;
 }
 
+std::span<const Index> WindowStructure::corners_of(Index v, std::vector<Index>& room) const {
+  const Index outer = outer_vertex(v);
+  const auto c = std::lower_bound(crowds.begin(), crowds.end(), outer,
+                                  [](const Crowd& crowd, Index x) { return crowd.vertex < x; });
+  if (c != crowds.end() && c->vertex == outer) return c->corners;
+  room.clear();
+  for (const Index corner : mesh.corners(outer)) room.push_back(inner_halfedge(corner));
+  std::sort(room.begin(), room.end());
+  return room;
+}
+
+std::span<const Index> WindowStructure::corners_of(Index v, Index part, std::vector<Index>& room) const {
+  const std::span<const Index> all = corners_of(v, room);
+  const auto begin_of = [&](Index p) {
+    return std::lower_bound(all.begin(), all.end(), p,
+                            [this](Index h, Index number) { return part_of_face(h / 3) < number; });
+  };
+  return {begin_of(part), begin_of(part + 1)};
+}
+
 WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(locality_order(m)), part_bits(bits) {
   const Index n = mesh.vertex_count();
-  const auto [opposite, links] = connectivity_of(mesh, order);
+  auto [opposite, links, its_crowds] = connectivity_of(mesh, order);
+  crowds = std::move(its_crowds);
   const FacesInOrder outer(mesh, order);
   faces.resize(mesh.face_count());
   bend.assign(n, Bend::None);
@@ -251,12 +292,18 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
     any_several |= there == Beyond::Several;
     faces[h / 3].beyond[h % 3] = there;
   }
-  for (Index h = 0; h < mesh.halfedge_count() && any_several && !has_books; ++h) has_books = opposite[opposite[h]] != h;
+  for (Index h = 0; h < mesh.halfedge_count() && any_several && !has_spines; ++h)
+    has_spines = opposite[opposite[h]] != h;
   for (Index v = 0; v < n; ++v) {
-    if (links[v] == Link::Other || around[v].is_uneven()) bend[v] = Bend::Full;
+    if (around[v].is_uneven()) bend[v] = Bend::Full;
     if (bend[v] == Bend::Full) continue;
+    if (links[v] == Link::Other) bend[v] = Bend::Fans;
     if (links[v] == Link::Circle && around[v].angles.exceeds_two_pi()) bend[v] = Bend::Saddle;
     if (links[v] == Link::Arc && around[v].angles.exceeds_pi()) bend[v] = Bend::Boundary;
+  }
+  for (const Crowd& c : crowds) {
+    Bend& its = bend[order.vertex_rank[c.vertex]];
+    if (its == Bend::Fans && c.corners.size() > kManyFaces) its = Bend::Full;
   }
   bucket_width = typical_bucket(faces);
   typical_defect = typical_defect_of(around, bend, links);
