@@ -36,7 +36,7 @@ std::vector<WindowStructure::Crowd> crowds_of(std::span<const Index> offset, std
   for (std::size_t v = 0; v + 1 < offset.size(); ++v) {
     if (offset[v + 1] - offset[v] <= kCrowd) continue;
     const std::span<const Index> its = corner.subspan(offset[v], offset[v + 1] - offset[v]);
-    crowds.push_back({order.vertices[v], {its.begin(), its.end()}});
+    crowds.push_back({order.vertices[v], {its.begin(), its.end()}, {}});
   }
   std::sort(crowds.begin(), crowds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
   return crowds;
@@ -195,10 +195,14 @@ double angle_at(const WindowFace& f, Index i) {
 // In a part faces are in the order of their least vertices, those of one vertex in the mesh's order.
 Index WindowStructure::inner_face(Index f) const {
   const Face& t = mesh.faces()[f];
-  Index first = inner_vertex(t[0]);  // a copy of the first corner, in each of the parts that may hold the face
+  // A copy of a corner, in each of the parts that may hold the face: of one that is in one part only, if there is any.
+  Index k = 0;
+  while (k < 2 && next_copy(inner_vertex(t[k])) != kNoIndex) ++k;
+  Index first = inner_vertex(t[k]);
   while (true) {
     const Index part = part_of_vertex(first);
-    const std::array<Index, 3> v{first, copy_in(part, inner_vertex(t[1])), copy_in(part, inner_vertex(t[2]))};
+    const std::array<Index, 3> v{first, copy_in(part, inner_vertex(t[next3(k)])),
+                                 copy_in(part, inner_vertex(t[previous3(k)]))};
     const Index least = std::min({v[0], v[1], v[2]});
     const auto key = [&](Index inner) {
       const WindowFace& face = faces[inner];
@@ -225,6 +229,8 @@ Index WindowStructure::next_copy(Index v) const {
 }
 
 Index WindowStructure::copy_in(Index part, Index v) const {
+  if (is_in(part, v)) return v;
+  if (const Crowd* crowd = crowd_at(v)) return crowd->copies.empty() ? kNoIndex : crowd->copies[part];
   for (Index c = v; c != kNoIndex;) {
     if (is_in(part, c)) return c;
     c = next_copy(c);
@@ -233,13 +239,18 @@ Index WindowStructure::copy_in(Index part, Index v) const {
   return kNoIndex;
 }
 
-std::span<const Index> WindowStructure::corners_of(Index v, std::vector<Index>& room) const {
+const WindowStructure::Crowd* WindowStructure::crowd_at(Index v) const {
+  if (crowds.empty()) return nullptr;
   const Index outer = outer_vertex(v);
   const auto c = std::lower_bound(crowds.begin(), crowds.end(), outer,
                                   [](const Crowd& crowd, Index x) { return crowd.vertex < x; });
-  if (c != crowds.end() && c->vertex == outer) return c->corners;
+  return c != crowds.end() && c->vertex == outer ? &*c : nullptr;
+}
+
+std::span<const Index> WindowStructure::corners_of(Index v, std::vector<Index>& room) const {
+  if (const Crowd* crowd = crowd_at(v)) return crowd->corners;
   room.clear();
-  for (const Index corner : mesh.corners(outer)) room.push_back(inner_halfedge(corner));
+  for (const Index corner : mesh.corners(outer_vertex(v))) room.push_back(inner_halfedge(corner));
   std::sort(room.begin(), room.end());
   return room;
 }
@@ -372,6 +383,16 @@ void WindowStructure::close_rings(const std::vector<std::pair<Index, Index>>& li
   copies.erase(std::unique(copies.begin(), copies.end(), same), copies.end());
   for (Copy& c : copies) {
     if (c.next == kNoIndex) c.next = order.vertex_rank[order.vertices[c.vertex]];
+  }
+  for (Crowd& crowd : crowds) {
+    const Index first = order.vertex_rank[crowd.vertex];
+    if (next_copy(first) == kNoIndex) continue;
+    crowd.copies.assign(part_count(), kNoIndex);
+    Index c = first;
+    do {
+      crowd.copies[part_of_vertex(c)] = c;
+      c = next_copy(c);
+    } while (c != first);
   }
 }
 

@@ -51,6 +51,7 @@ struct WindowStructure {
   struct Crowd {
     Index vertex;
     std::vector<Index> corners;
+    std::vector<Index> copies;  // [parts] where it has several; kNoIndex: none there
   };
   // Whether these are copies of the same vertex.
   bool is_same(Index v, Index w) const { return v == w || (!copies.empty() && outer_vertex(v) == outer_vertex(w)); }
@@ -82,6 +83,7 @@ struct WindowStructure {
   double typical_defect = 0;  // the median of |2 pi - angles around a vertex|, of inner vertices
 
  private:
+  const Crowd* crowd_at(Index v) const;
   void cut_into_parts();
   void renumber(const std::vector<Index>& places);
   void close_rings(const std::vector<std::pair<Index, Index>>& links);
