@@ -239,6 +239,9 @@ struct Mesh::Data {
     Index next, faces;
   };
   EdgeFaces find_opposite(Index h) const;
+  EdgeFaces ring_of(Index h) const;  // from the array
+  // Where as many faces meet at both ends, looking for one of them again and again would take longer than the array.
+  static constexpr Index kCrowd = 64;
 };
 
 namespace {
@@ -309,6 +312,13 @@ Geometry Mesh::Data::geometry_from_lengths(const std::vector<double>& input_leng
   return g;
 }
 
+Mesh::Data::EdgeFaces Mesh::Data::ring_of(Index h) const {
+  const UninitializedArray<Index>& ring = get_opposite();
+  EdgeFaces found{ring[h], 1};
+  for (Index g = ring[h]; g != h; g = ring[g]) ++found.faces;
+  return found;
+}
+
 // The halfedges of an edge ascend around its ring, and with the corners at either of its ends.
 Mesh::Data::EdgeFaces Mesh::Data::find_opposite(Index h) const {
   EdgeFaces found{h, 1};
@@ -316,7 +326,11 @@ Mesh::Data::EdgeFaces Mesh::Data::find_opposite(Index h) const {
   const Face& own = arrays->faces[f];
   if (own[0] == own[1] || own[1] == own[2] || own[2] == own[0]) return found;
   const detail::VertexCorners& all = get_corners();
-  const Index v = own[corner], w = own[corner == 2 ? 0 : corner + 1];
+  Index v = own[corner], w = own[corner == 2 ? 0 : corner + 1];
+  if (all.count(v) > kCrowd) {
+    if (all.count(w) > kCrowd) return ring_of(h);
+    std::swap(v, w);
+  }
   Index lowest = h, higher = kNoIndex;
   for (Index i = all.offset[v]; i < all.offset[v + 1]; ++i) {
     const Index other_face = face_of(all.corner[i]);

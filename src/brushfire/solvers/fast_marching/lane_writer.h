@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -119,10 +120,18 @@ class LaneWriter {
     Index block, lane;
   };
 
+  static constexpr Index kLongRing = 8;  // blocks: the last one is remembered
+
   // In the last block of v.
   Lane free_lane(Index v) const {
-    Index last = v;
-    for (Index i = heads_[v].more; i != 0; i = next_[i - none_]) last = i;
+    Index last = v, blocks = 0;
+    for (Index i = heads_[v].more; i != 0; i = next_[i - none_]) {
+      last = i;
+      if (++blocks != kLongRing) continue;
+      const auto known = last_blocks_.find(v);
+      if (known != last_blocks_.end()) last = i = known->second;
+    }
+    if (blocks >= kLongRing) last_blocks_[v] = last;
     return {last, free_lane_of(last)};
   }
   Index free_lane_of(Index block) const {
@@ -220,7 +229,8 @@ class LaneWriter {
   UninitializedArray<LaneLinks> links_;      // [blocks]
   UninitializedArray<typename Rings<T>::Head> heads_;
   std::vector<Index> next_;
-  PagesAhead first_pages_, next_pages_;  // of the first blocks, and of the others
+  mutable std::unordered_map<Index, Index> last_blocks_;  // of vertices with long rings, as far as they were gone along
+  PagesAhead first_pages_, next_pages_;                   // of the first blocks, and of the others
 };
 
 }  // namespace brushfire::detail
