@@ -127,11 +127,14 @@ class LaneWriter {
     Index last = v, blocks = 0;
     for (Index i = heads_[v].more; i != 0; i = next_[i - none_]) {
       last = i;
-      if (++blocks != kLongRing) continue;
-      const auto known = last_blocks_.find(v);
-      if (known != last_blocks_.end()) last = i = known->second;
+      if (++blocks == kLongRing) return far_lane(v, i);
     }
-    if (blocks >= kLongRing) last_blocks_[v] = last;
+    return {last, free_lane_of(last)};
+  }
+  // From block i on, or from where the last search has ended.
+  [[gnu::noinline]] Lane far_lane(Index v, Index i) const {
+    Index& last = last_blocks_.try_emplace(v, i).first->second;
+    while (next_[last - none_] != 0) last = next_[last - none_];
     return {last, free_lane_of(last)};
   }
   Index free_lane_of(Index block) const {

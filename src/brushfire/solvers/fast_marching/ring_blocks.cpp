@@ -102,7 +102,7 @@ class RingBuilder {
   // For UnfoldedCorners.
   friend class UnfoldedCorners<T>;
   void prefetch(Index v) const { lanes_.prefetch_ring(v); }
-  void add_unfolded(Index v, const Corner& corner) {
+  BRUSHFIRE_INLINE void add_unfolded(Index v, const Corner& corner) {
     if (((corner.a ^ v) | (corner.b ^ v)) >> part_shift_ != 0) at_border_.push_back(v);
     if (v < begun_) {
       lanes_.add_unfolded(v, corner);
