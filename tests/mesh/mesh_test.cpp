@@ -264,5 +264,57 @@ TEST(Mesh, LengthPrecisionBoundsWhatLengthsAloneLose) {
   }
 }
 
+TEST(Mesh, WithFacesKeepsVerticesUnitLengthsAndSlits) {
+  const Mesh plane = shapes::plane(4, 4).mesh();
+  std::vector<std::array<double, 3>> lengths;
+  for (Index f = 0; f < plane.face_count(); ++f) {
+    lengths.push_back({plane.unit() * plane.lengths()[3 * f], plane.unit() * plane.lengths()[3 * f + 1],
+                       plane.unit() * plane.lengths()[3 * f + 2]});
+  }
+  const Mesh from_lengths = Mesh::from_lengths(plane.vertex_count(), plane.faces(), lengths);
+  const std::vector<Index> kept{0, 1, 4, 5, 6, 7, 20};
+  Index inner = 0;  // an edge between two faces that stay
+  while (plane.opposite()[inner] == inner || plane.opposite()[inner] / 3 != 1) ++inner;
+  for (const Mesh& mesh : {plane, from_lengths, plane.with_slits(std::array<Index, 1>{inner})}) {
+    const Mesh some = mesh.with_faces(kept);
+    EXPECT_EQ(some.vertex_count(), mesh.vertex_count());
+    EXPECT_EQ(some.unit(), mesh.unit());
+    EXPECT_EQ(some.has_positions(), mesh.has_positions());
+    EXPECT_EQ(some.has_slits(), mesh.has_slits());
+    ASSERT_EQ(some.face_count(), kept.size());
+    for (Index f = 0; f < some.face_count(); ++f) {
+      EXPECT_EQ(some.faces()[f], mesh.faces()[kept[f]]);
+      EXPECT_EQ(some.double_areas()[f], mesh.double_areas()[kept[f]]);
+      for (Index k = 0; k < 3; ++k) EXPECT_EQ(some.lengths()[3 * f + k], mesh.lengths()[3 * kept[f] + k]);
+    }
+    EXPECT_EQ(some.opposite()[0] == 0, mesh.opposite()[0] == 0);
+  }
+}
+
+// A slit may be named by a face that goes; the others at its edge stay parted.
+TEST(Mesh, WithFacesKeepsSlitsThatAreNamedByOtherFaces) {
+  const Mesh book(std::vector<Vec3>{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
+                  std::vector<Face>{{0, 1, 2}, {0, 1, 3}, {1, 0, 4}});
+  const std::vector<Index> kept{1, 2};
+  EXPECT_EQ(book.with_faces(kept).opposite()[0], 3u);
+  EXPECT_EQ(book.with_slits(std::array<Index, 1>{0}).with_faces(kept).opposite()[0], 0u);
+}
+
+TEST(Mesh, OppositeIsFoundAtCrowdedVerticesAsInTheArray) {
+  std::vector<Vec3> positions{{0, 0, 0}, {0, 0, 1}};
+  std::vector<Face> faces;
+  for (Index k = 0; k < 200; ++k) {
+    positions.push_back({std::cos(0.03 * k), std::sin(0.03 * k), 0.5});
+    faces.push_back(k % 2 == 0 ? Face{0, 1, k + 2} : Face{k + 2, 0, k + 1});
+  }
+  const Mesh looked_up(positions, faces), built(positions, faces);
+  const auto opposite = built.opposite();
+  for (Index h = 0; h < built.halfedge_count(); ++h) {
+    const Mesh fresh(positions, faces);
+    ASSERT_EQ(h % 7 == 0 ? fresh.opposite(h) : looked_up.opposite(h), opposite[h]);
+    ASSERT_EQ(fresh.neighbour(h), built.neighbour(h));
+  }
+}
+
 }  // namespace
 }  // namespace brushfire

@@ -239,6 +239,9 @@ struct Mesh::Data {
     Index next, faces;
   };
   EdgeFaces find_opposite(Index h) const;
+  EdgeFaces ring_of(Index h) const;  // from the array
+  // Where as many faces meet at both ends, looking for one of them again and again would take longer than the array.
+  static constexpr Index kCrowd = 64;
 };
 
 namespace {
@@ -309,6 +312,13 @@ Geometry Mesh::Data::geometry_from_lengths(const std::vector<double>& input_leng
   return g;
 }
 
+Mesh::Data::EdgeFaces Mesh::Data::ring_of(Index h) const {
+  const UninitializedArray<Index>& ring = get_opposite();
+  EdgeFaces found{ring[h], 1};
+  for (Index g = ring[h]; g != h; g = ring[g]) ++found.faces;
+  return found;
+}
+
 // The halfedges of an edge ascend around its ring, and with the corners at either of its ends.
 Mesh::Data::EdgeFaces Mesh::Data::find_opposite(Index h) const {
   EdgeFaces found{h, 1};
@@ -316,7 +326,11 @@ Mesh::Data::EdgeFaces Mesh::Data::find_opposite(Index h) const {
   const Face& own = arrays->faces[f];
   if (own[0] == own[1] || own[1] == own[2] || own[2] == own[0]) return found;
   const detail::VertexCorners& all = get_corners();
-  const Index v = own[corner], w = own[corner == 2 ? 0 : corner + 1];
+  Index v = own[corner], w = own[corner == 2 ? 0 : corner + 1];
+  if (all.count(v) > kCrowd) {
+    if (all.count(w) > kCrowd) return ring_of(h);
+    std::swap(v, w);
+  }
   Index lowest = h, higher = kNoIndex;
   for (Index i = all.offset[v]; i < all.offset[v + 1]; ++i) {
     const Index other_face = face_of(all.corner[i]);
@@ -405,6 +419,37 @@ Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> ve
   data->arrays = std::move(arrays);
   data->unit.set(unit());
   for (const Index h : data_->slits) data->slits.push_back(3 * face_rank[h / 3] + h % 3);
+  return Mesh(std::move(data));
+}
+
+Mesh Mesh::with_faces(std::span<const Index> kept) const {
+  const Arrays& old = *data_->arrays;
+  auto arrays = std::make_shared<Arrays>();
+  arrays->vertex_count = old.vertex_count;
+  arrays->has_positions = old.has_positions;
+  arrays->bounds = old.bounds;
+  arrays->positions = old.positions;
+  arrays->faces.resize(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    arrays->faces[i] = old.faces[kept[i]];
+    for (std::size_t k = 0; k < 3 && !has_positions(); ++k) {
+      arrays->input_lengths.push_back(unit() * lengths()[3 * std::size_t{kept[i]} + k]);
+    }
+  }
+  auto data = std::make_shared<Data>();
+  data->arrays = std::move(arrays);
+  data->unit.set(unit());
+  // A slit is named by any of the halfedges over its edge.
+  for (const Index slit : data_->slits) {
+    const Index v = from(slit), w = to(slit);
+    for (const Index corner : corners(v)) {
+      const auto i = std::lower_bound(kept.begin(), kept.end(), face_of(corner));
+      if (i == kept.end() || *i != face_of(corner)) continue;
+      const Index h = 3 * static_cast<Index>(i - kept.begin()) + corner % 3;
+      if (to(corner) == w) data->slits.push_back(h);
+      if (from(previous(corner)) == w) data->slits.push_back(previous(h));
+    }
+  }
   return Mesh(std::move(data));
 }
 

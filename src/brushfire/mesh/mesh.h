@@ -71,6 +71,9 @@ class Mesh {
   Index face_count() const noexcept;
   Index halfedge_count() const noexcept { return 3 * face_count(); }
 
+  // The same mesh with these faces only (ascending), numbered anew in their order: the same vertices, unit() and slits.
+  Mesh with_faces(std::span<const Index> faces) const;
+
   // False for a mesh from lengths; positions() is empty then.
   bool has_positions() const noexcept;
   // Whether with_slits() has opened edges of it.

@@ -13,6 +13,7 @@ namespace brushfire::detail {
 struct VertexCorners {
   UninitializedArray<Index> offset;  // [vertex_count + 1]
   UninitializedArray<Index> corner;  // [halfedge_count]
+  Index count(Index v) const { return offset[v + 1] - offset[v]; }
 };
 
 VertexCorners build_corners(Index vertex_count, std::span<const Face> faces);

@@ -3,10 +3,13 @@
 
 #include <brushfire/solvers/distance.h>
 
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace brushfire::detail {
+
+struct SheetView;
 
 // A source after validation: where it lies, and its offset in mesh.unit().
 struct LocatedSource {
@@ -25,6 +28,8 @@ struct Problem {
   // whose entry in the field it changed, once each, in any order and also when it throws; error_bound stays empty.
   // Only given to an engine that lists_touched().
   std::vector<Index>* touched = nullptr;
+  // Where set, this is a run on a single mesh: see sheets.h.
+  std::shared_ptr<const SheetView> view = nullptr;
 };
 
 // Fills `field` in mesh.unit(): distance and source of every vertex ([vertex_count], already sized, +inf and kNoIndex),

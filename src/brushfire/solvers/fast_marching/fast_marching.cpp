@@ -6,6 +6,7 @@
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/locality_order.h>
 #include <brushfire/solvers/detail/crew.h>
+#include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
 #include <brushfire/solvers/fast_marching/march.h>
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
@@ -391,7 +392,14 @@ Index usual_part_size(const Mesh& mesh) {
   return mesh.vertex_count() < kWorthParts ? kNoIndex : kVertices;
 }
 
-std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh) { return make_fast_marching(mesh, usual_part_size(mesh)); }
+// Copies of faces are looked for where there are more faces than a closed surface with few handles has. (A few copies
+// elsewhere do no harm: fronts pass edges of many faces one face at a time.)
+std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh) {
+  const bool many_faces = mesh.face_count() / 17 * 8 > mesh.vertex_count();
+  std::shared_ptr<const Sheets> sheets = many_faces ? Sheets::of(mesh) : nullptr;
+  const auto make = [](const Mesh& m) { return make_fast_marching(m, usual_part_size(m)); };
+  return sheets ? make_on_one_sheet(std::move(sheets), make) : make(mesh);
+}
 
 std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh, Index part_size) {
   return std::make_unique<FastMarching>(mesh, part_size);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -119,10 +120,21 @@ class LaneWriter {
     Index block, lane;
   };
 
+  static constexpr Index kLongRing = 8;  // blocks: the last one is remembered
+
   // In the last block of v.
   Lane free_lane(Index v) const {
-    Index last = v;
-    for (Index i = heads_[v].more; i != 0; i = next_[i - none_]) last = i;
+    Index last = v, blocks = 0;
+    for (Index i = heads_[v].more; i != 0; i = next_[i - none_]) {
+      last = i;
+      if (++blocks == kLongRing) return far_lane(v, i);
+    }
+    return {last, free_lane_of(last)};
+  }
+  // From block i on, or from where the last search has ended.
+  [[gnu::noinline]] Lane far_lane(Index v, Index i) const {
+    Index& last = last_blocks_.try_emplace(v, i).first->second;
+    while (next_[last - none_] != 0) last = next_[last - none_];
     return {last, free_lane_of(last)};
   }
   Index free_lane_of(Index block) const {
@@ -220,7 +232,8 @@ class LaneWriter {
   UninitializedArray<LaneLinks> links_;      // [blocks]
   UninitializedArray<typename Rings<T>::Head> heads_;
   std::vector<Index> next_;
-  PagesAhead first_pages_, next_pages_;  // of the first blocks, and of the others
+  mutable std::unordered_map<Index, Index> last_blocks_;  // of vertices with long rings, as far as they were gone along
+  PagesAhead first_pages_, next_pages_;                   // of the first blocks, and of the others
 };
 
 }  // namespace brushfire::detail

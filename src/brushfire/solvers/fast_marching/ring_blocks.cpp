@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -42,6 +43,7 @@ class RingBuilder {
     bend_fronts();
     rings_.layout.longest_unfolding = unfolded_.most_crossed();
     for (const Index h : unfolded_.unsplit()) mark_unsplit(h);
+    mark_crowded();
     separate_parts();
     return std::move(rings_);
   }
@@ -100,7 +102,7 @@ class RingBuilder {
   // For UnfoldedCorners.
   friend class UnfoldedCorners<T>;
   void prefetch(Index v) const { lanes_.prefetch_ring(v); }
-  void add_unfolded(Index v, const Corner& corner) {
+  BRUSHFIRE_INLINE void add_unfolded(Index v, const Corner& corner) {
     if (((corner.a ^ v) | (corner.b ^ v)) >> part_shift_ != 0) at_border_.push_back(v);
     if (v < begun_) {
       lanes_.add_unfolded(v, corner);
@@ -169,6 +171,7 @@ class RingBuilder {
   // Whether every edge at v has two faces.
   bool is_inner(Index v) const {
     if (mesh_.has_slits() || loose_.size() > kMany) {
+      static_cast<void>(mesh_.opposite());  // all of them: many will be asked for
       const std::span<const Index> corners = mesh_.corners(v);
       return std::all_of(corners.begin(), corners.end(), [&](Index h) {
         return !mesh_.is_face_usable(Mesh::face_of(h)) || (has_two_faces(h) && has_two_faces(Mesh::previous(h)));
@@ -300,20 +303,50 @@ class RingBuilder {
   void mark_unsplit(Index h) {
     const Index target = mesh_.from(h), next = mesh_.to(h);
     const Index previous = mesh_.from(Mesh::previous(h));
-    mark_unsplit(next, target, previous);
-    mark_unsplit(previous, target, next);
+    mark_unsplit({next, target, previous});
+    mark_unsplit({previous, target, next});
   }
 
-  void mark_unsplit(Index at, Index target, Index other) {
-    for_each_block(at, [&](Index i) {
-      const RingBlock<T>& block = rings_.blocks[i];
-      LaneLinks& lanes = rings_.layout.links[i];
-      for (Index k = 0; k < kLanes; ++k) {
-        const Index a = block.end[k], b = block.end[lanes.second(k)];
-        if (a == target && b == other) lanes.links[k] |= LaneLinks::kAnyOrderFirst;
-        if (a == other && b == target) lanes.links[k] |= LaneLinks::kAnyOrderSecond;
-      }
+  // A corner that is seen from a vertex, and the third vertex of its face.
+  struct Unsplit {
+    Index at, target, other;
+  };
+
+  void mark_unsplit(const Unsplit& u) {
+    if (faces_at(u.at) > kMany) {
+      crowded_.push_back(u);  // one pass over the ring is for all
+      return;
+    }
+    for_each_block(u.at, [&](Index i) {
+      for (Index k = 0; k < kLanes; ++k) mark_lane(i, k, u.target, u.other);
     });
+  }
+
+  void mark_lane(Index i, Index k, Index target, Index other) {
+    const RingBlock<T>& block = rings_.blocks[i];
+    LaneLinks& lanes = rings_.layout.links[i];
+    const Index a = block.end[k], b = block.end[lanes.second(k)];
+    if (a == target && b == other) lanes.links[k] |= LaneLinks::kAnyOrderFirst;
+    if (a == other && b == target) lanes.links[k] |= LaneLinks::kAnyOrderSecond;
+  }
+
+  void mark_crowded() {
+    const auto by_ends = [](const Unsplit& u, const Unsplit& w) {
+      return std::tie(u.at, u.target, u.other) < std::tie(w.at, w.target, w.other);
+    };
+    std::sort(crowded_.begin(), crowded_.end(), by_ends);
+    for (std::size_t begin = 0, end = 0; begin < crowded_.size(); begin = end) {
+      const Index at = crowded_[begin].at;
+      while (end < crowded_.size() && crowded_[end].at == at) ++end;
+      const std::span<const Unsplit> its(crowded_.data() + begin, end - begin);
+      for_each_block(at, [&](Index i) {
+        for (Index k = 0; k < kLanes; ++k) {
+          const Index a = rings_.blocks[i].end[k], b = rings_.blocks[i].end[rings_.layout.links[i].second(k)];
+          if (std::binary_search(its.begin(), its.end(), Unsplit{at, a, b}, by_ends)) mark_lane(i, k, a, b);
+          if (std::binary_search(its.begin(), its.end(), Unsplit{at, b, a}, by_ends)) mark_lane(i, k, b, a);
+        }
+      });
+    }
   }
 
   const Mesh& mesh_;
@@ -336,6 +369,7 @@ class RingBuilder {
   UninitializedArray<std::uint8_t> plain_sides_;  // [vertex_count] of a plain fan; 0 for any other vertex
   std::vector<Corner> loose_, fan_;               // of one vertex
   std::vector<Index> ends_;                       // of the sides of its loose corners
+  std::vector<Unsplit> crowded_;                  // at vertices of many faces
   std::vector<Index> at_border_;                  // vertices whose blocks name vertices of other parts
 };
 

@@ -10,6 +10,8 @@
 namespace brushfire::detail {
 namespace {
 
+constexpr Index kCrowd = 64;
+
 constexpr Index next_corner(Index k) { return k == 2 ? 0 : k + 1; }
 constexpr Index previous_corner(Index k) { return k == 0 ? 2 : k - 1; }
 
@@ -37,9 +39,9 @@ Mesh::FaceGeometry Unfolder::geometry(Index f) const {
   return plain_ ? geometry_of(positions_, faces_[f], scale_) : mesh_.face_geometry(f);
 }
 
-// Among the faces at one of the edge's ends.
+// Among the faces at one of the edge's ends; where there are too many, the mesh knows better.
 Index Unfolder::face_over(Index f, Index v, Index w) const {
-  if (plain_) {
+  if (plain_ && corner_offsets_[v + 1] - corner_offsets_[v] <= kCrowd) {
     Index found = kNoIndex, count = 0;
     for (Index i = corner_offsets_[v]; i < corner_offsets_[v + 1]; ++i) {
       const Index other = corners_[i] / 3;

@@ -2,8 +2,10 @@
 #include <brushfire/solvers/windows/detail/engine.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/solvers/detail/sheets.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace brushfire::detail {
 namespace {
@@ -19,8 +21,8 @@ constexpr unsigned kOnePart = 31;
 
 class Windows final : public Engine {
  public:
-  Windows(const Mesh& mesh, unsigned part_bits, Merging merging)
-      : mesh_(mesh), merging_(merging), narrow_(in_doubles::make_engine(mesh, part_bits, merging)) {}
+  Windows(const Mesh& mesh, Merging merging, std::unique_ptr<NumberedEngine> in_doubles)
+      : mesh_(mesh), merging_(merging), narrow_(std::move(in_doubles)) {}
 
   void set_up(const DistanceOptions& options) override { engine_for(options).set_up(options); }
   void solve(const Problem& problem, DistanceField& field) override {
@@ -45,7 +47,15 @@ class Windows final : public Engine {
 
 std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits, Merging merging) {
   if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
-  return std::make_unique<Windows>(mesh, part_bits, merging);
+  auto engine = in_doubles::make_engine(mesh, part_bits, merging);
+  // Copies of faces are looked for where their edges have been met: other meshes pay nothing for it. (Two copies on
+  // their own are a flat bag, and no harm.)
+  std::shared_ptr<const Sheets> sheets = engine->has_spines() ? Sheets::of(mesh) : nullptr;
+  if (!sheets) return std::make_unique<Windows>(mesh, merging, std::move(engine));
+  engine.reset();
+  return make_on_one_sheet(std::move(sheets), [part_bits, merging](const Mesh& single) -> std::unique_ptr<Engine> {
+    return std::make_unique<Windows>(single, merging, in_doubles::make_engine(single, part_bits, merging));
+  });
 }
 
 }  // namespace brushfire::detail

@@ -6,6 +6,7 @@
 #include "exact_lists.cpp"
 #include "exact_trim.cpp"
 #include "face_shape.cpp"
+#include "links.cpp"
 #include "merge.cpp"
 #include "part.cpp"
 #include "part_lists.cpp"

@@ -33,6 +33,7 @@ void Part::forget() {
   updates_ = 0;
   memory_.clear();
   trails_.clear();
+  spines_.clear();
   kept_.clear();
   labels_.clear();
   if (!traffic_) return;
@@ -228,6 +229,7 @@ void Part::hear(Index v, Real upper, Real estimate) {
 
 void Part::receive(const Mail::OneWindow& window, Workbench& bench) {
   bench_ = &bench;
+  if (run_->structure.is_spine(window.halfedge)) return insert_into_rest(window.halfedge, window.window);
   insert_one(window.halfedge, window.window, window.origin);
 }
 

@@ -4,6 +4,7 @@
 #include <brushfire/solvers/windows/detail/sweep.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
@@ -64,13 +65,48 @@ void Part::send(Index h, const Window& w, Origin origin) {
 }
 void Part::cross_edge_one(Index h, const Window& w) { cross_edge(h, w); }
 
-void Part::insert_into_all(Index h, const Window& w) {
+// L10. In the frame from the end of h to its start. False where nothing of the window is needed beyond the spine.
+bool Part::pass_spine(Index h, Window& w) {
+  const WindowFace& f = face(h);
+  const Index start = f.vertex[h % 3], end = f.vertex[next3(h % 3)];
+  const EdgeBounds seen = bounds_of(f, h % 3);
+  if (is_sliver(w) || least_value(w) > run_->radius) return false;
+  if (is_dominated({seen.length, seen.end, seen.start}, w.b0, w.b1, w.d0, w.d1)) return false;
+  const Index label = run_->several ? label_of(w.root) : 0;
+  if (end < start) return spines_.learn(end, start, w, label);
+  Window turned = mirrored(w, seen.length);
+  if (!spines_.learn(start, end, turned, label)) return false;
+  if (turned.b0 > 0 || turned.b1 < seen.length) w = mirrored(turned, seen.length);
+  return true;
+}
+
+// Other parts are told once each: they see to their faces.
+void Part::insert_into_all(Index h, const Window& window) {
+  Window w = window;
+  if (run_->structure.is_spine(h) && !pass_spine(h, w)) return;
   const WindowFace& f = run_->structure.faces[h / 3];
   const Index end = f.vertex[next3(h % 3)];
+  Index told = number_;
   for (Index g = f.opposite[h % 3]; g != h; g = run_->structure.faces[g / 3].opposite[g % 3]) {
+    const Index part = run_->structure.part_of_face(g / 3);
+    if (part != number_ && std::exchange(told, part) == part) continue;
     const bool usual = run_->structure.is_same(run_->structure.faces[g / 3].vertex[g % 3], end);
     insert_one(g, usual ? w : mirrored(w, f.length[h % 3]), Origin::Anywhere);
   }
+}
+
+// From another part, over a spine: into the face of h and the others in this part, which follow in the ring.
+void Part::insert_into_rest(Index h, const Window& window) {
+  const WindowFace& f = run_->structure.faces[h / 3];
+  Window w = mirrored(window, f.length[h % 3]);
+  if (!pass_spine(h, w)) return;
+  const Index end = f.vertex[next3(h % 3)];
+  Index g = h;
+  do {
+    const bool usual = run_->structure.faces[g / 3].vertex[g % 3] == end;
+    insert_one(g, usual ? w : mirrored(w, f.length[h % 3]), Origin::Anywhere);
+    g = run_->structure.faces[g / 3].opposite[g % 3];
+  } while (g != h && is_here(g / 3));
 }
 
 void Part::insert_into_list(Index h, const Window& w, Origin origin) {
@@ -219,9 +255,13 @@ void Part::shine(Index v) {
   light.waiting = false;
   if (run_->values[v].lower > run_->radius) return;
   if (light.all_around || run_->structure.bend[v] == Bend::Full || light.halfedge == kNoIndex) {
-    for (const Index corner : run_->structure.mesh.corners(run_->structure.outer_vertex(v))) {
-      const Index h = run_->structure.inner_halfedge(corner);
-      if (is_here(h / 3)) shine_through(v, h);
+    for (const Index h : run_->structure.corners_of(v, number_, bench_->corners)) shine_through(v, h);
+    return;
+  }
+  if (run_->structure.bend[v] == Bend::Fans) {
+    const std::span<const Index> corners = run_->structure.corners_of(v, bench_->corners);
+    for (const Sector& sector : bench_->link(run_->structure, corners, light.from())) {
+      if (is_here(sector.face)) shine_into(v, sector);
     }
     return;
   }

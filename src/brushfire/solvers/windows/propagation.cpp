@@ -41,6 +41,7 @@ class WindowEngine final : public NumberedEngine {
     for (Index p = 0; p < run_.structure.part_count(); ++p) parts_.emplace_back(run_, p);
   }
 
+  bool has_spines() const override { return run_.structure.has_spines; }
   bool lists_touched() const override { return true; }
   double doubt() const override { return run_.rounding.doubt; }
 

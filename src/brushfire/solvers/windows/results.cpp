@@ -169,6 +169,7 @@ void Results::keep() {
     data->target.push_back({t.lower, t.lower < kInfinity ? label_of(t.ray.root) : kNoIndex, outer(t.ray)});
   }
   data->exact = !run_.merges();
+  data->view = run_.problem->view;
   data->all_points = run_.problem->options->keep_windows;
   if (data->all_points) {
     std::vector<KeptWindow> kept;

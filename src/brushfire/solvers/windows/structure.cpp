@@ -23,7 +23,25 @@ namespace {
 struct Connectivity {
   UninitializedArray<Index> opposite;  // [halfedge_count] as Mesh::opposite()
   std::vector<Link> links;             // [vertex_count]
+  std::vector<WindowStructure::Crowd> crowds;
 };
+
+// Corners that make a crowd.
+constexpr Index kCrowd = 64;
+// At more, shortest ways in the link of a vertex take longer than light that goes everywhere.
+constexpr Index kManyFaces = 4096;
+
+std::vector<WindowStructure::Crowd> crowds_of(std::span<const Index> offset, std::span<const Index> corner,
+                                              const LocalityOrder& order) {
+  std::vector<WindowStructure::Crowd> crowds;
+  for (std::size_t v = 0; v + 1 < offset.size(); ++v) {
+    if (offset[v + 1] - offset[v] <= kCrowd) continue;
+    const std::span<const Index> its = corner.subspan(offset[v], offset[v + 1] - offset[v]);
+    crowds.push_back({order.vertices[v], {its.begin(), its.end()}, {}});
+  }
+  std::sort(crowds.begin(), crowds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+  return crowds;
+}
 
 // Found among renumbered faces: what is near on the surface should be near in memory.
 Connectivity connectivity_of(const Mesh& mesh, const LocalityOrder& order) {
@@ -33,7 +51,9 @@ Connectivity connectivity_of(const Mesh& mesh, const LocalityOrder& order) {
     const Mesh inner = mesh.renumbered(order.vertices, order.vertex_rank, face_rank);
     const auto opposite = inner.opposite();
     const auto links = inner.links();
-    return {{opposite.begin(), opposite.end()}, {links.begin(), links.end()}};
+    return {{opposite.begin(), opposite.end()},
+            {links.begin(), links.end()},
+            crowds_of(inner.corner_offsets(), inner.all_corners(), order)};
   }
   UninitializedArray<Face> faces(mesh.face_count());
   populate(faces);
@@ -44,7 +64,7 @@ Connectivity connectivity_of(const Mesh& mesh, const LocalityOrder& order) {
   const VertexCorners corners = build_corners(mesh.vertex_count(), faces);
   UninitializedArray<Index> opposite = build_opposite(faces, corners);
   std::vector<Link> links = build_links(faces, corners, opposite);
-  return {std::move(opposite), std::move(links)};
+  return {std::move(opposite), std::move(links), crowds_of(corners.offset, corners.corner, order)};
 }
 
 // The faces of a mesh in another order, and what comes soon fetched ahead: it may be anywhere.
@@ -184,10 +204,14 @@ double angle_at(const WindowFace& f, Index i) {
 // In a part faces are in the order of their least vertices, those of one vertex in the mesh's order.
 Index WindowStructure::inner_face(Index f) const {
   const Face& t = mesh.faces()[f];
-  Index first = inner_vertex(t[0]);  // a copy of the first corner, in each of the parts that may hold the face
+  // A copy of a corner, in each of the parts that may hold the face: of one that is in one part only, if there is any.
+  Index k = 0;
+  while (k < 2 && next_copy(inner_vertex(t[k])) != kNoIndex) ++k;
+  Index first = inner_vertex(t[k]);
   while (true) {
     const Index part = part_of_vertex(first);
-    const std::array<Index, 3> v{first, copy_in(part, inner_vertex(t[1])), copy_in(part, inner_vertex(t[2]))};
+    const std::array<Index, 3> v{first, copy_in(part, inner_vertex(t[next3(k)])),
+                                 copy_in(part, inner_vertex(t[previous3(k)]))};
     const Index least = std::min({v[0], v[1], v[2]});
     const auto key = [&](Index inner) {
       const WindowFace& face = faces[inner];
@@ -214,6 +238,8 @@ Index WindowStructure::next_copy(Index v) const {
 }
 
 Index WindowStructure::copy_in(Index part, Index v) const {
+  if (is_in(part, v)) return v;
+  if (const Crowd* crowd = crowd_at(v)) return crowd->copies.empty() ? kNoIndex : crowd->copies[part];
   for (Index c = v; c != kNoIndex;) {
     if (is_in(part, c)) return c;
     c = next_copy(c);
@@ -222,9 +248,35 @@ Index WindowStructure::copy_in(Index part, Index v) const {
   return kNoIndex;
 }
 
+const WindowStructure::Crowd* WindowStructure::crowd_at(Index v) const {
+  if (crowds.empty()) return nullptr;
+  const Index outer = outer_vertex(v);
+  const auto c = std::lower_bound(crowds.begin(), crowds.end(), outer,
+                                  [](const Crowd& crowd, Index x) { return crowd.vertex < x; });
+  return c != crowds.end() && c->vertex == outer ? &*c : nullptr;
+}
+
+std::span<const Index> WindowStructure::corners_of(Index v, std::vector<Index>& room) const {
+  if (const Crowd* crowd = crowd_at(v)) return crowd->corners;
+  room.clear();
+  for (const Index corner : mesh.corners(outer_vertex(v))) room.push_back(inner_halfedge(corner));
+  std::sort(room.begin(), room.end());
+  return room;
+}
+
+std::span<const Index> WindowStructure::corners_of(Index v, Index part, std::vector<Index>& room) const {
+  const std::span<const Index> all = corners_of(v, room);
+  const auto begin_of = [&](Index p) {
+    return std::lower_bound(all.begin(), all.end(), p,
+                            [this](Index h, Index number) { return part_of_face(h / 3) < number; });
+  };
+  return {begin_of(part), begin_of(part + 1)};
+}
+
 WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(locality_order(m)), part_bits(bits) {
   const Index n = mesh.vertex_count();
-  const auto [opposite, links] = connectivity_of(mesh, order);
+  auto [opposite, links, its_crowds] = connectivity_of(mesh, order);
+  crowds = std::move(its_crowds);
   const FacesInOrder outer(mesh, order);
   faces.resize(mesh.face_count());
   bend.assign(n, Bend::None);
@@ -256,12 +308,24 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
       }
     }
   }
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) faces[h / 3].beyond[h % 3] = beyond(faces, opposite, h);
+  bool any_several = false;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    const Beyond there = beyond(faces, opposite, h);
+    any_several |= there == Beyond::Several;
+    faces[h / 3].beyond[h % 3] = there;
+  }
+  for (Index h = 0; h < mesh.halfedge_count() && any_several && !has_spines; ++h)
+    has_spines = opposite[opposite[h]] != h;
   for (Index v = 0; v < n; ++v) {
-    if (links[v] == Link::Other || around[v].is_uneven()) bend[v] = Bend::Full;
+    if (around[v].is_uneven()) bend[v] = Bend::Full;
     if (bend[v] == Bend::Full) continue;
+    if (links[v] == Link::Other) bend[v] = Bend::Fans;
     if (links[v] == Link::Circle && around[v].angles.exceeds_two_pi()) bend[v] = Bend::Saddle;
     if (links[v] == Link::Arc && around[v].angles.exceeds_pi()) bend[v] = Bend::Boundary;
+  }
+  for (const Crowd& c : crowds) {
+    Bend& its = bend[order.vertex_rank[c.vertex]];
+    if (its == Bend::Fans && c.corners.size() > kManyFaces) its = Bend::Full;
   }
   bucket_width = typical_bucket(faces);
   typical_defect = typical_defect_of(around, bend, links);
@@ -330,6 +394,16 @@ void WindowStructure::close_rings(const std::vector<std::pair<Index, Index>>& li
   copies.erase(std::unique(copies.begin(), copies.end(), same), copies.end());
   for (Copy& c : copies) {
     if (c.next == kNoIndex) c.next = order.vertex_rank[order.vertices[c.vertex]];
+  }
+  for (Crowd& crowd : crowds) {
+    const Index first = order.vertex_rank[crowd.vertex];
+    if (next_copy(first) == kNoIndex) continue;
+    crowd.copies.assign(part_count(), kNoIndex);
+    Index c = first;
+    do {
+      crowd.copies[part_of_vertex(c)] = c;
+      c = next_copy(c);
+    } while (c != first);
   }
 }
 

@@ -3,14 +3,23 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/flat_face.h>
+#include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/windows/detail/face.h>
 #include <brushfire/solvers/windows/detail/record.h>
 #include <brushfire/solvers/windows/detail/trace.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
+
+Error not_a_target(Index face) {
+  return Error(ErrorCode::InvalidArgument, "a point in face " + std::to_string(face) +
+                                               " was not a target of the run: give it as one, or set keep_windows");
+}
 
 struct Found {
   FaceWeights at;
@@ -36,8 +45,7 @@ class Look {
     return found;
   }
 
-  Found point(const SurfacePoint& p) const {
-    const PointLocation at = locate(mesh_, p);
+  Found point(const PointLocation& at) const {
     if (at.on == PointLocation::On::Vertex) return vertex(at.vertex);
     if (data_.all_points) return evaluate(at);
     for (std::size_t i = 0; i < data_.targets.size(); ++i) {
@@ -50,8 +58,7 @@ class Look {
         return {{at.face, weights_from(at.weights)}, record};
       }
     }
-    throw Error(ErrorCode::InvalidArgument, "a point in face " + std::to_string(p.face) +
-                                                " was not a target of the run: give it as one, or set keep_windows");
+    throw not_a_target(at.face);
   }
 
  private:
@@ -134,14 +141,39 @@ WindowField::Leg last_leg_of(const WindowFieldData& data, const Found& found, In
   return leg;
 }
 
+// A point of the caller's mesh, in the mesh of the run.
+PointLocation located(const WindowFieldData& data, const SurfacePoint& point) {
+  if (!data.view) return locate(data.mesh, point);
+  const Sheets& sheets = *data.view->sheets;
+  const PointLocation at = locate(sheets.mesh(), point);
+  const auto is_same = [&](const PointLocation& t) { return t.face == at.face && t.weights == at.weights; };
+  const std::vector<PointLocation>& targets = data.view->targets;
+  // Another copy of the face may have a target there.
+  if (!data.all_points && sheets.is_inside_copy(at) && std::none_of(targets.begin(), targets.end(), is_same)) {
+    throw not_a_target(point.face);
+  }
+  return sheets.to_single(at);
+}
+
+// The faces of the caller's mesh; and sources where they were given, maybe inside of a copy.
+WindowField::Leg in_callers_numbers(const WindowFieldData& data, WindowField::Leg leg) {
+  if (!data.view) return leg;
+  for (SurfacePoint& p : leg.points) p = data.view->sheets->from_single(p);
+  if (leg.source != kNoIndex) {
+    const PointLocation& source = data.view->sources[leg.source];
+    leg.points.back() = {source.face, source.weights};
+  }
+  return leg;
+}
+
 class Reader final : public WindowFieldReader {
  public:
   explicit Reader(std::shared_ptr<const WindowFieldData> data) : data_(std::move(data)) {}
 
-  const Mesh& mesh() const noexcept override { return data_->mesh; }
+  const Mesh& mesh() const noexcept override { return data_->view ? data_->view->sheets->mesh() : data_->mesh; }
 
   WindowField::Value value(const SurfacePoint& point) const override {
-    const PointRecord record = Look(*data_).point(point).record;
+    const PointRecord record = Look(*data_).point(located(*data_, point)).record;
     if (!(record.value < kInfinity)) return {};
     return {data_->mesh.unit() * static_cast<double>(record.value - data_->shift), record.label};
   }
@@ -151,13 +183,16 @@ class Reader final : public WindowFieldReader {
       throw Error(ErrorCode::IndexOutOfRange, "vertex " + std::to_string(vertex) + " does not exist: the mesh has " +
                                                   std::to_string(data_->vertices.size()) + " vertices");
     }
-    return last_leg_of(*data_, Look(*data_).vertex(vertex), vertex);
+    return in_callers_numbers(*data_, last_leg_of(*data_, Look(*data_).vertex(vertex), vertex));
   }
 
   WindowField::Leg last_leg(const SurfacePoint& point) const override {
-    const PointLocation at = locate(data_->mesh, point);
+    const PointLocation at = located(*data_, point);
     if (at.on == PointLocation::On::Vertex) return last_leg(at.vertex);
-    return last_leg_of(*data_, Look(*data_).point(point), kNoIndex);
+    WindowField::Leg leg = in_callers_numbers(*data_, last_leg_of(*data_, Look(*data_).point(at), kNoIndex));
+    // It may be inside of a copy of the face.
+    if (data_->view && !leg.points.empty()) leg.points.front() = point;
+    return leg;
   }
 
  private:

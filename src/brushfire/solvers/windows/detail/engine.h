@@ -27,6 +27,8 @@ class NumberedEngine : public Engine {
  public:
   // What rounding may do to the distance between neighbours on this mesh, as a share of it.
   virtual double doubt() const = 0;
+  // Whether some edge has three faces or more.
+  virtual bool has_spines() const = 0;
 };
 inline namespace in_doubles {
 std::unique_ptr<NumberedEngine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging);

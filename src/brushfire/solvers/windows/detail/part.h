@@ -7,11 +7,13 @@
 #include <brushfire/solvers/windows/detail/exact_cross.h>
 #include <brushfire/solvers/windows/detail/exact_lists.h>
 #include <brushfire/solvers/windows/detail/exact_trim.h>
+#include <brushfire/solvers/windows/detail/links.h>
 #include <brushfire/solvers/windows/detail/lists.h>
 #include <brushfire/solvers/windows/detail/mail.h>
 #include <brushfire/solvers/windows/detail/memory.h>
 #include <brushfire/solvers/windows/detail/queue.h>
 #include <brushfire/solvers/windows/detail/run_state.h>
+#include <brushfire/solvers/windows/detail/spines.h>
 #include <brushfire/solvers/windows/detail/trails.h>
 
 #include <cstdint>
@@ -38,6 +40,8 @@ struct alignas(kApart) Workbench {
   Envelope envelope;
   std::vector<Window> taken;
   std::vector<Window> on_edge;  // of those, with their source on the edge
+  std::vector<Index> corners;   // at a vertex
+  LinkShadow link;
 };
 
 // What a part needs while something waits in it. The front is in few parts at a time: they hand it on.
@@ -159,6 +163,8 @@ class alignas(kApart) Part {
   [[gnu::noinline]] void cross_edge_one(Index h, const Window& w);
   [[gnu::noinline]] void insert_one(Index h, const Window& w, Origin origin);
   [[gnu::noinline]] void insert_into_all(Index h, const Window& w);
+  bool pass_spine(Index h, Window& w);
+  [[gnu::noinline]] void insert_into_rest(Index h, const Window& w);
   [[gnu::noinline]] void insert_into_list(Index h, const Window& w, Origin origin);
   [[gnu::noinline]] void send(Index h, const Window& w, Origin origin);
   [[gnu::noinline]] bool ends_here(const WindowFace& f, Index k, const Window& w) const;
@@ -217,6 +223,7 @@ class alignas(kApart) Part {
   std::uint64_t updates_ = 0;
   WindowMemory memory_;
   Trails trails_;  // of windows that cross thin faces (of all, in wide numbers)
+  SpineMemory spines_;
   std::vector<KeptWindow> kept_;
   std::unordered_map<Index, Index> labels_;  // of roots in other parts, in runs with several sources
 };

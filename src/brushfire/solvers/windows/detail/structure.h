@@ -16,7 +16,8 @@ namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 // or more on either side, so a Saddle lights what lies between. Full lights everything: that is more than needed, but
 // every ray that leaves a vertex is a real path, so it is always right; it is used where angles mean nothing or are
 // not known well enough.
-enum class Bend : std::uint8_t { None, Saddle, Boundary, Full };
+// Fans: what Saddle is to one fan, for several of them and for books.
+enum class Bend : std::uint8_t { None, Saddle, Boundary, Fans, Full };
 
 // Vertices and faces are renumbered so that neighbours are near each other in memory; corners keep their places in
 // their faces. "Inner" numbers are used everywhere in a run, the mesh's own only to and from the caller.
@@ -46,8 +47,24 @@ struct WindowStructure {
   struct Copy {
     Index vertex, next;
   };
+  // A vertex at which so many faces meet that looking up each of them would take too long, by its outer number, with
+  // its corners.
+  struct Crowd {
+    Index vertex;
+    std::vector<Index> corners;
+    std::vector<Index> copies;  // [parts] where it has several; kNoIndex: none there
+  };
   // Whether these are copies of the same vertex.
   bool is_same(Index v, Index w) const { return v == w || (!copies.empty() && outer_vertex(v) == outer_vertex(w)); }
+  // The corners at v by inner halfedges, ascending; of all faces, or of those in one part. What is returned lasts until
+  // `room` is used again.
+  std::span<const Index> corners_of(Index v, std::vector<Index>& room) const;
+  std::span<const Index> corners_of(Index v, Index part, std::vector<Index>& room) const;
+  // Whether three faces or more meet at the edge of halfedge h.
+  bool is_spine(Index h) const {
+    const Index g = faces[h / 3].opposite[h % 3];
+    return faces[g / 3].opposite[g % 3] != h;
+  }
   // The next copy of the same vertex; kNoIndex where there is one only. O(log copies).
   Index next_copy(Index v) const;
   // v's copy in a part; kNoIndex: it has none there.
@@ -60,12 +77,15 @@ struct WindowStructure {
   std::vector<Bend> bend;           // [vertex_count()]
   std::vector<Index> first_vertex;  // [parts + 1]
   std::vector<Copy> copies;         // ascending
+  std::vector<Crowd> crowds;        // ascending
   unsigned part_bits = 0;
+  bool has_spines = false;    // some edge has three faces or more
   double bucket_width = 1;    // half a typical edge
   Unevenness unevenness;      // of the faces' edges
   double typical_defect = 0;  // the median of |2 pi - angles around a vertex|, of inner vertices
 
  private:
+  const Crowd* crowd_at(Index v) const;
   void cut_into_parts();
   void renumber(const std::vector<Index>& places);
   void close_rings(const std::vector<std::pair<Index, Index>>& links);
