@@ -4,6 +4,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/flat_face.h>
 #include <brushfire/solvers/windows/detail/face.h>
+#include <brushfire/solvers/windows/detail/leg_search.h>
 #include <brushfire/solvers/windows/detail/record.h>
 #include <brushfire/solvers/windows/detail/trace.h>
 
@@ -109,28 +110,18 @@ class Look {
   const Mesh& mesh_;
 };
 
-// Straight to a root that is a corner of the point's face, or along an edge of a face with a repeated vertex.
+// Where no ray came: the point is a source at a vertex, or the root is at the other end of an edge.
 WindowField::Leg leg_without_ray(const detail::WindowFieldData& data, const Found& found, Index vertex) {
   const Mesh& mesh = data.mesh;
   const Index root = found.record.ray.root, n = mesh.vertex_count();
   WindowField::Leg leg;
   if (root >= n) {
     const PointLocation& source = data.sources[root - n].at;
+    if (source.on != PointLocation::On::Vertex || source.vertex != vertex) return {};
     leg.source = root - n;
-    leg.length = mesh.unit() * (found.record.value - data.shift - data.sources[root - n].offset);
     leg.points.push_back({found.at.face, found.at.weights});
-    const bool same = source.on == PointLocation::On::Vertex && source.vertex == vertex;
-    if (!same) leg.points.push_back({source.face, source.weights});
     return leg;
   }
-  leg.vertex = root;
-  leg.length = mesh.unit() * (found.record.value - data.vertices[root].value);
-  // Both are points of one face: for a point of an edge not always the one that it was given by.
-  const PointLocation here =
-      locate(mesh, vertex != kNoIndex ? vertex_point(mesh, vertex) : SurfacePoint{found.at.face, found.at.weights});
-  const PointLocation there = locate(mesh, vertex_point(mesh, root));
-  const Index face = common_face(mesh, here, there, here.face);
-  leg.points = {{face, *weights_in(mesh, here, face)}, {face, *weights_in(mesh, there, face)}};
   return leg;
 }
 
@@ -139,8 +130,11 @@ WindowField::Leg last_leg_of(const detail::WindowFieldData& data, const Found& f
     throw Error(ErrorCode::InvalidArgument, "windows were merged: paths need the method exact");
   }
   if (!(found.record.value < kInfinity)) return {};
-  if (found.record.ray.halfedge == kNoIndex) return leg_without_ray(data, found, vertex);
-  WindowField::Leg leg = detail::trace_leg(data, found.at, found.record.ray, found.record.value);
+  const Ray& ray = found.record.ray;
+  WindowField::Leg leg;
+  if (ray.halfedge == kNoIndex) leg = leg_without_ray(data, found, vertex);
+  if (ray.halfedge != kNoIndex) leg = detail::trace_leg(data, found.at, ray, found.record.value);
+  if (leg.points.empty()) leg = detail::find_leg(data, locate(data.mesh, {found.at.face, found.at.weights}), found.record.value, ray);
   leg.length *= data.mesh.unit();
   return leg;
 }

@@ -1,0 +1,23 @@
+// The frame of a halfedge in numbers of 106 bits.
+#pragma once
+
+#include <brushfire/core/double_double.h>
+#include <brushfire/mesh/mesh.h>
+
+#include <array>
+
+namespace brushfire::detail {
+
+struct WideFrame {
+  DoubleDouble length;
+  WideVec2 apex;
+};
+
+// From the coordinates where the mesh has them: rounded lengths of a needle's long sides do not tell its angles. In
+// mesh.unit(). The halfedge's length must not be 0.
+WideFrame wide_frame(const Mesh& mesh, Index h);
+
+// The corners of face f laid flat counter-clockwise, with halfedge k of the face on the x axis.
+std::array<WideVec2, 3> wide_corners(const Mesh& mesh, Index f, Index k);
+
+}  // namespace brushfire::detail

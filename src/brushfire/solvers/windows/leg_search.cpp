@@ -1,0 +1,453 @@
+// Wedges of straight ways out of a point are followed from face to face, each laid flat over the edge just crossed,
+// until one holds a vertex or a source from which the point's value is explained.
+//
+// All places are relative to the point, in 106 bits: a face 1e12 times smaller than its distance keeps its shape. What
+// a wedge may hold is decided by the field: no way through an edge is shorter than the way there and the least value
+// that the values at the edge's ends allow on it.
+#include <brushfire/solvers/windows/detail/leg_search.h>
+
+#include <brushfire/mesh/flat_face.h>
+#include <brushfire/solvers/windows/detail/wide_face.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <queue>
+#include <unordered_map>
+#include <vector>
+
+namespace brushfire::detail {
+namespace {
+
+using On = PointLocation::On;
+
+// Vertices that are nearer than this share of the value have the same value as the point, as far as anyone knows: the
+// leg may start from any of them.
+constexpr double kNoDistance = 64 * std::numeric_limits<double>::epsilon();
+// What a turn of two arrows is rounded by at most, as a share of the product of their lengths: some hundred operations
+// of 2^-104 each, with room for places that are far larger than what they are compared with.
+constexpr double kNoTurn = 1e-26;
+// Two wedges over one edge are one where their places and limits agree to this share of the value.
+constexpr double kSamePlace = 1e-15;
+// Once the value is explained, so many more wedges are looked into for the root that the field names itself.
+constexpr int kPatience = 256;
+constexpr int kMostWedges = 1 << 18;
+
+constexpr Index kStart = kNoIndex;  // the wedge before the first one
+
+// What is seen of an edge from the point, which lies in the origin: the edge goes from right to left.
+struct Wedge {
+  Index halfedge = kNoIndex;  // of the face that is left through the edge
+  Index right_vertex = kNoIndex, left_vertex = kNoIndex;
+  WideVec2 right, left;              // ends of the edge
+  WideVec2 right_limit, left_limit;  // vertices that bound the wedge
+  Index before = kStart;             // the wedge that it is a part of
+  Index origin = 0;                  // the start whose place is the origin
+  Vec2 guide;                        // where the hint points; 0: nowhere
+};
+
+// The point itself, or a vertex at no distance from it.
+struct Origin {
+  PointLocation at;
+  double before = 0;        // the way from the point
+  Index previous = kStart;  // over which other one
+};
+
+// Where a leg may start.
+struct Goal {
+  double total = kInfinity;  // value there and length of the leg
+  double length = 0;         // of the straight part
+  Index vertex = kNoIndex, source = kNoIndex;
+  Index face = kNoIndex;  // that holds it, and the weights there
+  std::array<double, 3> weights{0, 0, 0};
+  WideVec2 place;
+  Index wedge = kStart;
+  Index origin = 0;
+};
+
+WideVec2 weighted(const std::array<WideVec2, 3>& corners, const std::array<double, 3>& weights) {
+  // Relative to the heaviest corner, so that what is near to it keeps its digits.
+  const auto k = static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+  const DoubleDouble sum = DoubleDouble(weights[k]) + weights[i] + weights[j];
+  return corners[k] + (weights[i] / sum) * (corners[i] - corners[k]) + (weights[j] / sum) * (corners[j] - corners[k]);
+}
+
+Vec2 rounded(WideVec2 a) { return {a.x.high, a.y.high}; }
+double length_of(WideVec2 a) { return norm(a).high; }
+
+// > 0: b lies to the left of a; 0 where that cannot be told.
+int turn(WideVec2 a, WideVec2 b) {
+  const double t = cross(a, b).high;
+  const double room = kNoTurn * norm(rounded(a)) * norm(rounded(b));
+  return t > room ? 1 : t < -room ? -1 : 0;
+}
+
+double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
+
+std::array<double, 3> corner_weights(Index k) {
+  std::array<double, 3> weights{0, 0, 0};
+  weights[k] = 1;
+  return weights;
+}
+
+class LegSearch {
+ public:
+  LegSearch(const WindowFieldData& data, const PointLocation& at, double value, const Ray& hint)
+      : data_(data), mesh_(data.mesh), value_(value), room_(kAgreement * value), hint_(hint) {
+    for (Index s = 0; s < data.sources.size(); ++s) {
+      const PointLocation& place = data.sources[s].at;
+      if (place.on == On::Vertex) {
+        source_at_.emplace(place.vertex, s);
+        continue;
+      }
+      for_each_face_around(mesh_, place, [&](const FaceWeights& f) { sources_in_.emplace(f.face, Inside{s, f.weights}); });
+    }
+    find_origins(at);
+  }
+
+  WindowField::Leg operator()() {
+    // Along the hint, as long as the value allows; then, where the value itself does not hold, by length alone.
+    look(true);
+    if (!(best_.total <= value_ + room_)) look(false);
+    return best_.total < kInfinity ? leg_to(best_) : WindowField::Leg{};
+  }
+
+ private:
+  struct Inside {
+    Index source;
+    std::array<double, 3> weights;
+  };
+  struct Open {
+    double key;
+    Index wedge;
+    bool operator<(const Open& o) const { return key > o.key || (key == o.key && wedge < o.wedge); }
+  };
+  struct Seen {
+    Vec2 place;  // of the point, in the frame of the edge
+    double first, last;
+  };
+
+  double value_of(Index v) const { return data_.vertices[v].value; }
+
+  // ---- where to look from
+
+  void find_origins(const PointLocation& at) {
+    origins_.push_back({at, 0, kStart});
+    for (Index i = 0; i < origins_.size(); ++i) {
+      const Origin from = origins_[i];
+      for (const FaceWeights& f : faces_of(from.at)) {
+        PointLocation here;
+        here.face = f.face;
+        here.weights = f.weights;
+        const std::array<double, 3> d = corner_distances(mesh_, here);
+        for (Index k = 0; k < 3; ++k) {
+          const double way = from.before + d[k];
+          if (way <= kNoDistance * value_) add_origin(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
+        }
+      }
+    }
+  }
+  void add_origin(Index v, Index corner, double way, Index previous) {
+    if (is_origin(v)) return;
+    PointLocation at;
+    at.on = On::Vertex;
+    at.vertex = v;
+    at.face = Mesh::face_of(corner);
+    at.weights = corner_weights(corner % 3);
+    origins_.push_back({at, way, previous});
+  }
+  bool is_origin(Index v) const {
+    return std::any_of(origins_.begin(), origins_.end(),
+                       [&](const Origin& o) { return o.at.on == On::Vertex && o.at.vertex == v; });
+  }
+
+  std::vector<FaceWeights> faces_of(const PointLocation& at) const {
+    if (at.on != On::Vertex) return faces_around(mesh_, at);
+    std::vector<FaceWeights> faces;
+    for (const Index h : mesh_.corners(at.vertex)) faces.push_back({Mesh::face_of(h), corner_weights(h % 3)});
+    return faces;
+  }
+
+  // ---- one pass
+
+  void look(bool along_hint) {
+    along_hint_ = along_hint;
+    wedges_.clear();
+    seen_.clear();
+    open_ = {};
+    done_ = false;
+    best_ = {};
+    int patience = kPatience;
+    for (Index i = 0; i < origins_.size() && !done_; ++i) start_from(i);
+    while (!open_.empty() && !done_ && wedges_.size() < kMostWedges) {
+      const Open next = open_.top();
+      open_.pop();
+      if (along_hint ? is_explained() && --patience < 0 : next.key >= best_.total) return;
+      enter_faces(next.wedge);
+    }
+  }
+  bool is_explained() const { return best_.total <= value_ + room_; }
+
+  void start_from(Index origin) {
+    const PointLocation& at = origins_[origin].at;
+    offer_source_at(origin);
+    for (const FaceWeights& f : faces_of(at)) {
+      Index k = 0;  // the frame: that of the hint, or of the longest edge
+      for (const Index i : {1U, 2U}) {
+        if (mesh_.length(3 * f.face + i) > mesh_.length(3 * f.face + k)) k = i;
+      }
+      const bool hinted = along_hint_ && origin == 0 && hint_.halfedge != kNoIndex && Mesh::face_of(hint_.halfedge) == f.face;
+      if (hinted && mesh_.length(hint_.halfedge) > 0) k = hint_.halfedge % 3;
+      std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, k);
+      const WideVec2 here = weighted(corners, f.weights);
+      for (WideVec2& c : corners) c = c - here;
+      Goal goal;
+      goal.face = f.face;
+      goal.origin = origin;
+      offer_sources(goal, corners);
+      for (Index i = 0; i < 3; ++i) offer_corner(goal, i, corners[i]);
+      if (!mesh_.is_face_usable(f.face)) continue;
+      const Vec2 guide = hinted ? hint_.source - rounded(here) : Vec2{0, 0};
+      for (Index i = 0; i < 3; ++i) {
+        if (f.weights[previous3(i)] == 0) continue;  // the point is on this edge
+        const Index j = next3(i), h = 3 * f.face + i;
+        add({h, mesh_.from(h), mesh_.to(h), corners[i], corners[j], corners[i], corners[j], kStart, origin, guide});
+      }
+    }
+  }
+
+  // Through the wedge's edge into every other face there.
+  void enter_faces(Index number) {
+    const auto opposite = [&](Index h) { return mesh_.opposite()[h]; };
+    const Index h = wedges_[number].halfedge;
+    for (Index g = opposite(h); g != h && !done_; g = opposite(g)) enter(number, g);
+  }
+
+  void enter(Index number, Index g) {
+    const Wedge w = wedges_[number];
+    const WideFrame frame = wide_frame(mesh_, g);
+    const WideVec2 edge = w.left - w.right;
+    const WideVec2 along = (DoubleDouble(1) / norm(edge)) * edge, beyond{along.y, -along.x};
+    const bool from_right = mesh_.from(g) == w.right_vertex;
+    const WideVec2 apex = (from_right ? w.right + frame.apex.x * along : w.left - frame.apex.x * along) +
+                          frame.apex.y * beyond;
+    const Index face = Mesh::face_of(g), top = Mesh::previous(g), top_vertex = mesh_.from(top);
+    std::array<WideVec2, 3> corners;
+    corners[g % 3] = from_right ? w.right : w.left;
+    corners[next3(g % 3)] = from_right ? w.left : w.right;
+    corners[top % 3] = apex;
+    Goal goal;
+    goal.face = face;
+    goal.wedge = number;
+    goal.origin = w.origin;
+    offer_sources(goal, corners);
+    if (in_wedge(w, apex)) offer_corner(goal, top % 3, apex);
+    const Index right_side = from_right ? Mesh::previous(g) : Mesh::next(g);
+    const Index left_side = from_right ? Mesh::next(g) : Mesh::previous(g);
+    const WideVec2 left_limit = turn(apex, w.left_limit) > 0 ? apex : w.left_limit;
+    const WideVec2 right_limit = turn(w.right_limit, apex) > 0 ? apex : w.right_limit;
+    add({right_side, w.right_vertex, top_vertex, w.right, apex, w.right_limit, left_limit, number, w.origin, w.guide});
+    add({left_side, top_vertex, w.left_vertex, apex, w.left, right_limit, w.left_limit, number, w.origin, w.guide});
+  }
+
+  static bool in_wedge(const Wedge& w, WideVec2 p) { return turn(w.right_limit, p) >= 0 && turn(p, w.left_limit) >= 0; }
+
+  void add(const Wedge& w) {
+    // Too narrow to hold more than the way to a vertex; a half-plane is not.
+    const int width = turn(w.right_limit, w.left_limit);
+    if (width < 0 || (width == 0 && dot(w.right_limit, w.left_limit).high >= 0)) return;
+    if (!(mesh_.length(w.halfedge) > 0)) return;  // its ends are one place, which is a vertex
+    const Vec2 span = visible(w);
+    const double least = least_total(w, span);
+    if (!(least <= (along_hint_ ? value_ + room_ : best_.total))) return;
+    if (has_been_seen(w, span)) return;
+    wedges_.push_back(w);
+    open_.push({along_hint_ ? miss(w) : least, static_cast<Index>(wedges_.size() - 1)});
+  }
+
+  // The part of the wedge's edge that lies in the wedge, from right to left, as shares of the edge.
+  static Vec2 visible(const Wedge& w) {
+    const auto share = [&](WideVec2 limit) {
+      const double r = -cross(limit, w.right).high, l = cross(limit, w.left).high;
+      return r + l > 0 ? std::clamp(r / (r + l), 0.0, 1.0) : kInfinity;
+    };
+    const double first = share(w.right_limit), last = share(w.left_limit);
+    return {first < kInfinity ? first : 0, last < kInfinity ? last : 1};
+  }
+
+  // The least that a way through the wedge can come to. The value on the edge differs from those at its ends by no more
+  // than the way to them. Going left, the way from the point falls by no more than the bound by the right end does and
+  // rises by no more than that by the left end does, so the least is where the two bounds meet. Nor is it less than the
+  // way alone.
+  double least_total(const Wedge& w, Vec2 span) const {
+    const double length = mesh_.length(w.halfedge);
+    const double right = known(w.right_vertex), left = known(w.left_vertex);
+    const auto way_to = [&](double share) { return norm(rounded(w.right + share * (w.left - w.right))); };
+    const double meet = std::clamp((right - left + length) / (2 * length), span.x, span.y);
+    const Vec2 edge = rounded(w.left - w.right);
+    const double foot = std::clamp(-dot(rounded(w.right), edge) / dot(edge, edge), span.x, span.y);
+    const double value = std::max(right - meet * length, left - (1 - meet) * length);
+    return origins_[w.origin].before + std::max(way_to(meet) + value, way_to(foot));
+  }
+  // A run that stopped early does not know all values: those are NaN and exclude nothing.
+  double known(Index v) const { return value_of(v) >= 0 ? value_of(v) : 0; }
+
+  // By what angle the hint misses the wedge.
+  static double miss(const Wedge& w) {
+    if (w.guide == Vec2{0, 0}) return kPi;
+    const Vec2 right = rounded(w.right_limit), left = rounded(w.left_limit);
+    if (cross(right, w.guide) >= 0 && cross(w.guide, left) >= 0) return 0;
+    return std::min(angle_between(right, w.guide), angle_between(left, w.guide));
+  }
+
+  // Over edges of many faces one place is reached on many ways, twice as many at each such edge.
+  bool has_been_seen(const Wedge& w, Vec2 span) {
+    Index first = w.halfedge;
+    for (Index g = mesh_.opposite()[first]; g != w.halfedge; g = mesh_.opposite()[g]) first = std::min(first, g);
+    const double length = mesh_.length(w.halfedge);
+    const Vec2 edge = (1 / length) * rounded(w.left - w.right), right = rounded(w.right);
+    const double along = -dot(edge, right), across = std::abs(cross(edge, right));
+    const bool forward = w.right_vertex < w.left_vertex;
+    const Seen now{{forward ? along : length - along, across}, forward ? span.x : 1 - span.y, forward ? span.y : 1 - span.x};
+    const double room = kSamePlace * value_;
+    std::vector<Seen>& others = seen_[first];
+    const bool seen = std::any_of(others.begin(), others.end(), [&](const Seen& s) {
+      return std::abs(s.place.x - now.place.x) <= room && std::abs(s.place.y - now.place.y) <= room &&
+             (s.first - now.first) * length <= room && (now.last - s.last) * length <= room;
+    });
+    if (!seen) others.push_back(now);
+    return seen;
+  }
+
+  // ---- goals
+
+  // A source at a vertex that is at no distance.
+  void offer_source_at(Index origin) {
+    const PointLocation& at = origins_[origin].at;
+    if (at.on != On::Vertex) return;
+    const auto [begin, end] = source_at_.equal_range(at.vertex);
+    for (auto s = begin; s != end; ++s) {
+      Goal goal;
+      goal.face = at.face;
+      goal.weights = at.weights;
+      goal.origin = origin;
+      goal.source = s->second;
+      offer(goal, data_.sources[s->second].offset + data_.shift);
+    }
+  }
+
+  // Those within the face that a way of the wedge has entered.
+  void offer_sources(Goal goal, const std::array<WideVec2, 3>& corners) {
+    const auto [begin, end] = sources_in_.equal_range(goal.face);
+    for (auto s = begin; s != end; ++s) {
+      goal.place = weighted(corners, s->second.weights);
+      if (goal.wedge != kStart && !in_wedge(wedges_[goal.wedge], goal.place)) continue;
+      goal.source = s->second.source;
+      goal.weights = s->second.weights;
+      goal.length = length_of(goal.place);
+      offer(goal, data_.sources[goal.source].offset + data_.shift);
+    }
+  }
+
+  void offer_corner(Goal goal, Index k, WideVec2 place) {
+    goal.vertex = mesh_.faces()[goal.face][k];
+    if (!(value_of(goal.vertex) < value_) || is_origin(goal.vertex)) return;
+    goal.place = place;
+    goal.length = length_of(place);
+    goal.weights = corner_weights(k);
+    offer(goal, value_of(goal.vertex));
+  }
+
+  void offer(Goal& goal, double start) {
+    goal.total = start + goal.length + origins_[goal.origin].before;
+    const bool named = hint_.root == (goal.source != kNoIndex ? goal.source + mesh_.vertex_count() : goal.vertex);
+    if (along_hint_ && named && goal.total <= value_ + room_) {
+      done_ = true;
+    } else if (!(goal.total < best_.total)) {
+      return;
+    }
+    best_ = goal;
+  }
+
+  // ---- the leg
+
+  WindowField::Leg leg_to(const Goal& goal) const {
+    WindowField::Leg leg;
+    std::vector<Index> way;
+    for (Index o = goal.origin; o != kStart; o = origins_[o].previous) way.push_back(o);
+    for (auto o = way.rbegin(); o != way.rend(); ++o) leg.points.push_back({origins_[*o].at.face, origins_[*o].at.weights});
+    std::vector<Index> chain;
+    for (Index w = goal.wedge; w != kStart; w = wedges_[w].before) chain.push_back(w);
+    std::reverse(chain.begin(), chain.end());
+    for (const Index w : chain) {
+      if (end_at_vertex(goal, wedges_[w], leg)) return leg;
+      leg.points.push_back(crossing(goal, wedges_[w]));
+    }
+    leg.length = origins_[goal.origin].before + goal.length;
+    leg.vertex = goal.vertex;
+    leg.source = goal.source;
+    const bool here = goal.length == 0 && goal.vertex == kNoIndex && origins_[goal.origin].at.on == On::Vertex;
+    if (!here) leg.points.push_back({goal.face, goal.weights});
+    return leg;
+  }
+
+  // Where the straight way passes through a vertex of the wedge's edge, as far as anyone can see.
+  bool end_at_vertex(const Goal& goal, const Wedge& w, WindowField::Leg& leg) const {
+    const auto try_end = [&](Index v, Index corner, WideVec2 place) {
+      if (v == goal.vertex || is_origin(v) || !(value_of(v) < value_)) return false;
+      const double along = dot(goal.place, place).high / goal.length, aside = std::abs(cross(goal.place, place).high) / goal.length;
+      if (!(along > 0) || !(aside <= kThrough * std::min(along, goal.length - along))) return false;
+      const double length = origins_[goal.origin].before + length_of(place);
+      if (!(std::abs(value_of(v) + length - goal.total) <= room_)) return false;
+      leg.points.push_back({Mesh::face_of(w.halfedge), corner_weights(corner % 3)});
+      leg.length = length;
+      leg.vertex = v;
+      return true;
+    };
+    const bool forward = mesh_.from(w.halfedge) == w.right_vertex;
+    const Index from = w.halfedge, to = Mesh::next(w.halfedge);
+    return try_end(w.right_vertex, forward ? from : to, w.right) || try_end(w.left_vertex, forward ? to : from, w.left);
+  }
+
+  SurfacePoint crossing(const Goal& goal, const Wedge& w) const {
+    const DoubleDouble r = -cross(goal.place, w.right), l = cross(goal.place, w.left), sum = r + l;
+    double right = 0, left = 0;  // weights
+    if (sum.high > kNoTurn * goal.length * norm(rounded(w.left - w.right))) {
+      left = std::clamp((r / sum).high, 0.0, 1.0);
+      right = std::clamp((l / sum).high, 0.0, 1.0);
+    } else {
+      // Along the edge: where the way begins.
+      const WideVec2 edge = w.left - w.right;
+      left = std::clamp((-dot(w.right, edge) / dot(edge, edge)).high, 0.0, 1.0);
+      right = 1 - left;
+    }
+    const bool forward = mesh_.from(w.halfedge) == w.right_vertex;
+    SurfacePoint p{Mesh::face_of(w.halfedge), {0, 0, 0}};
+    p.weights[w.halfedge % 3] = forward ? right : left;
+    p.weights[Mesh::next(w.halfedge) % 3] = forward ? left : right;
+    return p;
+  }
+
+  const WindowFieldData& data_;
+  const Mesh& mesh_;
+  const double value_, room_;
+  const Ray& hint_;
+  std::unordered_multimap<Index, Inside> sources_in_;  // by face
+  std::unordered_multimap<Index, Index> source_at_;    // by vertex
+  std::vector<Origin> origins_;
+  std::vector<Wedge> wedges_;
+  std::priority_queue<Open> open_;
+  std::unordered_map<Index, std::vector<Seen>> seen_;  // by the lowest halfedge of the edge
+  Goal best_;
+  bool along_hint_ = true, done_ = false;
+};
+
+}  // namespace
+
+WindowField::Leg find_leg(const WindowFieldData& data, const PointLocation& at, double value, const Ray& hint) {
+  return LegSearch(data, at, value, hint)();
+}
+
+}  // namespace brushfire::detail
