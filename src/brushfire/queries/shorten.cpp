@@ -18,10 +18,6 @@ using detail::Step;
 using detail::StraightLeg;
 using On = PointLocation::On;
 
-// An angle that misses pi by less gains less than rounding loses: cutting the corner shortens the two legs by a share
-// of its square.
-constexpr double kStraightAngle = 1e-8;
-
 // The halfedge of face f over the same edge as h.
 Index halfedge_in(const Mesh& mesh, Index h, Index f) {
   Index g = h;
@@ -165,7 +161,7 @@ class Shortener {
     if (a.length == 0 || b.length == 0) return std::nullopt;  // no direction, so no angle
     detail::WayAround way = detail::shortest_way_around(mesh_, a.leg.end.vertex, detail::direction_at_end(mesh_, a),
                                                         detail::direction_at_begin(mesh_, b));
-    if (!(way.angle < kPi - kStraightAngle)) return std::nullopt;
+    if (!(way.angle < kPi - detail::kStraightAngle)) return std::nullopt;
     return std::move(way.steps);
   }
 
@@ -284,7 +280,7 @@ class Shortener {
 SurfacePath shorten(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed) {
   if (points.empty()) throw Error(ErrorCode::InvalidArgument, "a path needs at least one point");
   std::vector<PointLocation> at;
-  for (const SurfacePoint& p : points) at.push_back(locate(mesh, p));
+  for (const SurfacePoint& p : points) at.push_back(locate(mesh, p, 0));
   if (closed) {
     // A vertex to begin at, where there is one: it holds the curve until it is shown not to.
     const auto vertex = std::find_if(at.begin(), at.end(), [](const PointLocation& p) { return p.on == On::Vertex; });

@@ -11,7 +11,7 @@ namespace brushfire {
 double length_of(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed) {
   std::vector<PointLocation> at;
   at.reserve(points.size());
-  for (const SurfacePoint& p : points) at.push_back(locate(mesh, p));
+  for (const SurfacePoint& p : points) at.push_back(locate(mesh, p, 0));
   double length = 0;
   for (std::size_t i = 0; i + (closed ? 0 : 1) < at.size(); ++i) {
     const std::size_t j = (i + 1) % at.size();

@@ -7,7 +7,7 @@
 #include <brushfire/solvers/windows/detail/leg_search.h>
 
 #include <brushfire/mesh/flat_face.h>
-#include <brushfire/solvers/windows/detail/wide_face.h>
+#include <brushfire/mesh/detail/wide_face.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +30,8 @@ constexpr double kNoDistance = 64 * std::numeric_limits<double>::epsilon();
 constexpr double kNoTurn = 1e-26;
 // Two wedges over one edge are one where their places and limits agree to this share of the value.
 constexpr double kSamePlace = 1e-15;
+// Wedges that are one come soon after each other: only so many are looked at.
+constexpr std::ptrdiff_t kRecent = 32;
 // Once the value is explained, so many more wedges are looked into for the root that the field names itself.
 constexpr int kPatience = 256;
 constexpr int kMostWedges = 1 << 18;
@@ -313,7 +315,8 @@ class LegSearch {
     const Seen now{{forward ? along : length - along, across}, forward ? span.x : 1 - span.y, forward ? span.y : 1 - span.x};
     const double room = kSamePlace * value_;
     std::vector<Seen>& others = seen_[first];
-    const bool seen = std::any_of(others.begin(), others.end(), [&](const Seen& s) {
+    const auto recent = others.end() - std::min<std::ptrdiff_t>(std::ssize(others), kRecent);
+    const bool seen = std::any_of(recent, others.end(), [&](const Seen& s) {
       return std::abs(s.place.x - now.place.x) <= room && std::abs(s.place.y - now.place.y) <= room &&
              (s.first - now.first) * length <= room && (now.last - s.last) * length <= room;
     });
@@ -388,8 +391,7 @@ class LegSearch {
     leg.length = origins_[goal.origin].before + goal.length;
     leg.vertex = goal.vertex;
     leg.source = goal.source;
-    const bool here = goal.length == 0 && goal.vertex == kNoIndex && origins_[goal.origin].at.on == On::Vertex;
-    if (!here) leg.points.push_back({goal.face, goal.weights});
+    if (goal.length > 0 || goal.vertex != kNoIndex) leg.points.push_back({goal.face, goal.weights});
     return leg;
   }
 

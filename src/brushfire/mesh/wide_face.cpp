@@ -1,5 +1,5 @@
 // Faces laid flat, from coordinates or from lengths.
-#include <brushfire/solvers/windows/detail/wide_face.h>
+#include <brushfire/mesh/detail/wide_face.h>
 
 #include <algorithm>
 
