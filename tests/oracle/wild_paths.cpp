@@ -104,7 +104,9 @@ class Judge {
   Real edge(Index a, Index b) const { return norm(arrow(mesh_.positions()[a], mesh_.positions()[b])); }
 
   Arrow straight() const {
-    const Vec3 origin = mesh_.positions()[at_.front().begin()->first];
+    const auto heaviest = std::max_element(at_.front().begin(), at_.front().end(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+    const Vec3 origin = mesh_.positions()[heaviest->first];
     Arrow sum;
     for (const auto& [v, w] : at_.back()) sum = sum + w * arrow(origin, mesh_.positions()[v]);
     for (const auto& [v, w] : at_.front()) sum = sum + (-w) * arrow(origin, mesh_.positions()[v]);

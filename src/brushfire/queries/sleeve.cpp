@@ -31,11 +31,6 @@ bool lies_in(const Mesh& mesh, const PointLocation& point, Index face) {
   return weights_in(mesh, point, face).has_value();
 }
 
-WideVec2 placed(const std::array<WideVec2, 3>& corners, const std::array<double, 3>& weights) {
-  return corners[0] + DoubleDouble(weights[1]) * (corners[1] - corners[0]) +
-         DoubleDouble(weights[2]) * (corners[2] - corners[0]);
-}
-
 Index longest_halfedge(const Mesh& mesh, Index f) {
   Index longest = 3 * f;
   for (const Index h : {3 * f + 1, 3 * f + 2}) {
@@ -60,7 +55,7 @@ Unfolded unfold(const Mesh& mesh, const Leg& leg) {
   flat.portals.reserve(leg.steps.size());
   std::array<WideVec2, 3> corners = wide_corners(mesh, leg.first_face, longest_halfedge(mesh, leg.first_face) % 3);
   bool mirrored = false;  // whether the present face lies clockwise
-  const WideVec2 begin = placed(corners, *weights_in(mesh, leg.begin, leg.first_face));
+  const WideVec2 begin = wide_point(corners, *weights_in(mesh, leg.begin, leg.first_face));
   for (WideVec2& corner : corners) corner = corner - begin;
   for (const Step& step : leg.steps) {
     const WideVec2 from = corners[step.out % 3], to = corners[Mesh::next(step.out) % 3];
@@ -77,7 +72,7 @@ Unfolded unfold(const Mesh& mesh, const Leg& leg) {
     corners[Mesh::next(step.in) % 3] = v;
     corners[Mesh::previous(step.in) % 3] = u + apex.x * along + apex.y * inward;
   }
-  flat.end = placed(corners, *weights_in(mesh, leg.end, leg.last_face()));
+  flat.end = wide_point(corners, *weights_in(mesh, leg.end, leg.last_face()));
   return flat;
 }
 
@@ -216,7 +211,7 @@ std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg) {
         split = {bend->step, vertex_of(mesh, now, flat, *bend)};
       } else {
         straight.leg = now;
-        straight.length = norm(flat.end).high;
+        straight.length = norm(flat.end);
         for (std::size_t i = 0; i < now.steps.size(); ++i) straight.crossing.push_back(crossing_of(flat, i));
       }
     }
@@ -225,9 +220,6 @@ std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg) {
       waiting.push_back(std::move(now));
       waiting.push_back(std::move(before));
     } else {
-      if (straight.leg.steps.empty()) {
-        straight.length = distance_within(mesh, straight.leg.first_face, straight.leg.begin, straight.leg.end);
-      }
       pieces.push_back(std::move(straight));
     }
   }
@@ -253,15 +245,35 @@ void append_points(const Mesh& mesh, const StraightLeg& straight, std::vector<Su
   append({straight.leg.end.face, straight.leg.end.weights});
 }
 
+namespace {
+
+// From coordinates: sides of one vertex keep all digits, however thin the face, which lengths do not.
+Vec3 side_of(const Mesh& mesh, Index from, Index to) {
+  return (1 / mesh.unit()) * (mesh.positions()[to] - mesh.positions()[from]);
+}
+double angle_between(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
+double corner_angle(const Mesh& mesh, Index corner) {
+  if (!mesh.has_positions()) return mesh.corner_angle(corner);
+  const Index v = mesh.from(corner);
+  return angle_between(side_of(mesh, v, mesh.to(corner)), side_of(mesh, v, mesh.from(Mesh::previous(corner))));
+}
+
+}  // namespace
+
 Direction direction_towards(const Mesh& mesh, Index vertex, Index f, const std::array<double, 3>& point) {
   const Face& t = mesh.faces()[f];
   const auto k = static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
   std::array<double, 3> own{0, 0, 0};
   own[k] = 1;
+  const Index corner = 3 * f + static_cast<Index>(k);
+  const double full = corner_angle(mesh, corner);
+  if (mesh.has_positions()) {
+    const Vec3 ahead = side_of(mesh, vertex, t[(k + 1) % 3]), behind = side_of(mesh, vertex, t[(k + 2) % 3]);
+    const Vec3 d = point[(k + 1) % 3] * ahead + point[(k + 2) % 3] * behind;
+    return {corner, std::min(angle_between(ahead, d), full)};
+  }
   const std::array<Vec2, 3> corners = flat_corners(mesh, f);
   const Vec2 d = flat_difference(corners, own, point), side = corners[(k + 1) % 3] - corners[k];
-  const Index corner = 3 * f + static_cast<Index>(k);
-  const double full = mesh.corner_angle(corner);
   return {corner, std::clamp(std::atan2(cross(side, d), dot(side, d)), 0.0, full)};
 }
 
@@ -315,7 +327,7 @@ WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& f
   const auto ahead = [&](Index corner) { return mesh.to(corner); };  // the edge that `corner` runs along
   const auto behind = [&](Index corner) { return mesh.from(Mesh::previous(corner)); };  // the corner's other edge
   offer(ahead(from.corner), from.angle, from.corner, kNoIndex);
-  offer(behind(from.corner), mesh.corner_angle(from.corner) - from.angle, from.corner, kNoIndex);
+  offer(behind(from.corner), corner_angle(mesh, from.corner) - from.angle, from.corner, kNoIndex);
 
   WayAround best;
   Index best_edge = kNoIndex;
@@ -330,7 +342,7 @@ WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& f
       if (!mesh.is_face_usable(Mesh::face_of(corner)) || corner == node.through) continue;
       const bool is_ahead = ahead(corner) == edge, is_behind = behind(corner) == edge;
       if (!is_ahead && !is_behind) continue;
-      const double full = mesh.corner_angle(corner);
+      const double full = corner_angle(mesh, corner);
       if (corner == to.corner) {
         const double total = angle + (is_ahead ? to.angle : full - to.angle);
         if (total < best.angle) {

@@ -20,4 +20,8 @@ WideFrame wide_frame(const Mesh& mesh, Index h);
 // The corners of face f laid flat counter-clockwise, with halfedge k of the face on the x axis.
 std::array<WideVec2, 3> wide_corners(const Mesh& mesh, Index f, Index k);
 
+// A point of a face whose corners lie there. Relative to the heaviest corner, so that what is near to it keeps its
+// digits; exactly a corner where one weight is 1.
+WideVec2 wide_point(const std::array<WideVec2, 3>& corners, const std::array<double, 3>& weights);
+
 }  // namespace brushfire::detail

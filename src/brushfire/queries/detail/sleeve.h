@@ -1,6 +1,7 @@
 // Sleeves: the faces that a piece of a path runs through, unfolded into the plane.
 #pragma once
 
+#include <brushfire/core/double_double.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 
@@ -37,7 +38,7 @@ struct Crossing {
 struct StraightLeg {
   Leg leg;
   std::vector<Crossing> crossing;  // [steps]
-  double length = 0;               // mesh.unit()
+  DoubleDouble length;             // mesh.unit(); wide, so that what a round gains at the smallest corner is seen
 };
 
 // The shortest path through the leg's sleeve: straight pieces that meet at vertices. Also splits where a straight piece

@@ -34,7 +34,7 @@ constexpr double kSamePlace = 1e-15;
 constexpr std::ptrdiff_t kRecent = 32;
 // Once the value is explained, so many more wedges are looked into for the root that the field names itself.
 constexpr int kPatience = 256;
-constexpr int kMostWedges = 1 << 18;
+constexpr std::size_t kMostWedges = 1 << 17, kMostWithoutValues = 1 << 12;
 
 constexpr Index kStart = kNoIndex;  // the wedge before the first one
 
@@ -68,14 +68,6 @@ struct Goal {
   Index origin = 0;
 };
 
-WideVec2 weighted(const std::array<WideVec2, 3>& corners, const std::array<double, 3>& weights) {
-  // Relative to the heaviest corner, so that what is near to it keeps its digits.
-  const auto k = static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
-  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-  const DoubleDouble sum = DoubleDouble(weights[k]) + weights[i] + weights[j];
-  return corners[k] + (weights[i] / sum) * (corners[i] - corners[k]) + (weights[j] / sum) * (corners[j] - corners[k]);
-}
-
 Vec2 rounded(WideVec2 a) { return {a.x.high, a.y.high}; }
 double length_of(WideVec2 a) { return norm(a).high; }
 
@@ -84,6 +76,12 @@ int turn(WideVec2 a, WideVec2 b) {
   const double t = cross(a, b).high;
   const double room = kNoTurn * norm(rounded(a)) * norm(rounded(b));
   return t > room ? 1 : t < -room ? -1 : 0;
+}
+
+// The same within a half-plane, one limit of which may be opposite of the other.
+bool is_left_of(WideVec2 a, WideVec2 b) {
+  const int t = turn(a, b);
+  return t > 0 || (t == 0 && dot(a, b).high < 0);
 }
 
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
@@ -110,21 +108,30 @@ class LegSearch {
   }
 
   WindowField::Leg operator()() {
-    // Along the hint, as long as the value allows; then, where the value itself does not hold, by length alone.
-    look(true);
-    if (!(best_.total <= value_ + room_)) look(false);
-    return best_.total < kInfinity ? leg_to(best_) : WindowField::Leg{};
+    // Along the hint, as long as the value allows. Where the value itself does not hold, by length alone; where values
+    // around are too large and hide the way, without them.
+    WindowField::Leg leg;
+    double total = kInfinity;
+    for (const Pass pass : {Pass::AlongHint, Pass::ByLength, Pass::WithoutValues}) {
+      look(pass);
+      if (best_.total < total) leg = leg_to(best_);
+      total = std::min(total, best_.total);
+      if (total <= value_ + room_) break;
+    }
+    return leg;
   }
 
  private:
+  enum class Pass { AlongHint, ByLength, WithoutValues };
   struct Inside {
     Index source;
     std::array<double, 3> weights;
   };
   struct Open {
-    double key;
     Index wedge;
-    bool operator<(const Open& o) const { return key > o.key || (key == o.key && wedge < o.wedge); }
+    double key;
+    double reach;  // of equal keys the farthest first
+    bool operator<(const Open& o) const { return key > o.key || (key == o.key && reach < o.reach); }
   };
   struct Seen {
     Vec2 place;  // of the point, in the frame of the edge
@@ -174,8 +181,8 @@ class LegSearch {
 
   // ---- one pass
 
-  void look(bool along_hint) {
-    along_hint_ = along_hint;
+  void look(Pass pass) {
+    pass_ = pass;
     wedges_.clear();
     seen_.clear();
     open_ = {};
@@ -183,13 +190,15 @@ class LegSearch {
     best_ = {};
     int patience = kPatience;
     for (Index i = 0; i < origins_.size() && !done_; ++i) start_from(i);
-    while (!open_.empty() && !done_ && wedges_.size() < kMostWedges) {
+    while (!open_.empty() && !done_ && wedges_.size() < most_wedges()) {
       const Open next = open_.top();
       open_.pop();
-      if (along_hint ? is_explained() && --patience < 0 : next.key >= best_.total) return;
+      if (by_length() ? next.key >= best_.total : is_explained() && --patience < 0) return;
       enter_faces(next.wedge);
     }
   }
+  std::size_t most_wedges() const { return pass_ == Pass::WithoutValues ? kMostWithoutValues : kMostWedges; }
+  bool by_length() const { return pass_ == Pass::ByLength; }
   bool is_explained() const { return best_.total <= value_ + room_; }
 
   void start_from(Index origin) {
@@ -200,10 +209,10 @@ class LegSearch {
       for (const Index i : {1U, 2U}) {
         if (mesh_.length(3 * f.face + i) > mesh_.length(3 * f.face + k)) k = i;
       }
-      const bool hinted = along_hint_ && origin == 0 && hint_.halfedge != kNoIndex && Mesh::face_of(hint_.halfedge) == f.face;
+      const bool hinted = !by_length() && origin == 0 && hint_.halfedge != kNoIndex && Mesh::face_of(hint_.halfedge) == f.face;
       if (hinted && mesh_.length(hint_.halfedge) > 0) k = hint_.halfedge % 3;
       std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, k);
-      const WideVec2 here = weighted(corners, f.weights);
+      const WideVec2 here = wide_point(corners, f.weights);
       for (WideVec2& c : corners) c = c - here;
       Goal goal;
       goal.face = f.face;
@@ -248,25 +257,24 @@ class LegSearch {
     if (in_wedge(w, apex)) offer_corner(goal, top % 3, apex);
     const Index right_side = from_right ? Mesh::previous(g) : Mesh::next(g);
     const Index left_side = from_right ? Mesh::next(g) : Mesh::previous(g);
-    const WideVec2 left_limit = turn(apex, w.left_limit) > 0 ? apex : w.left_limit;
-    const WideVec2 right_limit = turn(w.right_limit, apex) > 0 ? apex : w.right_limit;
-    add({right_side, w.right_vertex, top_vertex, w.right, apex, w.right_limit, left_limit, number, w.origin, w.guide});
-    add({left_side, top_vertex, w.left_vertex, apex, w.left, right_limit, w.left_limit, number, w.origin, w.guide});
+    const bool has_right = is_left_of(w.right_limit, apex), has_left = is_left_of(apex, w.left_limit);
+    const WideVec2 left_limit = has_left ? apex : w.left_limit, right_limit = has_right ? apex : w.right_limit;
+    if (has_right) add({right_side, w.right_vertex, top_vertex, w.right, apex, w.right_limit, left_limit, number, w.origin, w.guide});
+    if (has_left) add({left_side, top_vertex, w.left_vertex, apex, w.left, right_limit, w.left_limit, number, w.origin, w.guide});
   }
 
   static bool in_wedge(const Wedge& w, WideVec2 p) { return turn(w.right_limit, p) >= 0 && turn(p, w.left_limit) >= 0; }
 
   void add(const Wedge& w) {
-    // Too narrow to hold more than the way to a vertex; a half-plane is not.
-    const int width = turn(w.right_limit, w.left_limit);
-    if (width < 0 || (width == 0 && dot(w.right_limit, w.left_limit).high >= 0)) return;
+    if (!is_left_of(w.right_limit, w.left_limit)) return;  // too narrow to hold more than the way to a vertex
     if (!(mesh_.length(w.halfedge) > 0)) return;  // its ends are one place, which is a vertex
     const Vec2 span = visible(w);
     const double least = least_total(w, span);
-    if (!(least <= (along_hint_ ? value_ + room_ : best_.total))) return;
+    if (!(least <= (by_length() ? best_.total : value_ + room_))) return;
     if (has_been_seen(w, span)) return;
     wedges_.push_back(w);
-    open_.push({along_hint_ ? miss(w) : least, static_cast<Index>(wedges_.size() - 1)});
+    const auto number = static_cast<Index>(wedges_.size() - 1);
+    open_.push(by_length() ? Open{number, least, 0} : Open{number, miss(w), reach(w)});
   }
 
   // The part of the wedge's edge that lies in the wedge, from right to left, as shares of the edge.
@@ -291,10 +299,22 @@ class LegSearch {
     const Vec2 edge = rounded(w.left - w.right);
     const double foot = std::clamp(-dot(rounded(w.right), edge) / dot(edge, edge), span.x, span.y);
     const double value = std::max(right - meet * length, left - (1 - meet) * length);
-    return origins_[w.origin].before + std::max(way_to(meet) + value, way_to(foot));
+    const double least = pass_ == Pass::WithoutValues ? way_to(foot) : std::max(way_to(meet) + value, way_to(foot));
+    return origins_[w.origin].before + least;
   }
   // A run that stopped early does not know all values: those are NaN and exclude nothing.
   double known(Index v) const { return value_of(v) >= 0 ? value_of(v) : 0; }
+
+  // How far away the edge is, in the direction of the wedge that is nearest to the hint. Who is far has got somewhere:
+  // between thin faces over one edge a way may go to and fro for as long as it likes.
+  static double reach(const Wedge& w) {
+    const Vec2 right = rounded(w.right), edge = rounded(w.left - w.right), first = rounded(w.right_limit),
+               last = rounded(w.left_limit);
+    const bool is_right = cross(first, w.guide) < 0, is_left = cross(w.guide, last) < 0;
+    const Vec2 along = !is_right && !is_left ? w.guide : is_right ? first : last;
+    const double turn = cross(along, edge);
+    return turn > 0 ? cross(right, edge) / turn * norm(along) : norm(right);
+  }
 
   // By what angle the hint misses the wedge.
   static double miss(const Wedge& w) {
@@ -345,7 +365,7 @@ class LegSearch {
   void offer_sources(Goal goal, const std::array<WideVec2, 3>& corners) {
     const auto [begin, end] = sources_in_.equal_range(goal.face);
     for (auto s = begin; s != end; ++s) {
-      goal.place = weighted(corners, s->second.weights);
+      goal.place = wide_point(corners, s->second.weights);
       if (goal.wedge != kStart && !in_wedge(wedges_[goal.wedge], goal.place)) continue;
       goal.source = s->second.source;
       goal.weights = s->second.weights;
@@ -366,7 +386,7 @@ class LegSearch {
   void offer(Goal& goal, double start) {
     goal.total = start + goal.length + origins_[goal.origin].before;
     const bool named = hint_.root == (goal.source != kNoIndex ? goal.source + mesh_.vertex_count() : goal.vertex);
-    if (along_hint_ && named && goal.total <= value_ + room_) {
+    if (!by_length() && named && goal.total <= value_ + room_) {
       done_ = true;
     } else if (!(goal.total < best_.total)) {
       return;
@@ -443,7 +463,8 @@ class LegSearch {
   std::priority_queue<Open> open_;
   std::unordered_map<Index, std::vector<Seen>> seen_;  // by the lowest halfedge of the edge
   Goal best_;
-  bool along_hint_ = true, done_ = false;
+  Pass pass_ = Pass::AlongHint;
+  bool done_ = false;
 };
 
 }  // namespace
