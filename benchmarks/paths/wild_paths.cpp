@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,7 +21,8 @@ using namespace brushfire;
 using namespace brushfire::oracle;
 
 struct Row {
-  int reached = 0, field_wrong = 0, too_long = 0;
+  int reached = 0, field_wrong = 0;
+  int too_long[4] = {0, 0, 0, 0};  // by the stage of judge_path()
   std::map<std::string, int> bad, bad_too;  // by the complaint's first word; the second where the field is wrong
 };
 
@@ -33,14 +35,14 @@ struct Answer {
   char complaint[160];
 };
 
-// In a process of its own; false where it was given up.
-bool judged(const Mesh& mesh, const SurfacePoint& from, const SurfacePoint& to, Answer& answer) {
+// In a process of its own; false where it was given up, in what stage.
+bool judged(const Mesh& mesh, const SurfacePoint& from, const SurfacePoint& to, int* stage, Answer& answer) {
   int pipes[2];
   if (pipe(pipes) != 0) return false;
   const pid_t child = fork();
   if (child == 0) {
     alarm(kSeconds);
-    const PathVerdict v = judge_path(mesh, from, to);
+    const PathVerdict v = judge_path(mesh, from, to, true, stage);
     Answer a{v.reached, v.field_true, v.field, v.length, static_cast<double>(v.truth), {}};
     std::snprintf(a.complaint, sizeof a.complaint, "%s", v.complaint.c_str());
     _exit(write(pipes[1], &a, sizeof a) == sizeof a ? 0 : 1);
@@ -60,8 +62,8 @@ void add(const Answer& v, Row& row) {
 }
 
 void print(Wild family, int paths, const Row& row) {
-  std::printf("%-10s %7d %8d %12d %8d |", name_of(family), paths, row.reached, row.field_wrong,
-              row.too_long);
+  std::printf("%-10s %7d %8d %12d %12d %8d %8d |", name_of(family), paths, row.reached, row.field_wrong,
+              row.too_long[1], row.too_long[2], row.too_long[3]);
   for (const auto& [word, count] : row.bad) std::printf(" %s %d", word.c_str(), count);
   std::printf(" | beside wrong fields:");
   for (const auto& [word, count] : row.bad_too) std::printf(" %s %d", word.c_str(), count);
@@ -80,7 +82,9 @@ int main(int argc, char** argv) {
   const auto first = static_cast<std::uint32_t>(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1);
   const std::string only = argc > 3 ? argv[3] : "";
   bool bad = false;
-  std::printf("%-10s %7s %8s %12s %8s |\n", "family", "paths", "reached", "field wrong", "too long");
+  std::printf("%-10s %7s %8s %12s %30s |\n", "family", "paths", "reached", "field wrong",
+              "too long: field, path, oracle");
+  auto* const stage = static_cast<int*>(mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   for (const Wild family : kWild) {
     if (!only.empty() && only != name_of(family)) continue;
     Row row;
@@ -90,8 +94,8 @@ int main(int argc, char** argv) {
       for (int pair = 0; pair < 3; ++pair) {
         const SurfacePoint from = wild_point(mesh, random), to = wild_point(mesh, random);
         Answer v;
-        if (!judged(mesh, from, to, v)) {
-          ++row.too_long;
+        if (!judged(mesh, from, to, stage, v)) {
+          ++row.too_long[*stage];
           continue;
         }
         add(v, row);

@@ -19,9 +19,10 @@ struct PathVerdict {
   long double truth = 0;
 };
 
-// The path from one point to the other and the field from the first, both of method Exact. Throws Error(Cancelled) where
-// the field is cancelled.
-PathVerdict judge_path(const Mesh& mesh, const SurfacePoint& from, const SurfacePoint& to,
-                       const CancelToken* cancel = nullptr);
+// The path from one point to the other and the field from the first, both of method Exact. `ask_oracle`: false leaves
+// field_true true; the oracle does not always end. `stage`, where given, says what is being done: 1 the field, 2 the
+// path, 3 the truth. Throws Error(Cancelled) where the field is cancelled.
+PathVerdict judge_path(const Mesh& mesh, const SurfacePoint& from, const SurfacePoint& to, bool ask_oracle = true,
+                       int* stage = nullptr, const CancelToken* cancel = nullptr);
 
 }  // namespace brushfire::oracle

@@ -11,8 +11,8 @@ using Arrow = std::array<DoubleDouble, 3>;
 // Differences of doubles are exact; the unit is a power of two.
 Arrow arrow(const Mesh& mesh, Index from, Index to, double scale) {
   const Vec3 &a = mesh.positions()[from], &b = mesh.positions()[to];
-  return {exact_sum(scale * b.x, -scale * a.x), exact_sum(scale * b.y, -scale * a.y),
-          exact_sum(scale * b.z, -scale * a.z)};
+  return {DoubleDouble::sum(scale * b.x, -scale * a.x), DoubleDouble::sum(scale * b.y, -scale * a.y),
+          DoubleDouble::sum(scale * b.z, -scale * a.z)};
 }
 
 DoubleDouble dot(const Arrow& a, const Arrow& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

@@ -77,8 +77,8 @@ bool same_vertex(const PointLocation& a, const PointLocation& b) {
   return a.on == On::Vertex && b.on == On::Vertex && a.vertex == b.vertex;
 }
 
-DoubleDouble total_length(const std::vector<StraightLeg>& pieces) {
-  DoubleDouble sum;
+detail::DoubleDouble total_length(const std::vector<StraightLeg>& pieces) {
+  detail::DoubleDouble sum;
   for (const StraightLeg& p : pieces) sum = sum + p.length;
   return sum;
 }
@@ -108,7 +108,7 @@ class Shortener {
       // so that the smallest corner counts, or, where a closed curve is cut at a point that is known to half the digits
       // of a double, of 53.
       const double progress = closed_ ? 4 * std::numeric_limits<double>::epsilon() : 1e-28;
-      if (!(total_length(shorter) < total_length(best) * (DoubleDouble(1) - DoubleDouble(progress)))) return best;
+      if (!(total_length(shorter) < total_length(best) * (detail::DoubleDouble(1) - detail::DoubleDouble(progress)))) return best;
       best = std::move(shorter);
     }
   }

@@ -1,7 +1,7 @@
 // Sleeves: the faces that a piece of a path runs through, unfolded into the plane.
 #pragma once
 
-#include <brushfire/core/double_double.h>
+#include <brushfire/core/detail/double_double.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 

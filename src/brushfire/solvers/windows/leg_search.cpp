@@ -94,17 +94,17 @@ std::array<double, 3> corner_weights(Index k) {
 
 class LegSearch {
  public:
-  LegSearch(const WindowFieldData& data, const PointLocation& at, double value, const Ray& hint)
-      : data_(data), mesh_(data.mesh), value_(value), room_(kAgreement * value), hint_(hint) {
-    for (Index s = 0; s < data.sources.size(); ++s) {
-      const PointLocation& place = data.sources[s].at;
+  explicit LegSearch(const LegQuestion& question)
+      : ask_(question), mesh_(question.mesh), value_(question.value), room_(kAgreement * question.value) {
+    for (Index s = 0; s < ask_.sources.size(); ++s) {
+      const PointLocation& place = ask_.sources[s].at;
       if (place.on == On::Vertex) {
         source_at_.emplace(place.vertex, s);
         continue;
       }
-      for_each_face_around(mesh_, place, [&](const FaceWeights& f) { sources_in_.emplace(f.face, Inside{s, f.weights}); });
+      for (const Named& f : names_of(place)) sources_in_.emplace(f.face, Inside{s, f.weights});
     }
-    find_origins(at);
+    find_origins(ask_.at);
   }
 
   WindowField::Leg operator()() {
@@ -138,7 +138,7 @@ class LegSearch {
     double first, last;
   };
 
-  double value_of(Index v) const { return data_.vertices[v].value; }
+  double value_of(Index v) const { return ask_.vertex_value(v); }
 
   // ---- where to look from
 
@@ -146,7 +146,7 @@ class LegSearch {
     origins_.push_back({at, 0, kStart});
     for (Index i = 0; i < origins_.size(); ++i) {
       const Origin from = origins_[i];
-      for (const FaceWeights& f : faces_of(from.at)) {
+      for (const Named& f : names_of(from.at)) {
         PointLocation here;
         here.face = f.face;
         here.weights = f.weights;
@@ -172,11 +172,19 @@ class LegSearch {
                        [&](const Origin& o) { return o.at.on == On::Vertex && o.at.vertex == v; });
   }
 
-  std::vector<FaceWeights> faces_of(const PointLocation& at) const {
-    if (at.on != On::Vertex) return faces_around(mesh_, at);
-    std::vector<FaceWeights> faces;
-    for (const Index h : mesh_.corners(at.vertex)) faces.push_back({Mesh::face_of(h), corner_weights(h % 3)});
-    return faces;
+  // A point by its faces. A face that has a vertex twice names it once for every corner.
+  struct Named {
+    Index face;
+    std::array<double, 3> weights;
+  };
+  std::vector<Named> names_of(const PointLocation& at) const {
+    std::vector<Named> names;
+    if (at.on == On::Vertex) {
+      for (const Index h : mesh_.corners(at.vertex)) names.push_back({Mesh::face_of(h), corner_weights(h % 3)});
+    } else {
+      for (const Index f : faces_at(mesh_, at)) names.push_back({f, *weights_in(mesh_, at, f)});
+    }
+    return names;
   }
 
   // ---- one pass
@@ -204,13 +212,13 @@ class LegSearch {
   void start_from(Index origin) {
     const PointLocation& at = origins_[origin].at;
     offer_source_at(origin);
-    for (const FaceWeights& f : faces_of(at)) {
+    for (const Named& f : names_of(at)) {
       Index k = 0;  // the frame: that of the hint, or of the longest edge
       for (const Index i : {1U, 2U}) {
         if (mesh_.length(3 * f.face + i) > mesh_.length(3 * f.face + k)) k = i;
       }
-      const bool hinted = !by_length() && origin == 0 && hint_.halfedge != kNoIndex && Mesh::face_of(hint_.halfedge) == f.face;
-      if (hinted && mesh_.length(hint_.halfedge) > 0) k = hint_.halfedge % 3;
+      const bool hinted = !by_length() && origin == 0 && ask_.halfedge != kNoIndex && Mesh::face_of(ask_.halfedge) == f.face;
+      if (hinted && mesh_.length(ask_.halfedge) > 0) k = ask_.halfedge % 3;
       std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, k);
       const WideVec2 here = wide_point(corners, f.weights);
       for (WideVec2& c : corners) c = c - here;
@@ -220,10 +228,10 @@ class LegSearch {
       offer_sources(goal, corners);
       for (Index i = 0; i < 3; ++i) offer_corner(goal, i, corners[i]);
       if (!mesh_.is_face_usable(f.face)) continue;
-      const Vec2 guide = hinted ? hint_.source - rounded(here) : Vec2{0, 0};
+      const Vec2 guide = hinted ? ask_.from - rounded(here) : Vec2{0, 0};
       for (Index i = 0; i < 3; ++i) {
-        if (f.weights[previous3(i)] == 0) continue;  // the point is on this edge
-        const Index j = next3(i), h = 3 * f.face + i;
+        if (f.weights[(i + 2) % 3] == 0) continue;  // the point is on this edge
+        const Index j = (i + 1) % 3, h = 3 * f.face + i;
         add({h, mesh_.from(h), mesh_.to(h), corners[i], corners[j], corners[i], corners[j], kStart, origin, guide});
       }
     }
@@ -247,7 +255,7 @@ class LegSearch {
     const Index face = Mesh::face_of(g), top = Mesh::previous(g), top_vertex = mesh_.from(top);
     std::array<WideVec2, 3> corners;
     corners[g % 3] = from_right ? w.right : w.left;
-    corners[next3(g % 3)] = from_right ? w.left : w.right;
+    corners[Mesh::next(g) % 3] = from_right ? w.left : w.right;
     corners[top % 3] = apex;
     Goal goal;
     goal.face = face;
@@ -357,7 +365,7 @@ class LegSearch {
       goal.weights = at.weights;
       goal.origin = origin;
       goal.source = s->second;
-      offer(goal, data_.sources[s->second].offset + data_.shift);
+      offer(goal, ask_.sources[s->second].offset + ask_.shift);
     }
   }
 
@@ -370,7 +378,7 @@ class LegSearch {
       goal.source = s->second.source;
       goal.weights = s->second.weights;
       goal.length = length_of(goal.place);
-      offer(goal, data_.sources[goal.source].offset + data_.shift);
+      offer(goal, ask_.sources[goal.source].offset + ask_.shift);
     }
   }
 
@@ -385,7 +393,7 @@ class LegSearch {
 
   void offer(Goal& goal, double start) {
     goal.total = start + goal.length + origins_[goal.origin].before;
-    const bool named = hint_.root == (goal.source != kNoIndex ? goal.source + mesh_.vertex_count() : goal.vertex);
+    const bool named = ask_.root == (goal.source != kNoIndex ? goal.source + mesh_.vertex_count() : goal.vertex);
     if (!by_length() && named && goal.total <= value_ + room_) {
       done_ = true;
     } else if (!(goal.total < best_.total)) {
@@ -452,10 +460,9 @@ class LegSearch {
     return p;
   }
 
-  const WindowFieldData& data_;
+  const LegQuestion& ask_;
   const Mesh& mesh_;
   const double value_, room_;
-  const Ray& hint_;
   std::unordered_multimap<Index, Inside> sources_in_;  // by face
   std::unordered_multimap<Index, Index> source_at_;    // by vertex
   std::vector<Origin> origins_;
@@ -469,8 +476,6 @@ class LegSearch {
 
 }  // namespace
 
-WindowField::Leg find_leg(const WindowFieldData& data, const PointLocation& at, double value, const Ray& hint) {
-  return LegSearch(data, at, value, hint)();
-}
+WindowField::Leg find_leg(const LegQuestion& question) { return LegSearch(question)(); }
 
 }  // namespace brushfire::detail

@@ -1,15 +1,35 @@
 // Finding the last leg of a path by looking, where the ray that was kept does not lead anywhere for sure.
 #pragma once
 
+#include <brushfire/core/types.h>
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_point.h>
+#include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/window_field.h>
-#include <brushfire/solvers/windows/detail/record.h>
+
+#include <functional>
+#include <span>
 
 namespace brushfire::detail {
 
-// The leg that ends at the point `at`, whose value is `value`: straight to a vertex or a source from which it explains
-// the value. `hint` is looked along first, and no more than that: the leg is proven by its length, in numbers of 106
-// bits. Where nothing explains the value to kAgreement, the shortest that there is. No points where there is none.
-WindowField::Leg find_leg(const WindowFieldData& data, const PointLocation& at, double value, const Ray& hint);
+// A point, and what a run knows of it and of the vertices. Lengths in mesh.unit(), offsets included in values.
+struct LegQuestion {
+  const Mesh& mesh;
+  std::span<const LocatedSource> sources;
+  double shift = 0;                                // what was added to every value
+  const std::function<double(Index)>& vertex_value;  // NaN: not known
+  PointLocation at;
+  double value = 0;
+  // Where the value seems to have come from. It is looked at first, and no more than that.
+  Index root = kNoIndex;      // vertex, or vertex count + position of the source
+  Index halfedge = kNoIndex;  // of a face that holds the point: over this edge, from `from` in its frame; or from nowhere
+  Vec2 from;
+};
+
+// The leg that ends at the point: straight to a vertex or a source from which it explains the value; proven by its
+// length, in numbers of 106 bits. Where nothing explains the value to kAgreement, the shortest that was found. No points
+// where there is none. Its length is in mesh.unit().
+WindowField::Leg find_leg(const LegQuestion& question);
 
 // What a leg and the value where it starts may miss the value at its end by, as a share of it.
 inline constexpr double kAgreement = 1e-12;
