@@ -3,8 +3,8 @@
 //   wild_paths COUNT [SEED] [FAMILY]   COUNT complexes of each family, three paths each; exit code 1 where one is bad
 //
 // Where the field itself misses the oracle, paths are counted apart: no path can be as long as a wrong value says.
-#include "oracle/wild.h"
 #include "oracle/wild_paths.h"
+#include "oracle/wild.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +22,7 @@ using namespace brushfire::oracle;
 
 struct Row {
   int reached = 0, field_wrong = 0;
-  int too_long[4] = {0, 0, 0, 0};  // by the stage of judge_path()
+  int too_long[4] = {0, 0, 0, 0};           // by the stage of judge_path()
   std::map<std::string, int> bad, bad_too;  // by the complaint's first word; the second where the field is wrong
 };
 
@@ -84,7 +84,8 @@ int main(int argc, char** argv) {
   bool bad = false;
   std::printf("%-10s %7s %8s %12s %30s |\n", "family", "paths", "reached", "field wrong",
               "too long: field, path, oracle");
-  auto* const stage = static_cast<int*>(mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  auto* const stage =
+      static_cast<int*>(mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   for (const Wild family : kWild) {
     if (!only.empty() && only != name_of(family)) continue;
     Row row;

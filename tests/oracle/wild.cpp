@@ -50,7 +50,8 @@ std::function<Vec3()> places(Wild family, Random& random) {
       };
     case Wild::FarPoint: {
       const double far = power_of_ten(random, 6, 12);
-      return [&random, far, first = true]() mutable { return (std::exchange(first, false) ? far : 1) * in_cube(random); };
+      return
+          [&random, far, first = true]() mutable { return (std::exchange(first, false) ? far : 1) * in_cube(random); };
     }
     case Wild::Grid:
     case Wild::Soup:
@@ -70,7 +71,8 @@ Shape grown(Index faces, double closing, const std::function<Vec3()>& place, Ran
   Shape s{{place(), place(), place()}, {{0, 1, 2}}};
   while (s.faces.size() < faces) {
     const auto recent = std::min<Index>(static_cast<Index>(s.faces.size()), 6);
-    const Face& over = s.faces[random() % 3 ? s.faces.size() - 1 - below(random, recent) : below(random, static_cast<Index>(s.faces.size()))];
+    const Face& over = s.faces[random() % 3 ? s.faces.size() - 1 - below(random, recent)
+                                            : below(random, static_cast<Index>(s.faces.size()))];
     const Index k = below(random, 3), a = over[k], b = over[(k + 1) % 3];
     Index c = below(random, static_cast<Index>(s.positions.size()));
     if (c == a || c == b || uniform(random) > closing) {
@@ -147,7 +149,8 @@ Shape book(Random& random) {
 }  // namespace
 
 const char* name_of(Wild family) {
-  constexpr std::array names{"grid", "scales", "needles", "clusters", "doubled", "book", "power law", "far point", "soup"};
+  constexpr std::array names{"grid", "scales",    "needles",   "clusters", "doubled",
+                             "book", "power law", "far point", "soup"};
   return names[static_cast<std::size_t>(family)];
 }
 

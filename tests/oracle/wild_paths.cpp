@@ -148,7 +148,9 @@ class Judge {
     Real second = 1;
     for (const auto& [v, w] : at_[j]) second = std::min(second, 1 - w);
     if (at_[i].size() > 1) second = 1;
-    return at_[j].size() == 1 && at_[i].size() == 1 ? 0 : 8 * kEpsilon * longest * second / norm(way(mesh_, at_[i], at_[j]));
+    return at_[j].size() == 1 && at_[i].size() == 1
+               ? 0
+               : 8 * kEpsilon * longest * second / norm(way(mesh_, at_[i], at_[j]));
   }
 
   std::string bend(std::size_t i) const {
@@ -167,7 +169,9 @@ class Judge {
       }
     }
     const Real angle = angle_around(v, i, a, b);
-    return angle >= kHalfTurn - allowed ? "" : say("bend", "angle pi - ", kHalfTurn - angle, " at vertex ", v, ", point ", i);
+    return angle >= kHalfTurn - allowed
+               ? ""
+               : say("bend", "angle pi - ", kHalfTurn - angle, " at vertex ", v, ", point ", i);
   }
 
   // The least angle around the vertex between two directions in its faces (Floyd and Warshall over its edges).
@@ -221,7 +225,8 @@ std::string judge(const Mesh& mesh, const SurfacePath& path, PathVerdict& v, dou
   Judge judge(mesh, path);
   if (std::string c = judge(); !c.empty()) return c;
   const Real blur = judge.blur(0) + judge.blur(path.points.size() - 1);
-  if (std::abs(path.length - v.field) > std::max(kPathRoom * v.field, bound) + static_cast<double>(blur)) return "field";
+  if (std::abs(path.length - v.field) > std::max(kPathRoom * v.field, bound) + static_cast<double>(blur))
+    return "field";
   return "";
 }
 

@@ -108,7 +108,8 @@ class Shortener {
       // so that the smallest corner counts, or, where a closed curve is cut at a point that is known to half the digits
       // of a double, of 53.
       const double progress = closed_ ? 4 * std::numeric_limits<double>::epsilon() : 1e-28;
-      if (!(total_length(shorter) < total_length(best) * (detail::DoubleDouble(1) - detail::DoubleDouble(progress)))) return best;
+      if (!(total_length(shorter) < total_length(best) * (detail::DoubleDouble(1) - detail::DoubleDouble(progress))))
+        return best;
       best = std::move(shorter);
     }
   }

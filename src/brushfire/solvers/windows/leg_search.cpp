@@ -6,8 +6,8 @@
 // that the values at the edge's ends allow on it.
 #include <brushfire/solvers/windows/detail/leg_search.h>
 
-#include <brushfire/mesh/flat_face.h>
 #include <brushfire/mesh/detail/wide_face.h>
+#include <brushfire/mesh/flat_face.h>
 
 #include <algorithm>
 #include <cmath>
@@ -213,12 +213,12 @@ class LegSearch {
     const PointLocation& at = origins_[origin].at;
     offer_source_at(origin);
     for (const Named& f : names_of(at)) {
-      Index k = 0;  // the frame: that of the hint, or of the longest edge
-      for (const Index i : {1U, 2U}) {
-        if (mesh_.length(3 * f.face + i) > mesh_.length(3 * f.face + k)) k = i;
+      // The frame: that of the hint, or of the longest edge.
+      const Index hinted = !by_length() && origin == 0 ? hinted_halfedge(f) : kNoIndex;
+      Index k = hinted % 3;
+      for (Index i = 0; hinted == kNoIndex && i < 3; ++i) {
+        if (i == 0 || mesh_.length(3 * f.face + i) > mesh_.length(3 * f.face + k)) k = i;
       }
-      const bool hinted = !by_length() && origin == 0 && ask_.halfedge != kNoIndex && Mesh::face_of(ask_.halfedge) == f.face;
-      if (hinted && mesh_.length(ask_.halfedge) > 0) k = ask_.halfedge % 3;
       std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, k);
       const WideVec2 here = wide_point(corners, f.weights);
       for (WideVec2& c : corners) c = c - here;
@@ -228,13 +228,31 @@ class LegSearch {
       offer_sources(goal, corners);
       for (Index i = 0; i < 3; ++i) offer_corner(goal, i, corners[i]);
       if (!mesh_.is_face_usable(f.face)) continue;
-      const Vec2 guide = hinted ? ask_.from - rounded(here) : Vec2{0, 0};
+      const Vec2 guide = hinted != kNoIndex ? hinted_from(hinted) - rounded(here) : Vec2{0, 0};
       for (Index i = 0; i < 3; ++i) {
         if (f.weights[(i + 2) % 3] == 0) continue;  // the point is on this edge
         const Index j = (i + 1) % 3, h = 3 * f.face + i;
         add({h, mesh_.from(h), mesh_.to(h), corners[i], corners[j], corners[i], corners[j], kStart, origin, guide});
       }
     }
+  }
+
+  // The halfedge of the face over which the hint comes, where it does: a point on that edge itself is reached through
+  // the faces beyond.
+  Index hinted_halfedge(const Named& f) const {
+    const Index h = ask_.halfedge;
+    if (h == kNoIndex || !(mesh_.length(h) > 0)) return kNoIndex;
+    const auto is_on = [&](Index g) { return f.weights[Mesh::previous(g) % 3] == 0; };
+    if (Mesh::face_of(h) == f.face) return is_on(h) ? kNoIndex : h;
+    for (Index g = mesh_.opposite()[h]; g != h; g = mesh_.opposite()[g]) {
+      if (Mesh::face_of(g) == f.face && is_on(g)) return g;
+    }
+    return kNoIndex;
+  }
+  Vec2 hinted_from(Index g) const {
+    const Vec2 p = ask_.from;
+    if (g == ask_.halfedge) return p;
+    return {mesh_.from(g) == mesh_.from(ask_.halfedge) ? p.x : mesh_.length(g) - p.x, -p.y};
   }
 
   // Through the wedge's edge into every other face there.
@@ -250,8 +268,8 @@ class LegSearch {
     const WideVec2 edge = w.left - w.right;
     const WideVec2 along = (DoubleDouble(1) / norm(edge)) * edge, beyond{along.y, -along.x};
     const bool from_right = mesh_.from(g) == w.right_vertex;
-    const WideVec2 apex = (from_right ? w.right + frame.apex.x * along : w.left - frame.apex.x * along) +
-                          frame.apex.y * beyond;
+    const WideVec2 apex =
+        (from_right ? w.right + frame.apex.x * along : w.left - frame.apex.x * along) + frame.apex.y * beyond;
     const Index face = Mesh::face_of(g), top = Mesh::previous(g), top_vertex = mesh_.from(top);
     std::array<WideVec2, 3> corners;
     corners[g % 3] = from_right ? w.right : w.left;
@@ -267,15 +285,18 @@ class LegSearch {
     const Index left_side = from_right ? Mesh::next(g) : Mesh::previous(g);
     const bool has_right = is_left_of(w.right_limit, apex), has_left = is_left_of(apex, w.left_limit);
     const WideVec2 left_limit = has_left ? apex : w.left_limit, right_limit = has_right ? apex : w.right_limit;
-    if (has_right) add({right_side, w.right_vertex, top_vertex, w.right, apex, w.right_limit, left_limit, number, w.origin, w.guide});
-    if (has_left) add({left_side, top_vertex, w.left_vertex, apex, w.left, right_limit, w.left_limit, number, w.origin, w.guide});
+    if (has_right)
+      add({right_side, w.right_vertex, top_vertex, w.right, apex, w.right_limit, left_limit, number, w.origin,
+           w.guide});
+    if (has_left)
+      add({left_side, top_vertex, w.left_vertex, apex, w.left, right_limit, w.left_limit, number, w.origin, w.guide});
   }
 
   static bool in_wedge(const Wedge& w, WideVec2 p) { return turn(w.right_limit, p) >= 0 && turn(p, w.left_limit) >= 0; }
 
   void add(const Wedge& w) {
     if (!is_left_of(w.right_limit, w.left_limit)) return;  // too narrow to hold more than the way to a vertex
-    if (!(mesh_.length(w.halfedge) > 0)) return;  // its ends are one place, which is a vertex
+    if (!(mesh_.length(w.halfedge) > 0)) return;           // its ends are one place, which is a vertex
     const Vec2 span = visible(w);
     const double least = least_total(w, span);
     if (!(least <= (by_length() ? best_.total : value_ + room_))) return;
@@ -310,8 +331,8 @@ class LegSearch {
     const double least = pass_ == Pass::WithoutValues ? way_to(foot) : std::max(way_to(meet) + value, way_to(foot));
     return origins_[w.origin].before + least;
   }
-  // A run that stopped early does not know all values: those are NaN and exclude nothing.
-  double known(Index v) const { return value_of(v) >= 0 ? value_of(v) : 0; }
+  // A run that stopped early does not know values that are larger than where it stopped: those are NaN.
+  double known(Index v) const { return value_of(v) >= 0 ? value_of(v) : value_; }
 
   // How far away the edge is, in the direction of the wedge that is nearest to the hint. Who is far has got somewhere:
   // between thin faces over one edge a way may go to and fro for as long as it likes.
@@ -340,7 +361,8 @@ class LegSearch {
     const Vec2 edge = (1 / length) * rounded(w.left - w.right), right = rounded(w.right);
     const double along = -dot(edge, right), across = std::abs(cross(edge, right));
     const bool forward = w.right_vertex < w.left_vertex;
-    const Seen now{{forward ? along : length - along, across}, forward ? span.x : 1 - span.y, forward ? span.y : 1 - span.x};
+    const Seen now{
+        {forward ? along : length - along, across}, forward ? span.x : 1 - span.y, forward ? span.y : 1 - span.x};
     const double room = kSamePlace * value_;
     std::vector<Seen>& others = seen_[first];
     const auto recent = others.end() - std::min<std::ptrdiff_t>(std::ssize(others), kRecent);
@@ -408,7 +430,8 @@ class LegSearch {
     WindowField::Leg leg;
     std::vector<Index> way;
     for (Index o = goal.origin; o != kStart; o = origins_[o].previous) way.push_back(o);
-    for (auto o = way.rbegin(); o != way.rend(); ++o) leg.points.push_back({origins_[*o].at.face, origins_[*o].at.weights});
+    for (auto o = way.rbegin(); o != way.rend(); ++o)
+      leg.points.push_back({origins_[*o].at.face, origins_[*o].at.weights});
     std::vector<Index> chain;
     for (Index w = goal.wedge; w != kStart; w = wedges_[w].before) chain.push_back(w);
     std::reverse(chain.begin(), chain.end());
@@ -427,7 +450,8 @@ class LegSearch {
   bool end_at_vertex(const Goal& goal, const Wedge& w, WindowField::Leg& leg) const {
     const auto try_end = [&](Index v, Index corner, WideVec2 place) {
       if (v == goal.vertex || is_origin(v) || !(value_of(v) < value_)) return false;
-      const double along = dot(goal.place, place).high / goal.length, aside = std::abs(cross(goal.place, place).high) / goal.length;
+      const double along = dot(goal.place, place).high / goal.length,
+                   aside = std::abs(cross(goal.place, place).high) / goal.length;
       if (!(along > 0) || !(aside <= kThrough * std::min(along, goal.length - along))) return false;
       const double length = origins_[goal.origin].before + length_of(place);
       if (!(std::abs(value_of(v) + length - goal.total) <= room_)) return false;

@@ -55,7 +55,8 @@ class Tracer {
 
   // A real path of this length is there; is it the one that the value means?
   bool is_explained() const {
-    const double start = leg_.vertex != kNoIndex ? value_of(leg_.vertex) : data_.sources[leg_.source].offset + data_.shift;
+    const double start =
+        leg_.vertex != kNoIndex ? value_of(leg_.vertex) : data_.sources[leg_.source].offset + data_.shift;
     return std::abs(start + leg_.length - value_) <= kAgreement * value_;
   }
 
@@ -73,12 +74,14 @@ class Tracer {
     if (ends_at_end(mesh_.from(h), h % 3, 0, x)) return Step::Found;
     if (ends_at_end(mesh_.to(h), next3(h % 3), length, rest)) return Step::Found;
     const double way = length_of(at.point.x - x, at.point.y);
-    const bool is_sure = x > kTooShort * length && rest > kTooShort * length && way > kTooShort * length;
+    const bool begins_here = leg_.points.size() == 1 && at.point.y == 0;
+    const bool is_sure =
+        x > kTooShort * length && rest > kTooShort * length && (begins_here || way > kTooShort * length);
     if (!is_sure || g == h || mesh_.opposite()[g] != h) return Step::Lost;
     SurfacePoint crossing{Mesh::face_of(h), {0, 0, 0}};
     crossing.weights[next3(h % 3)] = x / length;
     crossing.weights[h % 3] = rest / length;
-    leg_.points.push_back(crossing);
+    if (!begins_here) leg_.points.push_back(crossing);
     leg_.length += way;
     const bool turned = mesh_.from(g) == mesh_.to(h);
     at = {g, {turned ? length - at.source.x : at.source.x, -at.source.y}, {turned ? rest : x, 0}};
@@ -109,7 +112,8 @@ class Tracer {
     const double way = length_of(before.x, before.y);
     const double nearer = std::min(leg_.length + way, length_of(after.x, after.y));
     if (!(miss <= kThrough * nearer)) return false;
-    if (!(value_of(v) < value_) || !(std::abs(value_of(v) + leg_.length + way - value_) <= kAgreement * value_)) return false;
+    if (!(value_of(v) < value_) || !(std::abs(value_of(v) + leg_.length + way - value_) <= kAgreement * value_))
+      return false;
     std::array<double, 3> weights{0, 0, 0};
     weights[at.corner] = 1;
     leg_.vertex = v;
@@ -144,9 +148,8 @@ class Tracer {
       return false;
     }
     bool found = false;
-    for_each_face_around(mesh_, data_.sources[ray_.root - n].at, [&](const FaceWeights& f) {
-      found = found || (f.face == face && is_root(f.weights));
-    });
+    for_each_face_around(mesh_, data_.sources[ray_.root - n].at,
+                         [&](const FaceWeights& f) { found = found || (f.face == face && is_root(f.weights)); });
     if (found) leg_.source = ray_.root - n;
     return found;
   }
