@@ -93,7 +93,10 @@ Index common_face(const Mesh& mesh, const PointLocation& a, const PointLocation&
 }
 
 double distance_within(const Mesh& mesh, Index f, const PointLocation& a, const PointLocation& b) {
-  const std::array<double, 3> from = weights_in(mesh, a, f).value(), to = weights_in(mesh, b, f).value();
+  return distance_within(mesh, f, weights_in(mesh, a, f).value(), weights_in(mesh, b, f).value());
+}
+
+double distance_within(const Mesh& mesh, Index f, const std::array<double, 3>& from, const std::array<double, 3>& to) {
   if (!mesh.has_positions()) return norm(flat_difference(flat_corners(mesh, f), from, to));
   const std::array<double, 3> step = weight_difference(from, to);
   const std::size_t k = largest(step);

@@ -35,5 +35,7 @@ Index common_face(const Mesh& mesh, const PointLocation& a, const PointLocation&
 // The straight distance of two points within face f, which holds both; mesh.unit(). From coordinates where the mesh has
 // them: right to rounding also for points that are far closer to each other than the face is long.
 double distance_within(const Mesh& mesh, Index f, const PointLocation& a, const PointLocation& b);
+// The same by the points' weights in f.
+double distance_within(const Mesh& mesh, Index f, const std::array<double, 3>& a, const std::array<double, 3>& b);
 
 }  // namespace brushfire

@@ -56,6 +56,8 @@ bool is_bent(const Mesh& mesh, const SurfacePoint& before, const PointLocation& 
 SurfacePath straightened(const Mesh& mesh, SurfacePath path) {
   path.length = length_of(mesh, path.points);
   for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
+    const std::array<double, 3>& w = path.points[i].weights;
+    if (std::count(w.begin(), w.end(), 0.0) < 2) continue;
     const PointLocation at = locate(mesh, path.points[i], 0);
     if (at.on != On::Vertex || !is_bent(mesh, path.points[i - 1], at, path.points[i + 1])) continue;
     SurfacePath shorter = shorten(mesh, path.points);
