@@ -17,19 +17,19 @@
 #include <unordered_map>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
 using On = PointLocation::On;
 
 // Vertices that are nearer than this share of the value have the same value as the point, as far as anyone knows: the
 // leg may start from any of them.
-constexpr double kNoDistance = 64 * std::numeric_limits<double>::epsilon();
+constexpr Real kNoDistance = 64 * std::numeric_limits<Real>::epsilon();
 // What a turn of two arrows is rounded by at most, as a share of the product of their lengths: some hundred operations
 // of 2^-104 each, with room for places that are far larger than what they are compared with.
-constexpr double kNoTurn = 1e-26;
+constexpr Real kNoTurn = 1e-26;
 // Two wedges over one edge are one where their places and limits agree to this share of the value.
-constexpr double kSamePlace = 1e-15;
+constexpr Real kSamePlace = 1e-15;
 // Wedges that are one come soon after each other: only so many are looked at.
 constexpr std::ptrdiff_t kRecent = 32;
 // Once the value is explained, so many more wedges are looked into for the root that the field names itself.
@@ -52,29 +52,29 @@ struct Wedge {
 // The point itself, or a vertex at no distance from it.
 struct Origin {
   PointLocation at;
-  double before = 0;        // the way from the point
+  Real before = 0;          // the way from the point
   Index previous = kStart;  // over which other one
 };
 
 // Where a leg may start.
 struct Goal {
-  double total = kInfinity;  // value there and length of the leg
-  double length = 0;         // of the straight part
+  Real total = kInfinity;  // value there and length of the leg
+  Real length = 0;         // of the straight part
   Index vertex = kNoIndex, source = kNoIndex;
   Index face = kNoIndex;  // that holds it, and the weights there
-  std::array<double, 3> weights{0, 0, 0};
+  std::array<Real, 3> weights{0, 0, 0};
   WideVec2 place;
   Index wedge = kStart;
   Index origin = 0;
 };
 
 Vec2 rounded(WideVec2 a) { return {a.x.high, a.y.high}; }
-double length_of(WideVec2 a) { return norm(a).high; }
+Real length_of(WideVec2 a) { return norm(a).high; }
 
 // > 0: b lies to the left of a; 0 where that cannot be told.
 int turn(WideVec2 a, WideVec2 b) {
-  const double t = cross(a, b).high;
-  const double room = kNoTurn * norm(rounded(a)) * norm(rounded(b));
+  const Real t = cross(a, b).high;
+  const Real room = kNoTurn * norm(rounded(a)) * norm(rounded(b));
   return t > room ? 1 : t < -room ? -1 : 0;
 }
 
@@ -84,10 +84,10 @@ bool is_left_of(WideVec2 a, WideVec2 b) {
   return t > 0 || (t == 0 && dot(a, b).high < 0);
 }
 
-double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
+Real angle_between(Vec2 a, Vec2 b) { return atan2(abs(cross(a, b)), dot(a, b)); }
 
-std::array<double, 3> corner_weights(Index k) {
-  std::array<double, 3> weights{0, 0, 0};
+std::array<Real, 3> corner_weights(Index k) {
+  std::array<Real, 3> weights{0, 0, 0};
   weights[k] = 1;
   return weights;
 }
@@ -111,7 +111,7 @@ class LegSearch {
     // Along the hint, as long as the value allows. Where the value itself does not hold, by length alone; where values
     // around are too large and hide the way, without them.
     WindowField::Leg leg;
-    double total = kInfinity;
+    Real total = kInfinity;
     for (const Pass pass : {Pass::AlongHint, Pass::ByLength, Pass::WithoutValues}) {
       look(pass);
       if (best_.total < total) leg = leg_to(best_);
@@ -125,20 +125,20 @@ class LegSearch {
   enum class Pass { AlongHint, ByLength, WithoutValues };
   struct Inside {
     Index source;
-    std::array<double, 3> weights;
+    std::array<Real, 3> weights;
   };
   struct Open {
     Index wedge;
-    double key;
-    double reach;  // of equal keys the farthest first
+    Real key;
+    Real reach;  // of equal keys the farthest first
     bool operator<(const Open& o) const { return key > o.key || (key == o.key && reach < o.reach); }
   };
   struct Seen {
     Vec2 place;  // of the point, in the frame of the edge
-    double first, last;
+    Real first, last;
   };
 
-  double value_of(Index v) const { return ask_.vertex_value(v); }
+  Real value_of(Index v) const { return ask_.vertex_value(v); }
 
   // ---- where to look from
 
@@ -150,15 +150,15 @@ class LegSearch {
         PointLocation here;
         here.face = f.face;
         here.weights = f.weights;
-        const std::array<double, 3> d = corner_distances(mesh_, here);
+        const std::array<Real, 3> d = corner_distances(mesh_, here);
         for (Index k = 0; k < 3; ++k) {
-          const double way = from.before + d[k];
+          const Real way = from.before + d[k];
           if (way <= kNoDistance * value_) add_origin(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
         }
       }
     }
   }
-  void add_origin(Index v, Index corner, double way, Index previous) {
+  void add_origin(Index v, Index corner, Real way, Index previous) {
     if (is_origin(v)) return;
     PointLocation at;
     at.on = On::Vertex;
@@ -175,7 +175,7 @@ class LegSearch {
   // A point by its faces. A face that has a vertex twice names it once for every corner.
   struct Named {
     Index face;
-    std::array<double, 3> weights;
+    std::array<Real, 3> weights;
   };
   std::vector<Named> names_of(const PointLocation& at) const {
     std::vector<Named> names;
@@ -298,7 +298,7 @@ class LegSearch {
     if (!is_left_of(w.right_limit, w.left_limit)) return;  // too narrow to hold more than the way to a vertex
     if (!(mesh_.length(w.halfedge) > 0)) return;           // its ends are one place, which is a vertex
     const Vec2 span = visible(w);
-    const double least = least_total(w, span);
+    const Real least = least_total(w, span);
     if (!(least <= (by_length() ? best_.total : value_ + room_))) return;
     if (has_been_seen(w, span)) return;
     wedges_.push_back(w);
@@ -309,10 +309,10 @@ class LegSearch {
   // The part of the wedge's edge that lies in the wedge, from right to left, as shares of the edge.
   static Vec2 visible(const Wedge& w) {
     const auto share = [&](WideVec2 limit) {
-      const double r = -cross(limit, w.right).high, l = cross(limit, w.left).high;
+      const Real r = -cross(limit, w.right).high, l = cross(limit, w.left).high;
       return r + l > 0 ? std::clamp(r / (r + l), 0.0, 1.0) : kInfinity;
     };
-    const double first = share(w.right_limit), last = share(w.left_limit);
+    const Real first = share(w.right_limit), last = share(w.left_limit);
     return {first < kInfinity ? first : 0, last < kInfinity ? last : 1};
   }
 
@@ -320,33 +320,33 @@ class LegSearch {
   // than the way to them. Going left, the way from the point falls by no more than the bound by the right end does and
   // rises by no more than that by the left end does, so the least is where the two bounds meet. Nor is it less than the
   // way alone.
-  double least_total(const Wedge& w, Vec2 span) const {
-    const double length = mesh_.length(w.halfedge);
-    const double right = known(w.right_vertex), left = known(w.left_vertex);
-    const auto way_to = [&](double share) { return norm(rounded(w.right + share * (w.left - w.right))); };
-    const double meet = std::clamp((right - left + length) / (2 * length), span.x, span.y);
+  Real least_total(const Wedge& w, Vec2 span) const {
+    const Real length = mesh_.length(w.halfedge);
+    const Real right = known(w.right_vertex), left = known(w.left_vertex);
+    const auto way_to = [&](Real share) { return norm(rounded(w.right + share * (w.left - w.right))); };
+    const Real meet = std::clamp((right - left + length) / (2 * length), span.x, span.y);
     const Vec2 edge = rounded(w.left - w.right);
-    const double foot = std::clamp(-dot(rounded(w.right), edge) / dot(edge, edge), span.x, span.y);
-    const double value = std::max(right - meet * length, left - (1 - meet) * length);
-    const double least = pass_ == Pass::WithoutValues ? way_to(foot) : std::max(way_to(meet) + value, way_to(foot));
+    const Real foot = std::clamp(-dot(rounded(w.right), edge) / dot(edge, edge), span.x, span.y);
+    const Real value = std::max(right - meet * length, left - (1 - meet) * length);
+    const Real least = pass_ == Pass::WithoutValues ? way_to(foot) : std::max(way_to(meet) + value, way_to(foot));
     return origins_[w.origin].before + least;
   }
   // A run that stopped early does not know values that are larger than where it stopped: those are NaN.
-  double known(Index v) const { return value_of(v) >= 0 ? value_of(v) : value_; }
+  Real known(Index v) const { return value_of(v) >= 0 ? value_of(v) : value_; }
 
   // How far away the edge is, in the direction of the wedge that is nearest to the hint. Who is far has got somewhere:
   // between thin faces over one edge a way may go to and fro for as long as it likes.
-  static double reach(const Wedge& w) {
+  static Real reach(const Wedge& w) {
     const Vec2 right = rounded(w.right), edge = rounded(w.left - w.right), first = rounded(w.right_limit),
                last = rounded(w.left_limit);
     const bool is_right = cross(first, w.guide) < 0, is_left = cross(w.guide, last) < 0;
     const Vec2 along = !is_right && !is_left ? w.guide : is_right ? first : last;
-    const double turn = cross(along, edge);
+    const Real turn = cross(along, edge);
     return turn > 0 ? cross(right, edge) / turn * norm(along) : norm(right);
   }
 
   // By what angle the hint misses the wedge.
-  static double miss(const Wedge& w) {
+  static Real miss(const Wedge& w) {
     if (w.guide == Vec2{0, 0}) return kPi;
     const Vec2 right = rounded(w.right_limit), left = rounded(w.left_limit);
     if (cross(right, w.guide) >= 0 && cross(w.guide, left) >= 0) return 0;
@@ -357,17 +357,17 @@ class LegSearch {
   bool has_been_seen(const Wedge& w, Vec2 span) {
     Index first = w.halfedge;
     for (Index g = mesh_.opposite()[first]; g != w.halfedge; g = mesh_.opposite()[g]) first = std::min(first, g);
-    const double length = mesh_.length(w.halfedge);
+    const Real length = mesh_.length(w.halfedge);
     const Vec2 edge = (1 / length) * rounded(w.left - w.right), right = rounded(w.right);
-    const double along = -dot(edge, right), across = std::abs(cross(edge, right));
+    const Real along = -dot(edge, right), across = abs(cross(edge, right));
     const bool forward = w.right_vertex < w.left_vertex;
     const Seen now{
         {forward ? along : length - along, across}, forward ? span.x : 1 - span.y, forward ? span.y : 1 - span.x};
-    const double room = kSamePlace * value_;
+    const Real room = kSamePlace * value_;
     std::vector<Seen>& others = seen_[first];
     const auto recent = others.end() - std::min<std::ptrdiff_t>(std::ssize(others), kRecent);
     const bool seen = std::any_of(recent, others.end(), [&](const Seen& s) {
-      return std::abs(s.place.x - now.place.x) <= room && std::abs(s.place.y - now.place.y) <= room &&
+      return abs(s.place.x - now.place.x) <= room && abs(s.place.y - now.place.y) <= room &&
              (s.first - now.first) * length <= room && (now.last - s.last) * length <= room;
     });
     if (!seen) others.push_back(now);
@@ -413,7 +413,7 @@ class LegSearch {
     offer(goal, value_of(goal.vertex));
   }
 
-  void offer(Goal& goal, double start) {
+  void offer(Goal& goal, Real start) {
     goal.total = start + goal.length + origins_[goal.origin].before;
     const bool named = ask_.root == (goal.source != kNoIndex ? goal.source + mesh_.vertex_count() : goal.vertex);
     if (!by_length() && named && goal.total <= value_ + room_) {
@@ -450,11 +450,11 @@ class LegSearch {
   bool end_at_vertex(const Goal& goal, const Wedge& w, WindowField::Leg& leg) const {
     const auto try_end = [&](Index v, Index corner, WideVec2 place) {
       if (v == goal.vertex || is_origin(v) || !(value_of(v) < value_)) return false;
-      const double along = dot(goal.place, place).high / goal.length,
-                   aside = std::abs(cross(goal.place, place).high) / goal.length;
+      const Real along = dot(goal.place, place).high / goal.length,
+                 aside = abs(cross(goal.place, place).high) / goal.length;
       if (!(along > 0) || !(aside <= kThrough * std::min(along, goal.length - along))) return false;
-      const double length = origins_[goal.origin].before + length_of(place);
-      if (!(std::abs(value_of(v) + length - goal.total) <= room_)) return false;
+      const Real length = origins_[goal.origin].before + length_of(place);
+      if (!(abs(value_of(v) + length - goal.total) <= room_)) return false;
       leg.points.push_back({Mesh::face_of(w.halfedge), corner_weights(corner % 3)});
       leg.length = length;
       leg.vertex = v;
@@ -467,7 +467,7 @@ class LegSearch {
 
   SurfacePoint crossing(const Goal& goal, const Wedge& w) const {
     const DoubleDouble r = -cross(goal.place, w.right), l = cross(goal.place, w.left), sum = r + l;
-    double right = 0, left = 0;  // weights
+    Real right = 0, left = 0;  // weights
     if (sum.high > kNoTurn * goal.length * norm(rounded(w.left - w.right))) {
       left = std::clamp((r / sum).high, 0.0, 1.0);
       right = std::clamp((l / sum).high, 0.0, 1.0);
@@ -486,7 +486,7 @@ class LegSearch {
 
   const LegQuestion& ask_;
   const Mesh& mesh_;
-  const double value_, room_;
+  const Real value_, room_;
   std::unordered_multimap<Index, Inside> sources_in_;  // by face
   std::unordered_multimap<Index, Index> source_at_;    // by vertex
   std::vector<Origin> origins_;
@@ -502,4 +502,4 @@ class LegSearch {
 
 WindowField::Leg find_leg(const LegQuestion& question) { return LegSearch(question)(); }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

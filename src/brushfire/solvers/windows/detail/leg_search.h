@@ -10,16 +10,16 @@
 #include <functional>
 #include <span>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // A point, and what a run knows of it and of the vertices. Lengths in mesh.unit(), offsets included in values.
 struct LegQuestion {
   const Mesh& mesh;
   std::span<const LocatedSource> sources;
-  double shift = 0;                                  // what was added to every value
-  const std::function<double(Index)>& vertex_value;  // NaN: not known
+  Real shift = 0;                                  // what was added to every value
+  const std::function<Real(Index)>& vertex_value;  // NaN: not known
   PointLocation at;
-  double value = 0;
+  Real value = 0;
   // Where the value seems to have come from. It is looked at first, and no more than that.
   Index root = kNoIndex;  // vertex, or vertex count + position of the source
   Index halfedge =
@@ -33,10 +33,10 @@ struct LegQuestion {
 WindowField::Leg find_leg(const LegQuestion& question);
 
 // What a leg and the value where it starts may miss the value at its end by, as a share of it.
-inline constexpr double kAgreement = 1e-12;
+inline constexpr Real kAgreement = 1e-12;
 
 // A leg that passes a vertex at this share of the way to the nearer of its ends goes through it: the bend that this
 // makes cannot be told from straight.
-inline constexpr double kThrough = 1e-9;
+inline constexpr Real kThrough = 1e-9;
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
