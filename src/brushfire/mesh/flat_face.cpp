@@ -4,8 +4,21 @@
 #include <brushfire/core/planar.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace brushfire {
+namespace {
+
+// A corner such that the steps along the two edges from it do not cancel each other.
+std::size_t largest(const std::array<double, 3>& step) {
+  std::size_t k = 0;
+  for (const std::size_t i : {1U, 2U}) {
+    if (std::abs(step[i]) > std::abs(step[k])) k = i;
+  }
+  return k;
+}
+
+}  // namespace
 
 std::array<Vec2, 3> flat_corners(const Mesh& mesh, Index f) {
   const std::span<const double> l = mesh.lengths().subspan(3 * static_cast<std::size_t>(f), 3);
@@ -18,10 +31,21 @@ std::array<Vec2, 3> flat_corners(const Mesh& mesh, Index f) {
   return corners;
 }
 
+std::array<double, 3> weight_difference(const std::array<double, 3>& from, const std::array<double, 3>& to) {
+  const auto k = static_cast<std::size_t>(std::max_element(from.begin(), from.end()) - from.begin());
+  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+  std::array<double, 3> step;
+  step[i] = to[i] - from[i];
+  step[j] = to[j] - from[j];
+  step[k] = -(step[i] + step[j]);
+  return step;
+}
+
 Vec2 flat_difference(const std::array<Vec2, 3>& corners, const std::array<double, 3>& from,
                      const std::array<double, 3>& to) {
-  // Weights sum to one, so two of the three differences are enough, and a common corner far away does not matter.
-  return (to[1] - from[1]) * (corners[1] - corners[0]) + (to[2] - from[2]) * (corners[2] - corners[0]);
+  const std::array<double, 3> step = weight_difference(from, to);
+  const std::size_t k = largest(step), i = (k + 1) % 3, j = (k + 2) % 3;
+  return step[i] * (corners[i] - corners[k]) + step[j] * (corners[j] - corners[k]);
 }
 
 std::vector<Index> faces_at(const Mesh& mesh, const PointLocation& point) {
@@ -69,7 +93,20 @@ Index common_face(const Mesh& mesh, const PointLocation& a, const PointLocation&
 }
 
 double distance_within(const Mesh& mesh, Index f, const PointLocation& a, const PointLocation& b) {
-  return norm(flat_difference(flat_corners(mesh, f), weights_in(mesh, a, f).value(), weights_in(mesh, b, f).value()));
+  return distance_within(mesh, f, weights_in(mesh, a, f).value(), weights_in(mesh, b, f).value());
+}
+
+double distance_within(const Mesh& mesh, Index f, const std::array<double, 3>& from, const std::array<double, 3>& to) {
+  if (!mesh.has_positions()) return norm(flat_difference(flat_corners(mesh, f), from, to));
+  const std::array<double, 3> step = weight_difference(from, to);
+  const std::size_t k = largest(step);
+  const double scale = 1 / mesh.unit();
+  const Vec3 origin = mesh.positions()[mesh.faces()[f][k]];
+  Vec3 sum;
+  for (const std::size_t i : {(k + 1) % 3, (k + 2) % 3}) {
+    sum = sum + step[i] * (scale * (mesh.positions()[mesh.faces()[f][i]] - origin));
+  }
+  return norm(sum);
 }
 
 }  // namespace brushfire

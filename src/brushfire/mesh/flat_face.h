@@ -15,6 +15,10 @@ namespace brushfire {
 // needles and caps keep their digits. All zero where the corners coincide.
 std::array<Vec2, 3> flat_corners(const Mesh& mesh, Index f);
 
+// By how much the weights of one point of a face differ from those of another. They sum to zero, and the two that are
+// not the heaviest keep their digits.
+std::array<double, 3> weight_difference(const std::array<double, 3>& from, const std::array<double, 3>& to);
+
 // The vector from one point of face f to another, in the plane of flat_corners.
 Vec2 flat_difference(const std::array<Vec2, 3>& corners, const std::array<double, 3>& from,
                      const std::array<double, 3>& to);
@@ -28,7 +32,10 @@ std::optional<std::array<double, 3>> weights_in(const Mesh& mesh, const PointLoc
 // A face that holds both points: `preferred` where it does, else the lowest; kNoIndex where there is none.
 Index common_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b, Index preferred = kNoIndex);
 
-// The straight distance of two points within face f, which holds both; mesh.unit().
+// The straight distance of two points within face f, which holds both; mesh.unit(). From coordinates where the mesh has
+// them: right to rounding also for points that are far closer to each other than the face is long.
 double distance_within(const Mesh& mesh, Index f, const PointLocation& a, const PointLocation& b);
+// The same by the points' weights in f.
+double distance_within(const Mesh& mesh, Index f, const std::array<double, 3>& a, const std::array<double, 3>& b);
 
 }  // namespace brushfire

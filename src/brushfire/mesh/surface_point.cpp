@@ -31,14 +31,14 @@ void check(const Mesh& mesh, const SurfacePoint& p) {
 
 }  // namespace
 
-PointLocation locate(const Mesh& mesh, const SurfacePoint& point) {
+PointLocation locate(const Mesh& mesh, const SurfacePoint& point, double snap) {
   check(mesh, point);
   PointLocation at;
   at.face = point.face;
   double sum = 0;
   Index positive = 0, zero_corner = 0, last_positive = 0;
   for (Index k = 0; k < 3; ++k) {
-    at.weights[k] = point.weights[k] <= kWeightSnap ? 0.0 : point.weights[k];
+    at.weights[k] = point.weights[k] <= snap ? 0.0 : point.weights[k];
     sum += at.weights[k];
     if (at.weights[k] > 0) {
       ++positive;

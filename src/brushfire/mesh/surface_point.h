@@ -31,8 +31,10 @@ struct PointLocation {
 };
 
 // Validates and snaps. Throws Error(IndexOutOfRange) for a face that does not exist, Error(InvalidArgument) for weights
-// that are not finite, below -kWeightError, or do not sum to 1 within 1e-9.
-PointLocation locate(const Mesh& mesh, const SurfacePoint& point);
+// that are not finite, below -kWeightError, or do not sum to 1 within 1e-9. Points of a path, whose weights were
+// computed and not measured, are located with a snap of 0: on an edge that is 1e12 times longer than its neighbours, no
+// weight is too small.
+PointLocation locate(const Mesh& mesh, const SurfacePoint& point, double snap = kWeightSnap);
 
 // Vertex v as a point of one of its faces. Throws Error(IndexOutOfRange) where there is no such vertex, and
 // Error(InvalidArgument) where the vertex is in no face: nothing can be reached from there.

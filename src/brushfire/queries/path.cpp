@@ -3,6 +3,8 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/flat_face.h>
+#include <brushfire/queries/detail/sleeve.h>
+#include <brushfire/queries/shorten.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +14,16 @@
 namespace brushfire {
 namespace {
 
-// Whether two points are one, to what weights can tell.
+using On = PointLocation::On;
+
+// Whether two points are one: a point of an edge or a vertex may be named in several faces. No distance is too small.
 bool same_point(const Mesh& mesh, const SurfacePoint& a, const SurfacePoint& b) {
-  const PointLocation at = locate(mesh, a), other = locate(mesh, b);
-  if (at.on == PointLocation::On::Vertex && other.on == PointLocation::On::Vertex) return at.vertex == other.vertex;
+  if (a.face == b.face && a.weights == b.weights) return true;
+  const PointLocation at = locate(mesh, a, 0), other = locate(mesh, b, 0);
+  if (at.on != other.on || at.on == On::Interior) return false;
+  if (at.on == On::Vertex) return at.vertex == other.vertex;
   const auto weights = weights_in(mesh, at, other.face);
-  if (!weights) return false;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (std::abs((*weights)[k] - other.weights[k]) > kWeightSnap) return false;
-  }
-  return true;
+  return weights && *weights == other.weights;
 }
 
 // Appends b's points to a, the common one once.
@@ -38,6 +40,35 @@ Error lost(double length) {
                                         ": please report the mesh and the points");
 }
 
+// Whether a path could be shorter on one side of a vertex that it goes through.
+bool is_bent(const Mesh& mesh, const SurfacePoint& before, const PointLocation& at, const SurfacePoint& after) {
+  const auto direction = [&](const SurfacePoint& p) {
+    const PointLocation there = locate(mesh, p, 0);
+    const Index f = common_face(mesh, at, there, p.face);
+    return detail::direction_towards(mesh, at.vertex, f, *weights_in(mesh, there, f));
+  };
+  return detail::shortest_way_around(mesh, at.vertex, direction(before), direction(after)).angle <
+         kPi - detail::kStraightAngle;
+}
+
+// Each leg is straight, and what two of them could save where they meet is less than the field's value tells: nothing
+// at the scale of the path, but next to a vertex or in faces that are tiny beside it, a visible corner.
+SurfacePath straightened(const Mesh& mesh, SurfacePath path) {
+  path.length = length_of(mesh, path.points);
+  for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
+    const std::array<double, 3>& w = path.points[i].weights;
+    if (std::count(w.begin(), w.end(), 0.0) < 2) continue;
+    const PointLocation at = locate(mesh, path.points[i], 0);
+    if (at.on != On::Vertex || !is_bent(mesh, path.points[i - 1], at, path.points[i + 1])) continue;
+    SurfacePath shorter = shorten(mesh, path.points);
+    shorter.length = length_of(mesh, shorter.points);
+    // Shorter in wider numbers; here both are sums of rounded pieces.
+    constexpr double kRounding = 1e-13;
+    return shorter.length <= path.length * (1 + kRounding) ? shorter : path;
+  }
+  return path;
+}
+
 bool is_edge_tight(const DistanceField& field, Index from, Index to, double length) {
   return field.source[from] == field.source[to] && field.distance[from] + length == field.distance[to];
 }
@@ -45,6 +76,7 @@ bool is_edge_tight(const DistanceField& field, Index from, Index to, double leng
 }  // namespace
 
 SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
+  const Mesh& mesh = field.mesh();
   SurfacePath path;
   WindowField::Leg leg = field.last_leg(target);
   if (leg.points.empty()) {
@@ -58,14 +90,14 @@ SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
     path.length += leg.length;
     for (std::size_t i = 1; i < leg.points.size(); ++i) {
       // A leg names a point on an edge once for either face, where it starts or ends there.
-      if (!same_point(field.mesh(), path.points.back(), leg.points[i])) path.points.push_back(leg.points[i]);
+      if (!same_point(mesh, path.points.back(), leg.points[i])) path.points.push_back(leg.points[i]);
     }
     if (leg.vertex == kNoIndex) break;
     leg = field.last_leg(leg.vertex);
-    if (leg.points.empty() || ++legs > field.mesh().vertex_count()) throw lost(path.length);
+    if (leg.points.empty() || ++legs > mesh.vertex_count()) throw lost(path.length);
   }
   std::reverse(path.points.begin(), path.points.end());
-  return path;
+  return straightened(mesh, std::move(path));
 }
 
 SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index target) {

@@ -18,10 +18,6 @@ using detail::Step;
 using detail::StraightLeg;
 using On = PointLocation::On;
 
-// An angle that misses pi by less gains less than rounding loses: cutting the corner shortens the two legs by a share
-// of its square.
-constexpr double kStraightAngle = 1e-8;
-
 // The halfedge of face f over the same edge as h.
 Index halfedge_in(const Mesh& mesh, Index h, Index f) {
   Index g = h;
@@ -81,9 +77,9 @@ bool same_vertex(const PointLocation& a, const PointLocation& b) {
   return a.on == On::Vertex && b.on == On::Vertex && a.vertex == b.vertex;
 }
 
-double total_length(const std::vector<StraightLeg>& pieces) {
-  double sum = 0;
-  for (const StraightLeg& p : pieces) sum += p.length;
+detail::DoubleDouble total_length(const std::vector<StraightLeg>& pieces) {
+  detail::DoubleDouble sum;
+  for (const StraightLeg& p : pieces) sum = sum + p.length;
   return sum;
 }
 
@@ -108,9 +104,12 @@ class Shortener {
       if (!changed) return best;
       std::vector<StraightLeg> shorter = straighten(next);
       if (closed_) shorter = without_free_corner(std::move(shorter));
-      // Every round replaces corners by shorter ways; less than rounding means that the rest is rounding.
-      constexpr double kProgress = 4 * std::numeric_limits<double>::epsilon();
-      if (!(total_length(shorter) < total_length(best) * (1 - kProgress))) return best;
+      // Every round replaces corners by shorter ways; less than rounding means that the rest is rounding: of 106 bits,
+      // so that the smallest corner counts, or, where a closed curve is cut at a point that is known to half the digits
+      // of a double, of 53.
+      const double progress = closed_ ? 4 * std::numeric_limits<double>::epsilon() : 1e-28;
+      if (!(total_length(shorter) < total_length(best) * (detail::DoubleDouble(1) - detail::DoubleDouble(progress))))
+        return best;
       best = std::move(shorter);
     }
   }
@@ -121,7 +120,7 @@ class Shortener {
     for (const Leg& leg : legs) {
       for (StraightLeg& p : detail::shortest_in_sleeve(mesh_, leg)) {
         // From a vertex to itself without leaving its faces: nothing.
-        if (p.length == 0 && p.leg.steps.empty() && same_vertex(p.leg.begin, p.leg.end)) continue;
+        if (p.length.high == 0 && p.leg.steps.empty() && same_vertex(p.leg.begin, p.leg.end)) continue;
         pieces.push_back(std::move(p));
       }
     }
@@ -162,10 +161,10 @@ class Shortener {
   // The steps around the vertex between two pieces, where the angle there is less than pi.
   std::optional<std::vector<Step>> shorter_way(const StraightLeg& a, const StraightLeg& b) const {
     if (!same_vertex(a.leg.end, b.leg.begin)) return std::nullopt;
-    if (a.length == 0 || b.length == 0) return std::nullopt;  // no direction, so no angle
+    if (a.length.high == 0 || b.length.high == 0) return std::nullopt;  // no direction, so no angle
     detail::WayAround way = detail::shortest_way_around(mesh_, a.leg.end.vertex, detail::direction_at_end(mesh_, a),
                                                         detail::direction_at_begin(mesh_, b));
-    if (!(way.angle < kPi - kStraightAngle)) return std::nullopt;
+    if (!(way.angle < kPi - detail::kStraightAngle)) return std::nullopt;
     return std::move(way.steps);
   }
 
@@ -250,7 +249,7 @@ class Shortener {
   // The length of the shortest closed curve through a cyclic sleeve is a convex function of where it crosses one edge;
   // golden section finds its least value to half the digits in t, which is all of them in the length.
   double best_cut(const std::vector<Step>& cycle) const {
-    const auto length = [&](double t) { return total_length(straighten({cut_open(cycle, t)})); };
+    const auto length = [&](double t) { return total_length(straighten({cut_open(cycle, t)})).high; };
     constexpr double kGolden = 0.6180339887498949;
     double low = 0, high = 1, a = 1 - kGolden, b = kGolden, at_a = length(a), at_b = length(b);
     for (int i = 0; i < 60; ++i) {
@@ -284,7 +283,7 @@ class Shortener {
 SurfacePath shorten(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed) {
   if (points.empty()) throw Error(ErrorCode::InvalidArgument, "a path needs at least one point");
   std::vector<PointLocation> at;
-  for (const SurfacePoint& p : points) at.push_back(locate(mesh, p));
+  for (const SurfacePoint& p : points) at.push_back(locate(mesh, p, 0));
   if (closed) {
     // A vertex to begin at, where there is one: it holds the curve until it is shown not to.
     const auto vertex = std::find_if(at.begin(), at.end(), [](const PointLocation& p) { return p.on == On::Vertex; });
@@ -298,7 +297,7 @@ SurfacePath shorten(const Mesh& mesh, std::span<const SurfacePoint> points, bool
   for (const StraightLeg& p : pieces) detail::append_points(mesh, p, path.points);
   if (path.points.empty()) path.points.push_back({at.front().face, at.front().weights});
   if (closed && path.points.size() > 1) path.points.pop_back();  // the first one again
-  path.length = total_length(pieces) * mesh.unit();
+  path.length = total_length(pieces).high * mesh.unit();
   return path;
 }
 

@@ -3,7 +3,7 @@
 // Based on: Lee, Preparata, "Euclidean shortest paths in the presence of rectilinear barriers", 1984 (the funnel).
 #include <brushfire/queries/detail/sleeve.h>
 
-#include <brushfire/core/planar.h>
+#include <brushfire/mesh/detail/wide_face.h>
 #include <brushfire/mesh/flat_face.h>
 
 #include <algorithm>
@@ -31,46 +31,52 @@ bool lies_in(const Mesh& mesh, const PointLocation& point, Index face) {
   return weights_in(mesh, point, face).has_value();
 }
 
-Vec2 placed(const std::array<Vec2, 3>& corners, const std::array<double, 3>& weights) {
-  return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+Index longest_halfedge(const Mesh& mesh, Index f) {
+  Index longest = 3 * f;
+  for (const Index h : {3 * f + 1, 3 * f + 2}) {
+    if (mesh.length(h) > mesh.length(longest)) longest = h;
+  }
+  return longest;
 }
 
-// A sleeve laid out in the plane: the edge of every step, seen by someone who walks along, and both ends.
+// A sleeve laid out in the plane, its beginning in the origin: the edge of every step, seen by someone who walks along,
+// and the end. In 106 bits: faces of a sleeve may be of very different sizes.
 struct Unfolded {
   struct Portal {
-    Vec2 left, right;
+    WideVec2 left, right;
     bool left_is_from = false;  // whether the left end is the vertex that `out` starts from
   };
   std::vector<Portal> portals;
-  Vec2 begin, end;
+  WideVec2 end;
 };
 
 Unfolded unfold(const Mesh& mesh, const Leg& leg) {
   Unfolded flat;
   flat.portals.reserve(leg.steps.size());
-  std::array<Vec2, 3> corners = flat_corners(mesh, leg.first_face);
+  std::array<WideVec2, 3> corners = wide_corners(mesh, leg.first_face, longest_halfedge(mesh, leg.first_face) % 3);
   bool mirrored = false;  // whether the present face lies clockwise
-  flat.begin = placed(corners, *weights_in(mesh, leg.begin, leg.first_face));
+  const WideVec2 begin = wide_point(corners, *weights_in(mesh, leg.begin, leg.first_face));
+  for (WideVec2& corner : corners) corner = corner - begin;
   for (const Step& step : leg.steps) {
-    const Vec2 from = corners[step.out % 3], to = corners[Mesh::next(step.out) % 3];
+    const WideVec2 from = corners[step.out % 3], to = corners[Mesh::next(step.out) % 3];
     // Leaving a counter-clockwise face, the edge's far end lies to the left.
     flat.portals.push_back(mirrored ? Unfolded::Portal{from, to, true} : Unfolded::Portal{to, from, false});
     const bool same_start = mesh.from(step.in) == mesh.from(step.out);
     mirrored = mirrored != same_start;
-    const Vec2 u = same_start ? from : to, v = same_start ? to : from;
-    const double l = mesh.lengths()[step.in];
-    const Vec2 apex = apex_over_edge(l, mesh.lengths()[Mesh::previous(step.in)], mesh.lengths()[Mesh::next(step.in)],
-                                     mesh.double_areas()[Mesh::face_of(step.in)]);
-    const double stretch = 1 / norm(v - u);  // not 1/l: keeps rounding from turning into a change of scale
-    const Vec2 along = stretch * (v - u);
-    const Vec2 inward = mirrored ? Vec2{along.y, -along.x} : Vec2{-along.y, along.x};
+    const WideVec2 u = same_start ? from : to, v = same_start ? to : from;
+    const WideVec2 apex = wide_frame(mesh, step.in).apex;
+    // Not by the edge's own length: keeps rounding from turning into a change of scale.
+    const WideVec2 along = (DoubleDouble(1) / norm(v - u)) * (v - u);
+    const WideVec2 inward = mirrored ? WideVec2{along.y, -along.x} : WideVec2{-along.y, along.x};
     corners[step.in % 3] = u;
     corners[Mesh::next(step.in) % 3] = v;
     corners[Mesh::previous(step.in) % 3] = u + apex.x * along + apex.y * inward;
   }
-  flat.end = placed(corners, *weights_in(mesh, leg.end, leg.last_face()));
+  flat.end = wide_point(corners, *weights_in(mesh, leg.end, leg.last_face()));
   return flat;
 }
+
+double turn(WideVec2 a, WideVec2 b) { return cross(a, b).high; }
 
 // Where the shortest path from the beginning has to bend first: the step whose edge ends in that vertex.
 struct Bend {
@@ -79,14 +85,13 @@ struct Bend {
 };
 
 std::optional<Bend> first_bend(const Unfolded& flat) {
-  const Vec2 apex = flat.begin;
-  Vec2 left, right;  // from the apex to the funnel's sides
+  WideVec2 left, right;  // the funnel's sides
   std::size_t left_step = 0, right_step = 0;
   bool open = false;
   for (std::size_t i = 0; i <= flat.portals.size(); ++i) {
     const bool last = i == flat.portals.size();
-    const Vec2 l = (last ? flat.end : flat.portals[i].left) - apex;
-    const Vec2 r = (last ? flat.end : flat.portals[i].right) - apex;
+    const WideVec2 l = last ? flat.end : flat.portals[i].left;
+    const WideVec2 r = last ? flat.end : flat.portals[i].right;
     if (!open) {
       left = l;
       right = r;
@@ -94,13 +99,13 @@ std::optional<Bend> first_bend(const Unfolded& flat) {
       open = true;
       continue;
     }
-    if (cross(right, r) >= 0) {  // the right side moves in
-      if (cross(left, r) > 0) return Bend{left_step, true};
+    if (turn(right, r) >= 0) {  // the right side moves in
+      if (turn(left, r) > 0) return Bend{left_step, true};
       right = r;
       right_step = i;
     }
-    if (cross(left, l) <= 0) {
-      if (cross(right, l) < 0) return Bend{right_step, false};
+    if (turn(left, l) <= 0) {
+      if (turn(right, l) < 0) return Bend{right_step, false};
       left = l;
       left_step = i;
     }
@@ -113,18 +118,18 @@ Index vertex_of(const Mesh& mesh, const Leg& leg, const Unfolded& flat, const Be
   return flat.portals[bend.step].left_is_from == bend.left ? mesh.from(out) : mesh.to(out);
 }
 
-// Where the line from begin to end crosses a step's edge, as a share of `out`.
-double crossing_of(const Unfolded& flat, std::size_t step) {
+// Where the line from begin to end crosses a step's edge.
+Crossing crossing_of(const Unfolded& flat, std::size_t step) {
   const Unfolded::Portal& portal = flat.portals[step];
-  const Vec2 d = flat.end - flat.begin;
-  const double l = cross(d, portal.left - flat.begin), r = cross(d, portal.right - flat.begin);
-  double from_left = 0;
-  if (l > 0 && r < 0) {
-    from_left = l / (l - r);
-  } else if (std::abs(l) > std::abs(r)) {
-    from_left = 1;  // the line runs over the right end, or by rounding beyond it
+  const DoubleDouble l = cross(flat.end, portal.left), r = cross(flat.end, portal.right);
+  double at_left = 1, at_right = 0;
+  if (l.high > 0 && r.high < 0) {
+    at_left = (r / (r - l)).high;
+    at_right = (l / (l - r)).high;
+  } else if (std::abs(l.high) > std::abs(r.high)) {
+    std::swap(at_left, at_right);  // the line runs over the right end, or by rounding beyond it
   }
-  return portal.left_is_from ? from_left : 1 - from_left;
+  return portal.left_is_from ? Crossing{at_left, at_right} : Crossing{at_right, at_left};
 }
 
 // Splits the leg at a vertex of the edge of step `i`: the part before (returned) and the part after (left in `leg`).
@@ -142,13 +147,17 @@ Leg split_off(const Mesh& mesh, Leg& leg, std::size_t i, Index vertex) {
   return before;
 }
 
-// The first step whose edge the line crosses at a vertex.
-std::optional<std::pair<std::size_t, Index>> first_touch(const Mesh& mesh, const StraightLeg& straight) {
-  for (std::size_t i = 0; i < straight.crossing.size(); ++i) {
-    const double t = straight.crossing[i];
-    const Index out = straight.leg.steps[i].out;
-    if (t <= kTouch) return std::pair(i, mesh.from(out));
-    if (t >= 1 - kTouch) return std::pair(i, mesh.to(out));
+// The first step whose edge the line crosses at a vertex: so near to it, for someone at either end, that going through
+// it makes no bend that can be told from straight.
+std::optional<Bend> first_touch(const Unfolded& flat) {
+  const double length = norm(flat.end).high;
+  const auto touches = [&](WideVec2 p) {
+    const double along = dot(flat.end, p).high / length, aside = std::abs(cross(flat.end, p).high) / length;
+    return aside <= kTouch * std::min(along, length - along);
+  };
+  for (std::size_t i = 0; length > 0 && i < flat.portals.size(); ++i) {
+    if (touches(flat.portals[i].left)) return Bend{i, true};
+    if (touches(flat.portals[i].right)) return Bend{i, false};
   }
   return std::nullopt;
 }
@@ -196,13 +205,14 @@ std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg) {
       split = {*step, mesh.from(now.steps[*step].out)};
     } else {
       const Unfolded flat = unfold(mesh, now);
-      if (const auto bend = first_bend(flat)) {
+      std::optional<Bend> bend = first_bend(flat);
+      if (!bend) bend = first_touch(flat);
+      if (bend) {
         split = {bend->step, vertex_of(mesh, now, flat, *bend)};
       } else {
         straight.leg = now;
-        straight.length = norm(flat.end - flat.begin);
+        straight.length = norm(flat.end);
         for (std::size_t i = 0; i < now.steps.size(); ++i) straight.crossing.push_back(crossing_of(flat, i));
-        split = first_touch(mesh, straight);
       }
     }
     if (split) {
@@ -210,9 +220,6 @@ std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg) {
       waiting.push_back(std::move(now));
       waiting.push_back(std::move(before));
     } else {
-      if (straight.leg.steps.empty()) {
-        straight.length = distance_within(mesh, straight.leg.first_face, straight.leg.begin, straight.leg.end);
-      }
       pieces.push_back(std::move(straight));
     }
   }
@@ -222,7 +229,7 @@ std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg) {
 void append_points(const Mesh& mesh, const StraightLeg& straight, std::vector<SurfacePoint>& points) {
   const auto append = [&](SurfacePoint p) {
     if (!points.empty()) {
-      const PointLocation a = locate(mesh, points.back()), b = locate(mesh, p);
+      const PointLocation a = locate(mesh, points.back(), 0), b = locate(mesh, p, 0);
       if (const auto w = weights_in(mesh, a, b.face); w && *w == b.weights) return;
     }
     points.push_back(p);
@@ -231,8 +238,8 @@ void append_points(const Mesh& mesh, const StraightLeg& straight, std::vector<Su
   for (std::size_t i = 0; i < straight.crossing.size(); ++i) {
     const Index h = straight.leg.steps[i].out;
     SurfacePoint p{Mesh::face_of(h), {0, 0, 0}};
-    p.weights[h % 3] = 1 - straight.crossing[i];
-    p.weights[Mesh::next(h) % 3] = straight.crossing[i];
+    p.weights[h % 3] = straight.crossing[i].from;
+    p.weights[Mesh::next(h) % 3] = straight.crossing[i].to;
     append(p);
   }
   append({straight.leg.end.face, straight.leg.end.weights});
@@ -240,23 +247,42 @@ void append_points(const Mesh& mesh, const StraightLeg& straight, std::vector<Su
 
 namespace {
 
-// From the vertex (corner k of face f) towards a point of f.
+// From coordinates: sides of one vertex keep all digits, however thin the face, which lengths do not.
+Vec3 side_of(const Mesh& mesh, Index from, Index to) {
+  return (1 / mesh.unit()) * (mesh.positions()[to] - mesh.positions()[from]);
+}
+double angle_between(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
+double corner_angle(const Mesh& mesh, Index corner) {
+  if (!mesh.has_positions()) return mesh.corner_angle(corner);
+  const Index v = mesh.from(corner);
+  return angle_between(side_of(mesh, v, mesh.to(corner)), side_of(mesh, v, mesh.from(Mesh::previous(corner))));
+}
+
+}  // namespace
+
 Direction direction_towards(const Mesh& mesh, Index vertex, Index f, const std::array<double, 3>& point) {
   const Face& t = mesh.faces()[f];
   const auto k = static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
   std::array<double, 3> own{0, 0, 0};
   own[k] = 1;
+  const Index corner = 3 * f + static_cast<Index>(k);
+  const double full = corner_angle(mesh, corner);
+  if (mesh.has_positions()) {
+    const Vec3 ahead = side_of(mesh, vertex, t[(k + 1) % 3]), behind = side_of(mesh, vertex, t[(k + 2) % 3]);
+    const Vec3 d = point[(k + 1) % 3] * ahead + point[(k + 2) % 3] * behind;
+    return {corner, std::min(angle_between(ahead, d), full)};
+  }
   const std::array<Vec2, 3> corners = flat_corners(mesh, f);
   const Vec2 d = flat_difference(corners, own, point), side = corners[(k + 1) % 3] - corners[k];
-  const Index corner = 3 * f + static_cast<Index>(k);
-  const double full = mesh.corner_angle(corner);
   return {corner, std::clamp(std::atan2(cross(side, d), dot(side, d)), 0.0, full)};
 }
 
-std::array<double, 3> weights_on(Index h, double t) {
+namespace {
+
+std::array<double, 3> weights_on(Index h, const Crossing& at) {
   std::array<double, 3> w{0, 0, 0};
-  w[h % 3] = 1 - t;
-  w[Mesh::next(h) % 3] = t;
+  w[h % 3] = at.from;
+  w[Mesh::next(h) % 3] = at.to;
   return w;
 }
 
@@ -274,8 +300,8 @@ Direction direction_at_end(const Mesh& mesh, const StraightLeg& s) {
   if (s.leg.steps.empty()) return direction_towards(mesh, s.leg.end.vertex, f, *weights_in(mesh, s.leg.begin, f));
   const Step& last = s.leg.steps.back();
   const bool same_start = mesh.from(last.in) == mesh.from(last.out);
-  const double t = same_start ? s.crossing.back() : 1 - s.crossing.back();
-  return direction_towards(mesh, s.leg.end.vertex, f, weights_on(last.in, t));
+  const Crossing& at = s.crossing.back();
+  return direction_towards(mesh, s.leg.end.vertex, f, weights_on(last.in, same_start ? at : Crossing{at.to, at.from}));
 }
 
 // Dijkstra on the link: its nodes are the edges at the vertex (by their other end), its arcs the corners.
@@ -301,7 +327,7 @@ WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& f
   const auto ahead = [&](Index corner) { return mesh.to(corner); };  // the edge that `corner` runs along
   const auto behind = [&](Index corner) { return mesh.from(Mesh::previous(corner)); };  // the corner's other edge
   offer(ahead(from.corner), from.angle, from.corner, kNoIndex);
-  offer(behind(from.corner), mesh.corner_angle(from.corner) - from.angle, from.corner, kNoIndex);
+  offer(behind(from.corner), corner_angle(mesh, from.corner) - from.angle, from.corner, kNoIndex);
 
   WayAround best;
   Index best_edge = kNoIndex;
@@ -316,7 +342,7 @@ WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& f
       if (!mesh.is_face_usable(Mesh::face_of(corner)) || corner == node.through) continue;
       const bool is_ahead = ahead(corner) == edge, is_behind = behind(corner) == edge;
       if (!is_ahead && !is_behind) continue;
-      const double full = mesh.corner_angle(corner);
+      const double full = corner_angle(mesh, corner);
       if (corner == to.corner) {
         const double total = angle + (is_ahead ? to.angle : full - to.angle);
         if (total < best.angle) {

@@ -11,8 +11,10 @@
 namespace brushfire {
 
 namespace detail {
-class WindowFieldReader;
+inline namespace in_doubles {  // see windows/detail/real.h
+struct WindowFieldData;
 }
+}  // namespace detail
 
 // Made by a run with DistanceOptions::keep_paths or keep_windows (DistanceField::windows). Immutable; safe to read from
 // many threads; shares the mesh. All lengths are in the mesh's units.
@@ -53,10 +55,10 @@ class WindowField {
   // The mesh of the run.
   const Mesh& mesh() const noexcept;
 
-  explicit WindowField(std::shared_ptr<const detail::WindowFieldReader> reader);
+  explicit WindowField(std::shared_ptr<const detail::WindowFieldData> data);
 
  private:
-  std::shared_ptr<const detail::WindowFieldReader> reader_;
+  std::shared_ptr<const detail::WindowFieldData> data_;
 };
 
 }  // namespace brushfire

@@ -1,6 +1,7 @@
 // Sleeves: the faces that a piece of a path runs through, unfolded into the plane.
 #pragma once
 
+#include <brushfire/core/detail/double_double.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 
@@ -28,18 +29,24 @@ struct Leg {
 // ends that the end point can do without.
 void tidy(const Mesh& mesh, Leg& leg);
 
+// A point of a step's edge by its weights at the ends of `out`: both, since 1 minus a small one has lost it.
+struct Crossing {
+  double from = 1, to = 0;
+};
+
 // A leg whose sleeve holds the straight line from begin to end.
 struct StraightLeg {
   Leg leg;
-  std::vector<double> crossing;  // [steps] where the line crosses, as a share of the way along `out`
-  double length = 0;             // mesh.unit()
+  std::vector<Crossing> crossing;  // [steps]
+  DoubleDouble length;             // mesh.unit(); wide, so that what a round gains at the smallest corner is seen
 };
 
 // The shortest path through the leg's sleeve: straight pieces that meet at vertices. Also splits where a straight piece
-// runs over a vertex (within kTouch of the edge), so that every vertex on the path is an end of a piece.
+// runs over a vertex (passes it at kTouch of the way to the nearer end), so that every vertex on the path is an end of
+// a piece.
 // O(steps x pieces) at worst, O(steps) where pieces are long.
 std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg);
-inline constexpr double kTouch = 1e-9;  // moving the path by this share of an edge costs its square: below rounding
+inline constexpr double kTouch = 1e-9;  // the bend; its cost is the square of that: below rounding
 
 // The leg's points from begin to end, begin left out where it repeats `points.back()`.
 void append_points(const Mesh& mesh, const StraightLeg& leg, std::vector<SurfacePoint>& points);
@@ -50,9 +57,16 @@ struct Direction {
   double angle = 0;
 };
 
+// From a vertex of face f towards another point of f.
+Direction direction_towards(const Mesh& mesh, Index vertex, Index f, const std::array<double, 3>& point);
+
 // The direction in which a straight leg that begins (ends) at a vertex leaves it (comes from).
 Direction direction_at_begin(const Mesh& mesh, const StraightLeg& leg);
 Direction direction_at_end(const Mesh& mesh, const StraightLeg& leg);
+
+// An angle that misses pi by less gains less than rounding loses: cutting the corner shortens the two legs by a share
+// of its square.
+inline constexpr double kStraightAngle = 1e-8;
 
 // The shortest way around a vertex from one direction to another: its angle and the edges that it crosses.
 struct WayAround {

@@ -1,7 +1,7 @@
 // Vertex expansion: the sectors of faces around a vertex that light from it may fill, and the windows they send out.
 #pragma once
 
-#include <brushfire/solvers/windows/detail/record.h>
+#include <brushfire/solvers/windows/detail/rays.h>
 #include <brushfire/solvers/windows/detail/structure.h>
 
 namespace brushfire::detail::BRUSHFIRE_NUMBERS {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <brushfire/solvers/windows/detail/exact_lists.h>
-#include <brushfire/solvers/windows/detail/record.h>
+#include <brushfire/solvers/windows/detail/rays.h>
 #include <brushfire/solvers/windows/detail/window.h>
 
 #include <vector>

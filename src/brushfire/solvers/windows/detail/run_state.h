@@ -2,8 +2,8 @@
 #pragma once
 
 #include <brushfire/solvers/detail/engine.h>
+#include <brushfire/solvers/windows/detail/rays.h>
 #include <brushfire/solvers/windows/detail/reading.h>
-#include <brushfire/solvers/windows/detail/record.h>
 #include <brushfire/solvers/windows/detail/structure.h>
 #include <brushfire/solvers/windows/detail/targets.h>
 #include <brushfire/solvers/windows/detail/vertex_state.h>

@@ -1,7 +1,7 @@
 // The targets of a run that lie inside faces or on edges, by face. (Those at vertices are read off the vertices.)
 #pragma once
 
-#include <brushfire/solvers/windows/detail/record.h>
+#include <brushfire/solvers/windows/detail/rays.h>
 #include <brushfire/solvers/windows/detail/structure.h>
 
 #include <algorithm>

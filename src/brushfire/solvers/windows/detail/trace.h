@@ -2,18 +2,13 @@
 #pragma once
 
 #include <brushfire/solvers/window_field.h>
-#include <brushfire/solvers/windows/detail/field_reader.h>
 #include <brushfire/solvers/windows/detail/record.h>
-
-#include <memory>
 
 namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
-// The leg that ends at the point `at` of the face of ray.halfedge and came along `ray`; value: of the point. Falls back
-// on a straight line within the face where rounding has led the ray astray; no points where there is none either.
+// The leg that ends at the point `at` of the face of ray.halfedge and came along `ray`; value: of the point. No points
+// where rounding could have decided anything about it, or where it is not as long as the values at its ends say:
+// find_leg() then has to look.
 WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, Real value);
-
-// What WindowField asks: window_field.cpp.
-std::shared_ptr<const WindowFieldReader> make_reader(std::shared_ptr<const WindowFieldData> data);
 
 }  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
