@@ -14,7 +14,7 @@ namespace brushfire::detail {
 // it arrives to where it leaves is nowhere shorter than pi. Keeps its memory from call to call.
 class LinkShadow {
  public:
-  // `corners`: all of the vertex, by inner halfedges, ascending. What is returned lasts until the next call. O(corners
+  // `corners`: all of the vertex, by inner halfedges. What is returned lasts until the next call. O(corners
   // log corners).
   std::span<const Sector> operator()(const WindowStructure& mesh, std::span<const Index> corners,
                                      const CrossedAt& arrival);

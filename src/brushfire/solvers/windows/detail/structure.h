@@ -55,8 +55,8 @@ struct WindowStructure {
   };
   // Whether these are copies of the same vertex.
   bool is_same(Index v, Index w) const { return v == w || (!copies.empty() && outer_vertex(v) == outer_vertex(w)); }
-  // The corners at v by inner halfedges, ascending; of all faces, or of those in one part. What is returned lasts until
-  // `room` is used again.
+  // The corners at v by inner halfedges, in the mesh's order, of a crowd part by part; of all faces, or of those in one
+  // part. What is returned lasts until `room` is used again.
   std::span<const Index> corners_of(Index v, std::vector<Index>& room) const;
   std::span<const Index> corners_of(Index v, Index part, std::vector<Index>& room) const;
   // Whether three faces or more meet at the edge of halfedge h.
