@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // The sides of one edge, which form a ring, are one node.
 void LinkShadow::find_nodes(const WindowStructure& mesh, std::span<const Index> corners) {
@@ -46,7 +46,7 @@ void LinkShadow::measure_from(const WindowStructure& mesh, const CrossedAt& arri
   const Vec2 back = Vec2{arrival.place, 0} - frame.apex;
   const Vec2 first = Vec2{} - frame.apex, second = Vec2{frame.length, 0} - frame.apex;
   queue_.clear();
-  const auto offer = [&](Index node, double way) {
+  const auto offer = [&](Index node, Real way) {
     if (!(way < way_[node])) return;
     way_[node] = way;
     queue_.emplace_back(way, node);
@@ -54,8 +54,8 @@ void LinkShadow::measure_from(const WindowStructure& mesh, const CrossedAt& arri
   };
   for (const Arc& arc : arcs_) {
     if (arc.halfedge != corner) continue;
-    offer(arc.from, std::atan2(std::max(0.0, cross(first, back)), dot(first, back)));
-    offer(arc.to, std::atan2(std::max(0.0, cross(back, second)), dot(back, second)));
+    offer(arc.from, atan2(std::max(Real{0}, cross(first, back)), dot(first, back)));
+    offer(arc.to, atan2(std::max(Real{0}, cross(back, second)), dot(back, second)));
   }
   while (!queue_.empty()) {
     std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
@@ -75,9 +75,9 @@ std::span<const Sector> LinkShadow::operator()(const WindowStructure& mesh, std:
   sectors_.clear();
   for (const Arc& arc : arcs_) {
     if (arc.halfedge / 3 == arrival.halfedge / 3) continue;  // all of it is less than pi away
-    const double low = kPi - way_[arc.from], high = arc.angle - (kPi - way_[arc.to]);
+    const Real low = kPi - way_[arc.from], high = arc.angle - (kPi - way_[arc.to]);
     if (high - low <= kFlat) continue;
-    const auto direction = [](double angle) { return Vec2{std::cos(angle), std::sin(angle)}; };
+    const auto direction = [](Real angle) { return Vec2{std::cos(angle), std::sin(angle)}; };
     Sector sector = whole_sector(mesh.faces[arc.halfedge / 3], arc.halfedge / 3, arc.halfedge % 3);
     if (low - kShadowMargin > 0) sector.from = direction(low - kShadowMargin);
     if (high + kShadowMargin < arc.angle) sector.to = direction(high + kShadowMargin);
@@ -86,4 +86,4 @@ std::span<const Sector> LinkShadow::operator()(const WindowStructure& mesh, std:
   return sectors_;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

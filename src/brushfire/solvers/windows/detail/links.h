@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // L6 around any vertex. Its link is a graph: a node for each edge at the vertex, and for each corner an arc as long as
 // its angle between the nodes of both of its edges. A path bends at the vertex only if the way in the link from where
@@ -23,17 +23,17 @@ class LinkShadow {
   struct Arc {
     Index halfedge;  // of the corner
     Index from, to;  // nodes of the edge that leaves the corner, and of the one that enters it
-    double angle;
+    Real angle;
   };
   void find_nodes(const WindowStructure& mesh, std::span<const Index> corners);
   void measure_from(const WindowStructure& mesh, const CrossedAt& arrival);
 
   std::vector<std::pair<Index, Index>> sides_;  // halfedges at the vertex, ascending, and their nodes
   std::vector<Arc> arcs_;
-  std::vector<double> way_;                      // [nodes] from the arrival, no farther than pi
-  std::vector<std::vector<Index>> arcs_at_;      // [nodes or more]
-  std::vector<std::pair<double, Index>> queue_;  // a heap of nodes, the nearest first
+  std::vector<Real> way_;                      // [nodes] from the arrival, no farther than pi
+  std::vector<std::vector<Index>> arcs_at_;    // [nodes or more]
+  std::vector<std::pair<Real, Index>> queue_;  // a heap of nodes, the nearest first
   std::vector<Sector> sectors_;
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

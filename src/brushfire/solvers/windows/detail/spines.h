@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // Light that leaves a face over a spine enters all of its other faces, the ones back where it came from among them.
 // Sheets that meet at many spines bring it to each of them once a sheet; were all of it let through, there would be
@@ -24,7 +24,7 @@ class SpineMemory {
     Edge& edge = edges_[std::uint64_t{low} << 32 | high];
     const bool may_be_cut = !is_on_edge(w);
     for (auto k = first_near(edge, w); k != edge.known.end() && k->window.b0 < w.b1;) {
-      const double p = std::max(k->window.b0, w.b0), q = std::min(k->window.b1, w.b1);
+      const Real p = std::max(k->window.b0, w.b0), q = std::min(k->window.b1, w.b1);
       if (!(p < q) || !is_no_longer(*k, w, label, p, q)) {
         ++k;
         continue;
@@ -51,19 +51,19 @@ class SpineMemory {
   };
   struct Edge {
     std::vector<Known> known;  // by the start of the interval
-    double widest = 0;
+    Real widest = 0;
   };
 
   // The first one that may reach into w.
   static std::vector<Known>::iterator first_near(Edge& edge, const Window& w) {
     return std::lower_bound(edge.known.begin(), edge.known.end(), w.b0 - edge.widest,
-                            [](const Known& k, double b0) { return k.window.b0 < b0; });
+                            [](const Known& k, Real b0) { return k.window.b0 < b0; });
   }
 
   // What it is nowhere longer than need not be known any more.
   static void remember(Edge& edge, const Window& w, Index label) {
     const auto begin = std::lower_bound(edge.known.begin(), edge.known.end(), w.b0,
-                                        [](const Known& k, double b0) { return k.window.b0 < b0; });
+                                        [](const Known& k, Real b0) { return k.window.b0 < b0; });
     auto end = begin;
     while (end != edge.known.end() && end->window.b0 < w.b1) ++end;
     const auto gone = std::remove_if(begin, end, [&](const Known& k) {
@@ -74,19 +74,19 @@ class SpineMemory {
   }
 
   // Light that comes another way has been turned through other frames: that must not look like an improvement.
-  static constexpr double kTurns = 32 * std::numeric_limits<double>::epsilon();
+  static constexpr Real kTurns = 32 * std::numeric_limits<Real>::epsilon();
 
   // Whether k is at most as long as w on [p,q]: the difference has its extremes at the ends and where slopes are equal.
-  static bool is_no_longer(const Known& k, const Window& w, Index label, double p, double q) {
-    const double moved = kTurns * (norm(w.source) + w.b1 + std::max(w.d0, w.d1));
-    const double within = k.label <= label ? moved : -moved;
-    const auto fits = [&](double x) { return value_at(k.window, x) <= value_at(w, x) + within; };
+  static bool is_no_longer(const Known& k, const Window& w, Index label, Real p, Real q) {
+    const Real moved = kTurns * (norm(w.source) + w.b1 + std::max(w.d0, w.d1));
+    const Real within = k.label <= label ? moved : -moved;
+    const auto fits = [&](Real x) { return value_at(k.window, x) <= value_at(w, x) + within; };
     if (!fits(p) || !fits(q)) return false;
-    const double x = equal_slope(k.window, w);
+    const Real x = equal_slope(k.window, w);
     return !(x > p && x < q) || fits(x);
   }
 
-  static void cut(Window& w, double b0, double b1) {
+  static void cut(Window& w, Real b0, Real b1) {
     if (b0 > w.b0) w.d0 = value_at(w, b0);
     if (b1 < w.b1) w.d1 = value_at(w, b1);
     w.b0 = b0;
@@ -96,4 +96,4 @@ class SpineMemory {
   std::unordered_map<std::uint64_t, Edge> edges_;
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
