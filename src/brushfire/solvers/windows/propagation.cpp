@@ -1,6 +1,6 @@
 // The driver: sources, rounds in which the parts of the mesh work side by side, and mail between them.
 //
-// L1 ... L8 are the lemmas of docs/tolerance.md. Every write to a vertex is the length of a real path (to rounding),
+// L1 ... L10 are the lemmas of docs/tolerance.md. Every write to a vertex is the length of a real path (to rounding),
 // and a window or a part of one is dropped only where another real path is shown to be shorter; so order does not
 // matter to the result, only to the time. That is why the parts of a mesh can be left alone with their events for a
 // bucket of values at a time, and hear from each other only then. What a part does depends on its mail alone, and mail

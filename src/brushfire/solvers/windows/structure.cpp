@@ -260,17 +260,23 @@ std::span<const Index> WindowStructure::corners_of(Index v, std::vector<Index>& 
   if (const Crowd* crowd = crowd_at(v)) return crowd->corners;
   room.clear();
   for (const Index corner : mesh.corners(outer_vertex(v))) room.push_back(inner_halfedge(corner));
-  std::sort(room.begin(), room.end());
   return room;
 }
 
 std::span<const Index> WindowStructure::corners_of(Index v, Index part, std::vector<Index>& room) const {
-  const std::span<const Index> all = corners_of(v, room);
-  const auto begin_of = [&](Index p) {
-    return std::lower_bound(all.begin(), all.end(), p,
-                            [this](Index h, Index number) { return part_of_face(h / 3) < number; });
-  };
-  return {begin_of(part), begin_of(part + 1)};
+  if (const Crowd* crowd = crowd_at(v)) {
+    const auto begin_of = [&](Index p) {
+      return std::lower_bound(crowd->corners.begin(), crowd->corners.end(), p,
+                              [this](Index h, Index number) { return part_of_face(h / 3) < number; });
+    };
+    return {begin_of(part), begin_of(part + 1)};
+  }
+  room.clear();
+  for (const Index corner : mesh.corners(outer_vertex(v))) {
+    const Index h = inner_halfedge(corner);
+    if (part_of_face(h / 3) == part) room.push_back(h);
+  }
+  return room;
 }
 
 WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(locality_order(m)), part_bits(bits) {
@@ -323,7 +329,12 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
     if (links[v] == Link::Circle && around[v].angles.exceeds_two_pi()) bend[v] = Bend::Saddle;
     if (links[v] == Link::Arc && around[v].angles.exceeds_pi()) bend[v] = Bend::Boundary;
   }
-  for (const Crowd& c : crowds) {
+  std::vector<std::tuple<Index, Index, Index>> by_part;
+  for (Crowd& c : crowds) {
+    by_part.clear();
+    for (const Index h : c.corners) by_part.emplace_back(part_of_face(h / 3), outer_halfedge(h), h);
+    std::sort(by_part.begin(), by_part.end());
+    for (std::size_t i = 0; i < by_part.size(); ++i) c.corners[i] = std::get<2>(by_part[i]);
     Bend& its = bend[order.vertex_rank[c.vertex]];
     if (its == Bend::Fans && c.corners.size() > kManyFaces) its = Bend::Full;
   }

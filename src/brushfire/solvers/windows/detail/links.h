@@ -14,7 +14,7 @@ namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 // it arrives to where it leaves is nowhere shorter than pi. Keeps its memory from call to call.
 class LinkShadow {
  public:
-  // `corners`: all of the vertex, by inner halfedges, ascending. What is returned lasts until the next call. O(corners
+  // `corners`: all of the vertex, by inner halfedges. What is returned lasts until the next call. O(corners
   // log corners).
   std::span<const Sector> operator()(const WindowStructure& mesh, std::span<const Index> corners,
                                      const CrossedAt& arrival);
@@ -23,16 +23,16 @@ class LinkShadow {
   struct Arc {
     Index halfedge;  // of the corner
     Index from, to;  // nodes of the edge that leaves the corner, and of the one that enters it
-    double angle;
+    Real angle;
   };
   void find_nodes(const WindowStructure& mesh, std::span<const Index> corners);
   void measure_from(const WindowStructure& mesh, const CrossedAt& arrival);
 
   std::vector<std::pair<Index, Index>> sides_;  // halfedges at the vertex, ascending, and their nodes
   std::vector<Arc> arcs_;
-  std::vector<double> way_;                      // [nodes] from the arrival, no farther than pi
-  std::vector<std::vector<Index>> arcs_at_;      // [nodes or more]
-  std::vector<std::pair<double, Index>> queue_;  // a heap of nodes, the nearest first
+  std::vector<Real> way_;                      // [nodes] from the arrival, no farther than pi
+  std::vector<std::vector<Index>> arcs_at_;    // [nodes or more]
+  std::vector<std::pair<Real, Index>> queue_;  // a heap of nodes, the nearest first
   std::vector<Sector> sectors_;
 };
 
