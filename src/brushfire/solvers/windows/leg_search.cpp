@@ -34,7 +34,7 @@ constexpr double kSamePlace = 1e-15;
 constexpr std::ptrdiff_t kRecent = 32;
 // Once the value is explained, so many more wedges are looked into for the root that the field names itself.
 constexpr int kPatience = 256;
-constexpr std::size_t kMostWedges = 1 << 17, kMostWithoutValues = 1 << 12;
+constexpr std::size_t kMostWedges = 1 << 15, kMostWithoutValues = 1 << 12;
 
 constexpr Index kStart = kNoIndex;  // the wedge before the first one
 
