@@ -34,7 +34,9 @@ constexpr double kSamePlace = 1e-15;
 constexpr std::ptrdiff_t kRecent = 32;
 // Once the value is explained, so many more wedges are looked into for the root that the field names itself.
 constexpr int kPatience = 256;
-constexpr std::size_t kMostWedges = 1 << 15, kMostWithoutValues = 1 << 12;
+// A pass ends after so many wedges. Along the hint a leg needs few for each face that it crosses, or it is going
+// astray.
+constexpr std::size_t kMostWedges = 1 << 15, kFewWedges = 1 << 12, kWedgesPerFace = 4;
 
 constexpr Index kStart = kNoIndex;  // the wedge before the first one
 
@@ -205,7 +207,9 @@ class LegSearch {
       enter_faces(next.wedge);
     }
   }
-  std::size_t most_wedges() const { return pass_ == Pass::WithoutValues ? kMostWithoutValues : kMostWedges; }
+  std::size_t most_wedges() const {
+    return by_length() ? kMostWedges : std::min(kMostWedges, kFewWedges + kWedgesPerFace * mesh_.face_count());
+  }
   bool by_length() const { return pass_ == Pass::ByLength; }
   bool is_explained() const { return best_.total <= value_ + room_; }
 
