@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 void Results::write(std::vector<Index>& scratch, ThreadTeam* team) {
   finish_targets();
@@ -20,7 +20,7 @@ Index Results::label_of(Index root) const {
   return root >= n ? root - n : run_.several ? run_.origins[root].label : 0;
 }
 
-void Results::offer_target(Index target, double value, double slack, double lift, const Ray& ray, bool straight) {
+void Results::offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight) {
   TargetState& t = run_.targets[target];
   t.upper = std::min(t.upper, value + slack);
   if (!straight) return;
@@ -33,13 +33,13 @@ void Results::offer_target(Index target, double value, double slack, double lift
 // Around the corners of a target's face.
 void Results::finish_targets() {
   for (const TargetInFace& t : run_.targets.in_faces()) {
-    const std::array<double, 3> d = corner_distances_of(run_.structure, {t.face, t.weights});
+    const std::array<Real, 3> d = corner_distances_of(run_.structure, {t.face, t.weights});
     for (Index k = 0; k < 3; ++k) {
       const Index v = run_.structure.faces[t.face].vertex[k];
       const VertexValues& at = run_.values[v];
       if (at.upper == kInfinity) continue;
-      const double slack = std::max(0.0, at.upper - at.lower);
-      offer_target(t.target, at.lower + d[k], slack, std::clamp(at.estimate - at.lower, 0.0, slack),
+      const Real slack = std::max(Real{0}, at.upper - at.lower);
+      offer_target(t.target, at.lower + d[k], slack, std::clamp(at.estimate - at.lower, Real{0}, slack),
                    {{}, kNoIndex, v, WindowKind::Circular});
     }
   }
@@ -128,7 +128,7 @@ void Results::write_targets() {
   }
 }
 
-Reading Results::read(double lower, double upper, double estimate, Index label) const {
+Reading Results::read(Real lower, Real upper, Real estimate, Index label) const {
   return detail::read(lower, upper, estimate, run_.start_of(label), run_.budget.share, run_.problem->options->bound);
 }
 
@@ -151,7 +151,7 @@ void Results::keep() {
   data->sources.assign(run_.problem->sources.begin(), run_.problem->sources.end());
   data->shift = run_.shift;
   PointRecord unknown;
-  if (run_.radius < kInfinity) unknown.value = std::numeric_limits<double>::quiet_NaN();
+  if (run_.radius < kInfinity) unknown.value = std::numeric_limits<Real>::quiet_NaN();
   data->vertices.assign(mesh.vertex_count(), unknown);
   for (const Part& part : parts_) {
     part.for_each_touched([&](Index v) {
@@ -179,4 +179,4 @@ void Results::keep() {
   field_.windows = std::make_shared<WindowField>(std::move(data));
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

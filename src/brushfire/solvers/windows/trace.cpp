@@ -8,14 +8,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Places on an edge are known to a few epsilons of its length. A ray may cross no edge this near (share of the edge) to
 // an end or to the point before: what is longer keeps its direction to 1e-7.
-constexpr double kTooShort = 1e-8;
+constexpr Real kTooShort = 1e-8;
 // By what angle the ray may miss its root: seen from the last edge crossed.
-constexpr double kMissed = 1e-7;
+constexpr Real kMissed = 1e-7;
 
 struct Position {
   Index halfedge;  // the next edge to cross, from inside of its face
@@ -25,7 +25,7 @@ struct Position {
 
 class Tracer {
  public:
-  Tracer(const WindowFieldData& data, const Ray& ray, double value)
+  Tracer(const WindowFieldData& data, const Ray& ray, Real value)
       : data_(data), mesh_(data.mesh), ray_(ray), value_(value) {}
 
   WindowField::Leg run(const FaceWeights& at) {
@@ -48,32 +48,32 @@ class Tracer {
 
   Frame frame_at(Index h) const {
     const auto l = mesh_.lengths();
-    const double length = l[h], left = l[Mesh::previous(h)], right = l[Mesh::next(h)];
+    const Real length = l[h], left = l[Mesh::previous(h)], right = l[Mesh::next(h)];
     return {length, left, right, apex_over_edge(length, left, right, mesh_.double_areas()[h / 3])};
   }
-  double value_of(Index v) const { return data_.vertices[v].value; }
+  Real value_of(Index v) const { return data_.vertices[v].value; }
 
   // A real path of this length is there; is it the one that the value means?
   bool is_explained() const {
-    const double start =
+    const Real start =
         leg_.vertex != kNoIndex ? value_of(leg_.vertex) : data_.sources[leg_.source].offset + data_.shift;
-    return std::abs(start + leg_.length - value_) <= kAgreement * value_;
+    return abs(start + leg_.length - value_) <= kAgreement * value_;
   }
 
   // Over the position's edge into the face beyond, or to a vertex in the way.
   Step over_edge(Position& at) {
     const Index h = at.halfedge, g = mesh_.opposite()[h];
-    const double length = mesh_.lengths()[h];
-    const double across = at.source.x * at.point.y - at.source.y * at.point.x, along = at.point.y - at.source.y;
+    const Real length = mesh_.lengths()[h];
+    const Real across = at.source.x * at.point.y - at.source.y * at.point.x, along = at.point.y - at.source.y;
     if (!(at.source.y < 0) || !(along > 0) || !(length > 0)) return Step::Lost;
-    const double x = across / along, rest = length - x;
-    const auto ends_at_end = [&](Index v, Index corner, double place, double miss) {
+    const Real x = across / along, rest = length - x;
+    const auto ends_at_end = [&](Index v, Index corner, Real place, Real miss) {
       return ends_at_vertex(v, {Mesh::face_of(h), corner}, {at.point.x - place, at.point.y},
-                            {at.source.x - place, at.source.y}, std::abs(miss));
+                            {at.source.x - place, at.source.y}, abs(miss));
     };
     if (ends_at_end(mesh_.from(h), h % 3, 0, x)) return Step::Found;
     if (ends_at_end(mesh_.to(h), next3(h % 3), length, rest)) return Step::Found;
-    const double way = length_of(at.point.x - x, at.point.y);
+    const Real way = length_of(at.point.x - x, at.point.y);
     const SurfacePoint& first = leg_.points.front();
     const bool begins_here =
         leg_.points.size() == 1 && first.face == Mesh::face_of(h) && first.weights[previous3(h % 3)] == 0;
@@ -96,7 +96,7 @@ class Tracer {
     const Frame frame = frame_at(at.halfedge);
     const bool left = cross(frame.apex - at.point, at.source - at.point) > 0;
     const Index h = left ? Mesh::previous(at.halfedge) : Mesh::next(at.halfedge);
-    const double side = left ? frame.left : frame.right;
+    const Real side = left ? frame.left : frame.right;
     const Vec2 origin = left ? frame.apex : Vec2{frame.length, 0};
     const Vec2 end = left ? Vec2{0, 0} : frame.apex;
     const Vec2 u = (1 / side) * (end - origin);
@@ -110,20 +110,20 @@ class Tracer {
 
   // Whether the ray goes through vertex v, as far as anyone can see from either end, and v's value says so as well;
   // `before` and `after`: the arrows from v to where the ray was and to its root.
-  bool ends_at_vertex(Index v, Corner at, Vec2 before, Vec2 after, double miss) {
-    const double way = length_of(before.x, before.y);
-    const double nearer = std::min(leg_.length + way, length_of(after.x, after.y));
+  bool ends_at_vertex(Index v, Corner at, Vec2 before, Vec2 after, Real miss) {
+    const Real way = length_of(before.x, before.y);
+    const Real nearer = std::min(leg_.length + way, length_of(after.x, after.y));
     if (!(miss <= kThrough * nearer)) return false;
-    if (!(value_of(v) < value_) || !(std::abs(value_of(v) + leg_.length + way - value_) <= kAgreement * value_))
+    if (!(value_of(v) < value_) || !(abs(value_of(v) + leg_.length + way - value_) <= kAgreement * value_))
       return false;
-    std::array<double, 3> weights{0, 0, 0};
+    std::array<Real, 3> weights{0, 0, 0};
     weights[at.corner] = 1;
     leg_.vertex = v;
     finish(at.face, weights, way);
     return true;
   }
 
-  bool finish(Index face, const std::array<double, 3>& weights, double way) {
+  bool finish(Index face, const std::array<Real, 3>& weights, Real way) {
     leg_.points.push_back({face, weights});
     leg_.length += way;
     return true;
@@ -132,9 +132,9 @@ class Tracer {
   // Whether the root is in the face of the position's halfedge, where the ray says.
   bool ends_in_face(const Position& at) {
     const Index h = at.halfedge, face = Mesh::face_of(h), n = mesh_.vertex_count();
-    const auto is_root = [&](const std::array<double, 3>& weights) {
+    const auto is_root = [&](const std::array<Real, 3>& weights) {
       const Vec2 p = in_frame(frame_at(h), h % 3, weights);
-      const double way = length_of(p.x - at.point.x, p.y - at.point.y);
+      const Real way = length_of(p.x - at.point.x, p.y - at.point.y);
       if (!(length_of(p.x - at.source.x, p.y - at.source.y) <= kMissed * way)) return false;
       return way > kTooShort * mesh_.lengths()[h] && finish(face, weights, way);
     };
@@ -142,7 +142,7 @@ class Tracer {
       if (!(value_of(ray_.root) < value_)) return false;
       leg_.vertex = ray_.root;
       for (Index i = 0; i < 3; ++i) {
-        std::array<double, 3> weights{0, 0, 0};
+        std::array<Real, 3> weights{0, 0, 0};
         weights[i] = 1;
         if (mesh_.faces()[face][i] == ray_.root && is_root(weights)) return true;
       }
@@ -159,14 +159,14 @@ class Tracer {
   const WindowFieldData& data_;
   const Mesh& mesh_;
   const Ray& ray_;
-  const double value_;
+  const Real value_;
   WindowField::Leg leg_;
 };
 
 }  // namespace
 
-WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, double value) {
+WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, Real value) {
   return Tracer(data, ray, value).run(at);
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -63,7 +63,7 @@ class Look {
   // The least of: straight from a source in the face, around its corners, along its windows.
   Found evaluate(const PointLocation& at) const {
     Found best{{at.face, at.weights}, {}};
-    const auto offer = [&](const FaceWeights& f, double value, const Ray& ray, Index label) {
+    const auto offer = [&](const FaceWeights& f, Real value, const Ray& ray, Index label) {
       if (value < best.record.value || (value == best.record.value && label < best.record.label)) {
         best = {f, {value, label, ray}};
       }
@@ -74,7 +74,7 @@ class Look {
       PointLocation here;
       here.face = f.face;
       here.weights = f.weights;
-      const std::array<double, 3> d = corner_distances(mesh_, here);
+      const std::array<Real, 3> d = corner_distances(mesh_, here);
       for (Index k = 0; k < 3; ++k) {
         const Index v = mesh_.faces()[f.face][k];
         offer(f, data_.vertices[v].value + d[k], {{}, kNoIndex, v, {}}, data_.vertices[v].label);
@@ -135,7 +135,7 @@ WindowField::Leg last_leg_of(const detail::WindowFieldData& data, const Found& f
   if (ray.halfedge == kNoIndex) leg = leg_without_ray(data, found, vertex);
   if (ray.halfedge != kNoIndex) leg = detail::trace_leg(data, found.at, ray, found.record.value);
   if (leg.points.empty()) {
-    const std::function<double(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
+    const std::function<Real(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
     const PointLocation at = locate(data.mesh, {found.at.face, found.at.weights});
     leg = detail::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value, ray.root,
                             ray.halfedge, ray.source});
