@@ -97,6 +97,7 @@ int main(int argc, char** argv) {
         Answer v;
         if (!judged(mesh, from, to, stage, v)) {
           ++row.too_long[*stage];
+          std::fprintf(stderr, "%s seed %u pair %d: too long in stage %d\n", name_of(family), seed, pair, *stage);
           continue;
         }
         add(v, row);

@@ -13,8 +13,9 @@ namespace brushfire {
 
 namespace {
 
-// The distance of two points in a face of theirs, mostly the one that names one of them; NaN: they share none. No weight
-// of a path's point is too small to count, but points that were placed by hand may share a face only where it does not.
+// The distance of two points in a face of theirs, mostly the one that names one of them; NaN: they share none. No
+// weight of a path's point is too small to count, but points that were placed by hand may share a face only where it
+// does not.
 double distance_between(const Mesh& mesh, const PointLocation& a, const PointLocation& b) {
   if (const auto w = weights_in(mesh, b, a.face)) return distance_within(mesh, a.face, a.weights, *w);
   if (const auto w = weights_in(mesh, a, b.face)) return distance_within(mesh, b.face, *w, b.weights);

@@ -70,7 +70,9 @@ class Tracer {
     if (ends_at_end(mesh_.from(h), h % 3, 0, x)) return Step::Found;
     if (ends_at_end(mesh_.to(h), next3(h % 3), length, rest)) return Step::Found;
     const Real way = length_of(at.point.x - x, at.point.y);
-    const bool begins_here = leg_.points.size() == 1 && at.point.y == 0;
+    const SurfacePoint& first = leg_.points.front();
+    const bool begins_here =
+        leg_.points.size() == 1 && first.face == Mesh::face_of(h) && first.weights[previous3(h % 3)] == 0;
     const bool is_sure =
         x > kTooShort * length && rest > kTooShort * length && (begins_here || way > kTooShort * length);
     if (!is_sure || g == h || mesh_.opposite()[g] != h) return Step::Lost;

@@ -139,7 +139,7 @@ WindowField::Leg last_leg_of(const detail::WindowFieldData& data, const Found& f
   if (ray.halfedge == kNoIndex) leg = leg_without_ray(data, found, vertex);
   if (ray.halfedge != kNoIndex) leg = detail::trace_leg(data, found.at, ray, found.record.value);
   if (leg.points.empty()) {
-    const std::function<double(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
+    const std::function<Real(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
     const PointLocation at = locate(data.mesh, {found.at.face, found.at.weights});
     leg = detail::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value, ray.root,
                             ray.halfedge, ray.source});
