@@ -8,15 +8,16 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire._errors import BrushfireError, BrushfireIndexError
+from brushfire._foreign import to_numpy
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
 
 
 def any_array(values: npt.ArrayLike, what: str) -> npt.NDArray[Any]:
-    """As numpy understands it."""
+    """As numpy understands it; arrays of other libraries too."""
     try:
-        return np.asarray(values)
+        return to_numpy(values)
     except ValueError:  # rows of different lengths
         raise TypeError(f"{what}: the rows do not form an array") from None
 
@@ -41,6 +42,11 @@ def integers(values: npt.ArrayLike, what: str) -> Ints:
     if array.dtype == np.uint64 and array.max() > np.iinfo(np.int64).max:
         raise BrushfireIndexError(f"{what}: {array.max()} does not exist")
     return np.asarray(array, dtype=np.int64, order="C")
+
+
+def whole_numbers(array: npt.NDArray[Any]) -> bool:
+    """Whether all of these floats are integers that 64 bits hold."""
+    return bool((np.abs(array) < 2.0**63).all() and (array == np.floor(array)).all())
 
 
 def columns(array: npt.NDArray[Any], count: int, what: str) -> None:

@@ -1,12 +1,14 @@
 // Straightest geodesics and the logarithmic map.
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
+#include <brushfire/queries/path.h>
 #include <brushfire/queries/straightest.h>
 
 #include "support/path_checker.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -192,6 +194,31 @@ TEST(LogMap, OfAPlaneIsItsPolarCoordinates) {
     EXPECT_NEAR(map.radius[v], norm(d), 1e-14);
     if (v != 40) {
       EXPECT_NEAR(std::remainder(map.angle[v] - zero - std::atan2(d.y, d.x), 2 * kPi), 0, 1e-12);
+    }
+  }
+}
+
+// One solver, discs of many sizes around points of every kind, a field and a path in between.
+TEST(LogMap, OfADiscIsToTheBitWhatAFreshSolverGives) {
+  const Mesh mesh = shapes::folded_sphere(5).mesh();
+  DistanceSolver solver(mesh);
+  const std::vector<SurfacePoint> centres{
+      vertex_point(mesh, 7), {411, {0.2, 0.5, 0.3}}, {9000, {0.5, 0, 0.5}}, vertex_point(mesh, 7)};
+  for (const double radius : {0.05, 0.2, 0.6, kInfinity, 0.1}) {
+    for (const SurfacePoint& centre : centres) {
+      const SparseLogMap disc = log_map(solver, centre, radius);
+      const LogMap whole = log_map(mesh, centre, radius);
+      const auto reached =
+          std::count_if(whole.radius.begin(), whole.radius.end(), [](double d) { return d < kInfinity; });
+      ASSERT_EQ(disc.vertex.size(), static_cast<std::size_t>(reached)) << radius;
+      EXPECT_EQ(disc.total_angle, whole.total_angle);
+      for (std::size_t i = 0; i < disc.vertex.size(); ++i) {
+        ASSERT_EQ(disc.radius[i], whole.radius[disc.vertex[i]]);
+        ASSERT_EQ(disc.angle[i], whole.angle[disc.vertex[i]]);
+      }
+      const Source source{centre};
+      solver.distance(std::span(&source, 1));
+      path_between(solver, centre, vertex_point(mesh, 99));
     }
   }
 }

@@ -106,36 +106,46 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
   return path;
 }
 
-PathFinder::PathFinder(Mesh mesh) : solver_(std::make_unique<DistanceSolver>(std::move(mesh))) {}
-PathFinder::~PathFinder() = default;
-PathFinder::PathFinder(PathFinder&&) noexcept = default;
-PathFinder& PathFinder::operator=(PathFinder&&) noexcept = default;
-
-SurfacePath PathFinder::between(const SurfacePoint& from, const SurfacePoint& to, const CancelToken* cancel) {
+SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
+                         const CancelToken* cancel) {
   DistanceOptions options;
   options.method = Method::Exact;
   options.keep_paths = true;
   options.targets = {to};
   options.cancel = cancel;
   const Source source{from};
-  return path_to(*solver_->distance(std::span(&source, 1), options).windows, to);
+  return path_to(*solver.distance_sparse(std::span(&source, 1), options).windows, to);
 }
 
-SurfacePath PathFinder::through(std::span<const SurfacePoint> waypoints, bool closed, const CancelToken* cancel) {
+SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed,
+                         const CancelToken* cancel) {
   if (waypoints.empty()) throw Error(ErrorCode::InvalidArgument, "a path needs at least one waypoint");
-  const Mesh& mesh = solver_->mesh();
+  const Mesh& mesh = solver.mesh();
   locate(mesh, waypoints.front());  // also where there is nothing to trace
   SurfacePath path;
   path.closed = closed;
   path.length = 0;
   path.points.push_back(waypoints.front());
   for (std::size_t i = 0; i + (closed ? 0 : 1) < waypoints.size(); ++i) {
-    const SurfacePath piece = between(waypoints[i], waypoints[(i + 1) % waypoints.size()], cancel);
+    const SurfacePath piece = path_between(solver, waypoints[i], waypoints[(i + 1) % waypoints.size()], cancel);
     if (piece.points.empty()) return {{}, kInfinity, closed};
     join(mesh, path, piece);
   }
   if (closed && path.points.size() > 1) path.points.pop_back();  // the first point again
   return path;
+}
+
+PathFinder::PathFinder(Mesh mesh) : solver_(std::make_unique<DistanceSolver>(std::move(mesh))) {}
+PathFinder::~PathFinder() = default;
+PathFinder::PathFinder(PathFinder&&) noexcept = default;
+PathFinder& PathFinder::operator=(PathFinder&&) noexcept = default;
+
+SurfacePath PathFinder::between(const SurfacePoint& from, const SurfacePoint& to, const CancelToken* cancel) {
+  return path_between(*solver_, from, to, cancel);
+}
+
+SurfacePath PathFinder::through(std::span<const SurfacePoint> waypoints, bool closed, const CancelToken* cancel) {
+  return path_through(*solver_, waypoints, closed, cancel);
 }
 
 }  // namespace brushfire

@@ -151,6 +151,7 @@ void collect(double unit, std::span<const PointLocation> targets, const Distance
   finish_targets(unit, targets, options, field);
   result.target_distance.swap(field.target_distance);
   result.target_source.swap(field.target_source);
+  result.windows = std::move(field.windows);
 }
 
 }  // namespace
@@ -262,6 +263,7 @@ void DistanceSolver::distance_sparse(std::span<const Source> sources, const Dist
   w.scratch.target_distance.assign(w.targets.size(), kInfinity);
   w.scratch.target_source.assign(w.targets.size(), kNoIndex);
   w.scratch.error_bound.clear();
+  w.scratch.windows.reset();
   try {
     engine.solve({w.sources, w.targets, options.max_distance / w.mesh.unit(), &options, listed ? &w.touched : nullptr},
                  w.scratch);

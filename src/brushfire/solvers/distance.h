@@ -81,11 +81,12 @@ struct DistanceField {
 
 // A field that says nothing of the vertices that it did not reach. The vertices ascend.
 struct SparseField {
-  std::vector<Index> vertex;            // [reached]
-  std::vector<double> distance;         // [reached], finite
-  std::vector<Index> source;            // [reached]
-  std::vector<double> target_distance;  // [targets]
-  std::vector<Index> target_source;     // [targets]
+  std::vector<Index> vertex;                   // [reached]
+  std::vector<double> distance;                // [reached], finite
+  std::vector<Index> source;                   // [reached]
+  std::vector<double> target_distance;         // [targets]
+  std::vector<Index> target_source;            // [targets]
+  std::shared_ptr<const WindowField> windows;  // as that of DistanceField; it, too, costs what was reached
 };
 
 // Distances from the nearest of the sources (least distance plus offset; equal: the lowest position) to every vertex.
@@ -112,7 +113,8 @@ class DistanceSolver {
   void distance(std::span<const Source> sources, const DistanceOptions& options, DistanceField& field);
 
   // The same numbers, of the reached vertices only: costs what it reaches, whatever the size of the mesh (after the
-  // first call; for methods that keep no list of what they touched, one look at every vertex more).
+  // first call; for methods that keep no list of what they touched, and with keep_windows, one look at every vertex
+  // more).
   SparseField distance_sparse(std::span<const Source> sources, const DistanceOptions& options = {});
   // In place of what `field` held, whose memory is used again: for very many short runs.
   void distance_sparse(std::span<const Source> sources, const DistanceOptions& options, SparseField& field);
