@@ -12,6 +12,7 @@ from brushfire._foreign import to_numpy
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
+Labels = npt.NDArray[np.int32]
 
 
 def any_array(values: npt.ArrayLike, what: str) -> npt.NDArray[Any]:

@@ -13,10 +13,10 @@ import numpy.typing as npt
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats
 from brushfire._curves import OnMesh, Path
-from brushfire._distance import Progress
 from brushfire._errors import BrushfireError
 from brushfire._fields import Fields, Isoline, _values
 from brushfire._places import Places
+from brushfire._progress import Progress, shown
 
 _SCALE_TEXTS = ("colormap", "unit")
 _SCALE_NUMBERS = ("low", "high")
@@ -156,7 +156,9 @@ class Pictures(OnMesh):
         """
         count = _arrays.whole(directions, "directions", _MOST)
         team = _arrays.whole(threads, "threads", _MOST)
-        return _core.ambient_occlusion(self._mesh, count, _arrays.number(reach, "reach"), team, progress)
+        farthest = _arrays.number(reach, "reach")
+        with shown(progress, "ambient occlusion") as report:
+            return _core.ambient_occlusion(self._mesh, count, farthest, team, report)
 
 
 def render(panels: Panel | Iterable[Panel], *, file: str | os.PathLike[str] | None = None, **look: Any) -> Pixels:

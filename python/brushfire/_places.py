@@ -75,7 +75,7 @@ class Points(Sequence[Point]):
     @overload
     def __getitem__(self, which: slice | Sequence[int] | npt.NDArray[Any]) -> Points: ...
     def __getitem__(self, which: Any) -> Point | Points:
-        if isinstance(which, slice) or not hasattr(which, "__index__") or getattr(which, "ndim", 0):
+        if isinstance(which, slice) or not hasattr(which, "__index__") or getattr(which, "ndim", 0) != 0:
             chosen = which if isinstance(which, slice) else any_array(which, "which points")
             return Points(self._face[chosen], self._weights[chosen])
         a, b, c = self._weights[operator.index(which)].tolist()

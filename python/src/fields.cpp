@@ -1,5 +1,6 @@
 // What is made of a field: isolines, gradients, the way down, comparison with another field.
 #include "options.h"
+#include "solver.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/queries/compare.h>
@@ -31,14 +32,15 @@ nb::list linear(const Mesh& mesh, const Vector<double>& values, const Vector<dou
 }
 
 // Levels that follow from the field, which is known only here: every `every` units, or `count` of them, or those given.
-nb::list curved(const Mesh& mesh, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
+nb::list curved(Solver& solver, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
                 const Vector<double>& offsets, const nb::dict& given, const std::optional<Vector<double>>& levels,
                 std::optional<double> every, Index count, double chord_error, nb::object progress) {
   Computation computation(std::move(progress));
   DistanceOptions options = options_from(given, computation);
   options.keep_windows = true;
   return to_list(computation.run(false, [&] {
-    const DistanceField field = distance(mesh, sources_from(mesh, {index, weights}, offsets), options);
+    const std::vector<Source> sources = sources_from(solver.mesh(), {index, weights}, offsets);
+    const DistanceField field = solver.with([&](DistanceSolver& s) { return s.distance(sources, options); });
     if (!field.windows) {
       throw Error(ErrorCode::InvalidArgument, "curved isolines need method exact or windows");
     }
@@ -110,9 +112,10 @@ nb::dict compare(const Vector<double>& field, const Vector<double>& reference,
 
 void bind_fields(nb::module_& m) {
   m.def("isolines", linear, nb::arg("mesh"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());
-  m.def("curved_isolines", curved, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-        nb::arg("offsets").noconvert(), nb::arg("options"), nb::arg("levels").noconvert().none(),
-        nb::arg("every").none(), nb::arg("count"), nb::arg("chord_error"), nb::arg("progress").none());
+  m.def("curved_isolines", curved, nb::arg("solver"), nb::arg("index").noconvert(),
+        nb::arg("weights").noconvert().none(), nb::arg("offsets").noconvert(), nb::arg("options"),
+        nb::arg("levels").noconvert().none(), nb::arg("every").none(), nb::arg("count"), nb::arg("chord_error"),
+        nb::arg("progress").none());
   m.def(
       "levels_every",
       [](const Vector<double>& values, double step) { return to_numpy(levels_every(span_of(values), step)); },

@@ -8,6 +8,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <span>
 
@@ -105,15 +106,30 @@ Result<double> positions_of(const Mesh& mesh, const Vector<std::int64_t>& index,
   return to_numpy(std::move(xyz), {places.size(), 3});
 }
 
+nb::tuple to_tuple(LoadedMesh&& loaded) {
+  check_vertex_count(loaded.mesh.vertex_count());
+  return nb::make_tuple(loaded.mesh, loaded.format, nb::tuple(nb::cast(loaded.remarks)),
+                        to_numpy_signed(std::move(loaded.face_origin)), to_numpy_signed(std::move(loaded.vertex_map)));
+}
+
 nb::tuple read(const std::string& path) {
   LoadedMesh loaded;
   {
     const nb::gil_scoped_release release;
     loaded = read_mesh(path);
   }
-  check_vertex_count(loaded.mesh.vertex_count());
-  return nb::make_tuple(loaded.mesh, loaded.format, nb::tuple(nb::cast(loaded.remarks)),
-                        to_numpy_signed(std::move(loaded.face_origin)), to_numpy_signed(std::move(loaded.vertex_map)));
+  return to_tuple(std::move(loaded));
+}
+
+// `name` stands in messages; its extension decides where the content does not.
+nb::tuple read_bytes(const nb::bytes& content, const std::string& name) {
+  LoadedMesh loaded;
+  const std::span bytes(static_cast<const std::byte*>(content.data()), content.size());
+  {
+    const nb::gil_scoped_release release;
+    loaded = read_mesh(bytes, name);
+  }
+  return to_tuple(std::move(loaded));
 }
 
 }  // namespace
@@ -132,6 +148,7 @@ void bind_mesh(nb::module_& m) {
   m.def("make_from_lengths", make_from_lengths, nb::arg("vertex_count"), nb::arg("faces").noconvert(),
         nb::arg("lengths").noconvert());
   m.def("read", read, nb::arg("path"));
+  m.def("read_bytes", read_bytes, nb::arg("content"), nb::arg("name"));
 }
 
 }  // namespace brushfire::python
