@@ -80,7 +80,18 @@ def _arrays_of(source: Any) -> Arrays | None:
 
 
 def _has(*names: str) -> Callable[[Any], bool]:
-    return lambda source: all(hasattr(source, name) for name in names)
+    return lambda source: all(_attribute(source, name) is not _MISSING for name in names)
+
+
+_MISSING = object()
+
+
+def _attribute(source: Any, name: str) -> Any:
+    """_MISSING where there is none, whatever the object raises then."""
+    try:
+        return getattr(source, name)
+    except Exception:  # Open3D raises KeyError
+        return _MISSING
 
 
 def _triangles(faces: Any, source: Any) -> npt.NDArray[Any]:
@@ -93,15 +104,13 @@ def _triangles(faces: Any, source: Any) -> npt.NDArray[Any]:
         )
     if array.ndim == 2 and array.shape[1] != 3:
         raise BrushfireError(f"faces with {array.shape[1]} corners: triangles are needed, triangulate it first")
-    if array.dtype.kind == "O":
-        raise BrushfireError("faces with different numbers of corners: triangles are needed, triangulate it first")
     return array
 
 
 def _value(source: Any, name: str) -> Any:
     """An attribute or an entry that is data; None for a method, and where there is none."""
-    value = source.get(name) if isinstance(source, Mapping) else getattr(source, name, None)
-    return None if callable(value) else value
+    value = source.get(name) if isinstance(source, Mapping) else _attribute(source, name)
+    return None if value is _MISSING or callable(value) else value
 
 
 def _by_name(source: Any) -> Arrays | None:
@@ -117,9 +126,11 @@ def _by_name(source: Any) -> Arrays | None:
 
 def _of_tuple(source: Any) -> Arrays | None:
     """What readers return: vertices, faces, and often something else."""
-    if len(source) < 2 or not all(_is_rows(item) for item in source[:2]):
+    if len(source) < 2 or not _is_rows(source[0]):
         return None
-    return source[0], source[1]
+    if isinstance(source[1], (list, tuple)) and len({len(face) for face in source[1] if hasattr(face, "__len__")}) > 1:
+        raise BrushfireError("faces with different numbers of corners: triangles are needed, triangulate it first")
+    return (source[0], source[1]) if _is_rows(source[1]) else None
 
 
 def _is_rows(item: Any) -> bool:
@@ -178,6 +189,8 @@ def _of_scene(source: Any) -> Arrays | None:
 
 def _of_tensors(source: Any) -> Arrays:
     """open3d.t.geometry.TriangleMesh."""
+    if "positions" not in source.vertex or "indices" not in source.triangle:
+        raise BrushfireError("a TriangleMesh without vertex.positions and triangle.indices")
     return source.vertex["positions"].cpu().numpy(), source.triangle["indices"].cpu().numpy()
 
 
@@ -255,11 +268,11 @@ _KINDS: tuple[tuple[Callable[[Any], bool], Callable[[Any], Arrays | None]], ...]
     (_has("points", "cells_dict"), _of_cells),
     (_has("points", "faces"), _of_vtk_layout),
     (_has("geometry", "graph"), _of_scene),
-    (lambda source: _has("vertex", "triangle")(source) and hasattr(source.vertex, "keys"), _of_tensors),
+    (_has("vertex", "triangle"), _of_tensors),
     (_has("current_mesh", "mesh_number"), _of_mesh_set),
     (_has("vertex_matrix", "face_matrix"), _of_meshlab),
-    (lambda source: isinstance(getattr(source, "parts", None), Mapping), _of_parts),
-    (lambda source: isinstance(getattr(getattr(source, "mesh", None), "parts", None), Mapping), lambda s: _of_parts(s.mesh)),
+    (lambda source: isinstance(_attribute(source, "parts"), Mapping), _of_parts),
+    (lambda source: isinstance(_attribute(_attribute(source, "mesh"), "parts"), Mapping), lambda s: _of_parts(s.mesh)),
     (_has("pos", "face"), _of_graph),
     (_has("verts_list", "faces_list"), _of_batch),
     (_has("x", "y", "triangles"), _of_triangulation),
@@ -281,24 +294,21 @@ def _refusal(source: Any) -> str:
     held = list(_held_meshes(source))
     if held:
         return f"no mesh is known to be in a {name} itself: give its {' or '.join(held)}"
-    missing = [f for v, f in _NAMES if _value(source, v) is not None] + ["faces" for _ in [0] if hasattr(source, "points")]
-    if missing:
-        return f"a {name} has points, but no .{missing[0]}: (vertices, faces) gives both"
-    if hasattr(source, "shape"):
+    lacking = [faces for vertices, faces in (*_NAMES, ("points", "faces")) if _value(source, vertices) is not None]
+    if lacking:
+        return f"a {name} has points, but no .{' or .'.join(sorted(set(lacking)))}: (vertices, faces) gives both"
+    if hasattr(source, "shape") and hasattr(source, "dtype"):
         return f"an array alone, of shape {tuple(source.shape)}: (vertices, faces) are two"
     return f"no mesh is known to be in a {name}"
 
 
 def _held_meshes(source: Any) -> Iterator[str]:
     for name in _HOLDERS:
-        value = getattr(source, name, None)
-        if value is None or isinstance(value, (str, bytes)):
-            continue
-        if not callable(value):
-            if _holds_mesh(value):
-                yield f".{name}"
-            elif isinstance(value, Mapping):
-                yield from (f".{name}[{key!r}]" for key, item in list(value.items())[:8] if _holds_mesh(item))
+        value = _value(source, name)
+        if value is not None and _holds_mesh(value):
+            yield f".{name}"
+        elif isinstance(value, Mapping):
+            yield from (f".{name}[{key!r}]" for key, item in list(value.items())[:8] if _holds_mesh(item))
 
 
 def _holds_mesh(value: Any) -> bool:

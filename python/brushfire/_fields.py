@@ -31,6 +31,9 @@ class Isoline:
     level_index: int
     line: Path
 
+    def __repr__(self) -> str:
+        return f"Isoline(level {self.level:.6g}, {self.line!r})"
+
 
 @dataclass(frozen=True)
 class Descent:

@@ -183,7 +183,7 @@ def _write_curves(
     place: str, curves: list[tuple[Path, float, str]], mesh: Mesh | None, name: str | None, kind: str
 ) -> None:
     cores = [curve._mesh for curve, _, _ in curves] if mesh is None else [mesh._mesh]
-    core = cores[0] if cores else _standing_alone(0)._mesh
+    core = cores[0] if cores else _core.make_mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.uint32))
     if core is None:
         raise BrushfireError(f"{place}: these curves do not know their mesh any more: give it as mesh=")
     if any(other is not core for other in cores):

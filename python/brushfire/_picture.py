@@ -36,6 +36,9 @@ class Panel:
     mesh: OnMesh
     _shown: dict[str, Any]
 
+    def __repr__(self) -> str:
+        return f"Panel({self.mesh!r})"
+
 
 class Pictures(OnMesh):
     """The picture of a Mesh."""

@@ -103,6 +103,9 @@ class At:
 
     xyz: Floats
 
+    def __repr__(self) -> str:
+        return f"At({len(self.xyz)} positions)"
+
 
 def at(xyz: npt.ArrayLike) -> At:
     """Positions in space as sources, targets, rows or columns: each is snapped to the nearest point of the surface.

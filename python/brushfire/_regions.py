@@ -40,6 +40,9 @@ class Voronoi:
     area: Floats
     borders: list[Border]
 
+    def __repr__(self) -> str:
+        return f"Voronoi({len(self.area)} cells, {len(self.borders)} borders)"
+
 
 @dataclass(frozen=True)
 class Samples:
@@ -55,6 +58,9 @@ class Samples:
     distance: Floats
     nearest: Labels
     covering_radius: float
+
+    def __repr__(self) -> str:
+        return f"Samples({len(self.vertices)} vertices, covering radius {self.covering_radius:.6g})"
 
 
 @dataclass(frozen=True)
@@ -72,6 +78,9 @@ class Cut:
     cut_face: Labels
     _original: Mesh
     _cut: _core.CutMesh
+
+    def __repr__(self) -> str:
+        return f"Cut({self._original!r} into {self.mesh!r})"
 
     def to_original(self, values: npt.ArrayLike) -> Floats:
         """Values per vertex here to values per vertex of the original: the least of the copies'.

@@ -40,7 +40,10 @@ def arrays_of_vtk(source: Any) -> tuple[Any, Ints]:
         return _points(data), _triangles_of_polydata(data)
     if data.IsA("vtkUnstructuredGrid"):
         return _points(data), _triangles_of_grid(data)
-    raise BrushfireError(f"a {data.GetClassName()} is no surface: its .extract_surface().triangulate() is one")
+    if data.IsA("vtkDataSet"):
+        raise BrushfireError(f"a {data.GetClassName()} is no surface: its .extract_surface().triangulate() is one")
+    held = ".GetOutput()" if hasattr(data, "GetOutput") else ".GetMapper().GetInput()" if hasattr(data, "GetMapper") else ""
+    raise TypeError(f"a {data.GetClassName()} is no data set" + (f": its {held} is what it shows" if held else ""))
 
 
 def _to_numpy(array: Any) -> npt.NDArray[Any]:
