@@ -218,7 +218,9 @@ def _of_graph(source: Any) -> Arrays:
     """torch_geometric: the faces stand in columns."""
     for name in ("pos", "face"):
         if getattr(source, name) is None:
-            raise BrushfireError(f".{name} of this {type(source).__name__} is None: FaceToEdge(remove_faces=False) keeps it")
+            raise BrushfireError(
+                f".{name} of this {type(source).__name__} is None: FaceToEdge(remove_faces=False) keeps it"
+            )
     return source.pos, _arrays.any_array(source.face, "face").T
 
 

@@ -15,7 +15,6 @@ from brushfire._places import PlaceArrays, Places
 from brushfire._progress import Progress, shown
 
 
-
 class Distances:
     """What has a distance(): a Mesh, and a Solver, which keeps its workspace between calls."""
 

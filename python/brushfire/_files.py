@@ -260,7 +260,9 @@ def _write_dscalar(
         raise ImportError(f"{place}: CIFTI-2 is written by nibabel: pip install nibabel") from None
     maps = [(name, array) for name, array in zip(names, (values, labels), strict=True) if array is not None]
     if not maps or structure is None:
-        raise BrushfireError(f"{place}: CIFTI-2 holds a field of a structure='cortex_left' or another part of the brain")
+        raise BrushfireError(
+            f"{place}: CIFTI-2 holds a field of a structure='cortex_left' or another part of the brain"
+        )
     for _, array in maps:
         if len(array) != count:
             raise BrushfireError(f"{place}: {len(array)} values for a mesh of {count} vertices")

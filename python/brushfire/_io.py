@@ -35,9 +35,7 @@ Source: TypeAlias = "str | os.PathLike[str] | bytes | bytearray | memoryview | I
 def read(source: Source, *, format: str | None = ..., return_info: Literal[False] = ...) -> Mesh: ...
 @overload
 def read(source: Source, *, format: str | None = ..., return_info: Literal[True]) -> tuple[Mesh, FileInfo]: ...
-def read(
-    source: Source, *, format: str | None = None, return_info: bool = False
-) -> Mesh | tuple[Mesh, FileInfo]:
+def read(source: Source, *, format: str | None = None, return_info: bool = False) -> Mesh | tuple[Mesh, FileInfo]:
     """A mesh from a file: the file's vertex order, indices and double precision are kept.
 
     The content decides about the format where it names one, the extension otherwise.

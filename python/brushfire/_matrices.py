@@ -204,9 +204,7 @@ class Matrices(OnMesh):
         single = bool(float_type(dtype) == np.float32)
         team = thread_count(threads)
         with shown(progress, "matrix") as report:
-            _core.write_matrix(
-                self._mesh, os.fspath(path), single, *_pair(row), *_pair(column), chosen, team, report
-            )
+            _core.write_matrix(self._mesh, os.fspath(path), single, *_pair(row), *_pair(column), chosen, team, report)
 
     def _optional(self, places: Any, what: str) -> PlaceArrays | None:
         """None for all vertices."""

@@ -28,7 +28,9 @@ def mesh_table(mesh: Mesh) -> str:
         ("mean edge", f"{report.mean_edge_length:.6g}"),
         *(("", html.escape(remark)) for remark in report.remarks),
     ]
-    cells = "".join(f"<tr><th style='text-align:left'>{a}</th><td style='text-align:left'>{b}</td></tr>" for a, b in rows)
+    cells = "".join(
+        f"<tr><th style='text-align:left'>{a}</th><td style='text-align:left'>{b}</td></tr>" for a, b in rows
+    )
     return f"<div style='display:flex;align-items:center'>{_picture(mesh)}<table>{cells}</table></div>"
 
 

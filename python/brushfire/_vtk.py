@@ -42,7 +42,13 @@ def arrays_of_vtk(source: Any) -> tuple[Any, Ints]:
         return _points(data), _triangles_of_grid(data)
     if data.IsA("vtkDataSet"):
         raise BrushfireError(f"a {data.GetClassName()} is no surface: its .extract_surface().triangulate() is one")
-    held = ".GetOutput()" if hasattr(data, "GetOutput") else ".GetMapper().GetInput()" if hasattr(data, "GetMapper") else ""
+    held = (
+        ".GetOutput()"
+        if hasattr(data, "GetOutput")
+        else ".GetMapper().GetInput()"
+        if hasattr(data, "GetMapper")
+        else ""
+    )
     raise TypeError(f"a {data.GetClassName()} is no data set" + (f": its {held} is what it shows" if held else ""))
 
 

@@ -46,9 +46,7 @@ def vtk_polydata():
 
 def open3d_mesh():
     o3d = lib("open3d")
-    return o3d.geometry.TriangleMesh(
-        o3d.utility.Vector3dVector(V), o3d.utility.Vector3iVector(F.astype(np.int32))
-    )
+    return o3d.geometry.TriangleMesh(o3d.utility.Vector3dVector(V), o3d.utility.Vector3iVector(F.astype(np.int32)))
 
 
 def mesh_set():
@@ -158,7 +156,10 @@ def hull():
 
 
 def test_triangulations_come_out_as_they_are():
-    for make in (lambda: lib("matplotlib.tri").Triangulation(*V[:, :2].T, F), lambda: lib("scipy.spatial").Delaunay(V[:, :2])):
+    for make in (
+        lambda: lib("matplotlib.tri").Triangulation(*V[:, :2].T, F),
+        lambda: lib("scipy.spatial").Delaunay(V[:, :2]),
+    ):
         mesh = bf.from_any(make())
         assert np.array_equal(mesh.vertices[:, :2], V[:, :2])
         assert mesh.area == pytest.approx(9)
@@ -212,7 +213,10 @@ REFUSALS = {
     "pyvista points": (lambda: lib("pyvista").PolyData(V), "16 points and 0 lines"),
     "pyvista line": (lambda: lib("pyvista").Line(), "1 lines"),
     "pyvista grid of quads": (lambda: lib("pyvista").UnstructuredGrid({9: np.array([[0, 1, 5, 4]])}, V), "quadrangles"),
-    "pyvista grid of bodies": (lambda: lib("pyvista").UnstructuredGrid({10: np.array([[0, 1, 5, 4]])}, V), "extract_surface"),
+    "pyvista grid of bodies": (
+        lambda: lib("pyvista").UnstructuredGrid({10: np.array([[0, 1, 5, 4]])}, V),
+        "extract_surface",
+    ),
     "pyvista grid of lines": (lambda: lib("pyvista").UnstructuredGrid({3: np.array([[0, 1]])}, V), "no triangles"),
     "pyvista image": (lambda: lib("pyvista").ImageData(dimensions=(3, 3, 1)), "extract_surface"),
     "pyvista MultiBlock": (lambda: lib("pyvista").MultiBlock([pyvista_mesh(), pyvista_mesh()]), "2 surfaces"),

@@ -51,7 +51,13 @@ def test_files_that_cannot_be_read_say_why(tmp_path):
 def test_bytes_and_open_files_are_read_as_what_they_are_said_to_be(tmp_path):
     path = write_obj(tmp_path / "bumps.obj")
     content = path.read_bytes()
-    for source in (content, bytearray(content), memoryview(content), io.BytesIO(content), io.StringIO(content.decode())):
+    for source in (
+        content,
+        bytearray(content),
+        memoryview(content),
+        io.BytesIO(content),
+        io.StringIO(content.decode()),
+    ):
         assert same(bf.read(source, format="obj"))
     with open(path, "rb") as binary, open(path) as text:
         assert same(bf.read(binary))  # by its name

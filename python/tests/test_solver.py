@@ -32,8 +32,9 @@ def test_a_solver_gives_what_the_mesh_gives_in_any_order(bumpy):
         lambda s, t: same_path(solver.edge_path(s, t), bumpy.edge_path(s, t)),
         lambda s, t: np.array_equal(solver.log_map(s).angle, bumpy.log_map(s).angle, equal_nan=True),
         lambda s, t: np.array_equal(solver.log_map(s, 3.0).radius, bumpy.log_map(s, 3.0).radius),
-        lambda s, t: [i.line for i in solver.curved_isolines(s, [2.0])]
-        == [i.line for i in bumpy.curved_isolines(s, [2.0])],
+        lambda s, t: (
+            [i.line for i in solver.curved_isolines(s, [2.0])] == [i.line for i in bumpy.curved_isolines(s, [2.0])]
+        ),
         lambda s, t: [i.line for i in solver.isolines(d, [2.0])] == [i.line for i in bumpy.isolines(d, [2.0])],
         lambda s, t: solver.trace(s, 0.3, 2.0)[0] == bumpy.trace(s, 0.3, 2.0)[0],
     ]

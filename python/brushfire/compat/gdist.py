@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 __all__ = ["compute_gdist", "distance_matrix_of_selected_points", "local_gdist_matrix"]
 
+
 def _mesh(vertices: npt.ArrayLike, triangles: npt.ArrayLike, is_one_indexed: bool) -> Mesh:
     faces = whole_faces(triangles)
     return Mesh(vertices, faces - 1 if is_one_indexed else faces)
