@@ -90,7 +90,7 @@ def _attribute(source: Any, name: str) -> Any:
     """_MISSING where there is none, whatever the object raises then."""
     try:
         return getattr(source, name)
-    except Exception:  # Open3D raises KeyError
+    except Exception:  # noqa: BLE001 - Open3D raises KeyError
         return _MISSING
 
 
@@ -139,7 +139,7 @@ def _is_rows(item: Any) -> bool:
         return False
     try:
         array = _arrays.any_array(item, "rows")
-    except Exception:  # whatever the object's library raises: it is no array
+    except Exception:  # noqa: BLE001 - whatever the object's library raises: it is no array
         return False
     return array.dtype.kind in "iuf" and (array.ndim == 2 or array.size == 0)
 
@@ -316,5 +316,5 @@ def _held_meshes(source: Any) -> Iterator[str]:
 def _holds_mesh(value: Any) -> bool:
     try:
         return isinstance(value, Mesh) or _arrays_of(value) is not None
-    except Exception:  # it is a mesh that is refused for a reason of its own, or no mesh
+    except Exception:  # noqa: BLE001 - it is a mesh that is refused for a reason of its own, or no mesh
         return False

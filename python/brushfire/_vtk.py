@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import itertools
 from collections.abc import Iterator
 from typing import Any
 
@@ -83,7 +84,7 @@ def _triangles_of_polydata(data: Any) -> Ints:
 
 def _strips(offsets: Ints, numbers: Ints) -> Iterator[Ints]:
     """Every second triangle of a strip runs the other way round; those that repeat a point only steer it."""
-    for begin, end in zip(offsets[:-1], offsets[1:], strict=True):
+    for begin, end in itertools.pairwise(offsets):
         strip = numbers[begin:end]
         rows = np.column_stack([strip[:-2], strip[1:-1], strip[2:]])
         rows[1::2] = rows[1::2, [1, 0, 2]]

@@ -7,8 +7,9 @@ import pytest
 
 scipy_sparse = pytest.importorskip("scipy.sparse")
 
-from brushfire.compat import gdist
 from peer_meshes import flat, hedgehog, original, straight
+
+from brushfire.compat import gdist
 
 
 def int32(*values: int) -> np.ndarray:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from peer_meshes import original
 
 import brushfire as bf
 from brushfire.compat import igl
-from peer_meshes import original
 
 
 def icosahedron() -> tuple[np.ndarray, np.ndarray]:

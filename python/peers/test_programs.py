@@ -7,9 +7,10 @@ import pytest
 
 pytest.importorskip("scipy")
 
+from peer_meshes import flat, hedgehog, original
+
 from brushfire.compat import gdist, igl
 from brushfire.compat.pygeodesic import geodesic
-from peer_meshes import flat, hedgehog, original
 
 V, F = hedgehog()
 N = len(V)

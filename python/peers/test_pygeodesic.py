@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from peer_meshes import flat, straight
 
 from brushfire.compat import pygeodesic
 from brushfire.compat.pygeodesic import geodesic
-from peer_meshes import flat, straight
 
 
 @pytest.fixture

@@ -7,9 +7,10 @@ import pytest
 
 pytest.importorskip("scipy")
 
+from peer_meshes import flat
+
 import brushfire as bf
 from brushfire.compat import gdist
-from peer_meshes import flat
 
 M, N = 4, 5
 

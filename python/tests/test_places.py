@@ -93,7 +93,7 @@ def test_points_are_a_sequence_of_points(bumpy):
     for which in (slice(1, 3), [1, 2], np.array([1, 2]), np.array([False, True, True, False])):
         assert isinstance(points[which], bf.Points)
         assert points[which] == points[1:3]
-    assert list(reversed(points))[0] == points[3]
+    assert next(reversed(points)) == points[3]
     assert points[2] in points
     assert points != points[:3]
     assert points == bf.Points(points.face.tolist(), points.weights.tolist())
