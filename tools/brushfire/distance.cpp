@@ -17,10 +17,11 @@
 namespace brushfire::tool {
 namespace {
 
-constexpr const char* kExamples = R"(Where (for --source and --target):
+constexpr const char* kExamples = R"(Places (for --source and --target):
   17                vertex 17, counted from 0 in the file's order
+  0,5,9             three vertices
   f:120:.2,.3,.5    in face 120, with these weights of its three corners
-  1.5,0,-2          the point of the surface nearest to this position
+  at:1.5,0,-2       the point of the surface nearest to this position
   17@0.5            any of them, with the value 0.5 to start from (sources only)
 
 Examples:
@@ -43,7 +44,7 @@ struct Arguments {
   std::string file, sources_file, output;
   std::vector<std::string> sources, targets;
   Accuracy accuracy;
-  std::string precision = "float";
+  std::string precision = "float32";
   std::optional<double> radius, threads;
 };
 
@@ -78,7 +79,7 @@ struct Run {
 
 std::vector<Where> parse_sources(const Arguments& arguments) {
   std::vector<Where> places;
-  for (const std::string& text : arguments.sources) places.push_back(parse_where(text));
+  for (const std::string& text : split_places(arguments.sources)) places.push_back(parse_where(text));
   if (!arguments.sources_file.empty()) {
     for (Where& w : read_where_file(arguments.sources_file)) places.push_back(std::move(w));
   }
@@ -92,7 +93,7 @@ std::vector<Where> parse_sources(const Arguments& arguments) {
 
 std::vector<Where> parse_targets(const Arguments& arguments) {
   std::vector<Where> places;
-  for (const std::string& text : arguments.targets) {
+  for (const std::string& text : split_places(arguments.targets)) {
     places.push_back(parse_where(text));
     if (places.back().has_offset) {
       throw Error(ErrorCode::InvalidArgument, "'" + text + "': a target has no offset");
@@ -189,7 +190,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   const Snap snap = snapper(run.mesh);
   for (const Where& w : source_places) run.sources.push_back({resolve(w, run.mesh, snap), w.offset});
 
-  options.precision = arguments.precision == "float" ? Precision::Float : Precision::Double;
+  options.precision = arguments.precision == "float32" ? Precision::Float : Precision::Double;
   options.max_distance = arguments.radius.value_or(kInfinity);
   options.cancel = &cancel_token();
   options.progress = talk.progress("distance");
@@ -232,11 +233,11 @@ void add_distance(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("distance", "Distance of every vertex from the nearest source", [&](Verb& verb) {
     verb.argument("FILE", arguments->file, "The mesh: PLY, OBJ, OFF; - reads standard input");
-    verb.option("-s,--source", arguments->sources, "WHERE", "A source; may be repeated");
+    verb.option("-s,--source", arguments->sources, "PLACE", "A source; may be repeated");
     verb.option("--sources", arguments->sources_file, "LIST", "File of sources, one per line, # comments");
-    verb.option("-t,--target", arguments->targets, "WHERE", "Print the distance of this point; may be repeated");
+    verb.option("-t,--target", arguments->targets, "PLACE", "Print the distance of this point; may be repeated");
     add_accuracy(verb, arguments->accuracy);
-    verb.choice("--precision", arguments->precision, {"float", "double"}, "Arithmetic of the marching methods");
+    verb.choice("--precision", arguments->precision, {"float32", "float64"}, "Arithmetic of the marching methods");
     verb.option("-r,--radius", arguments->radius, "R", "Stop at this distance; what is farther reads inf");
     verb.option("--threads", arguments->threads, "N", "Threads for this field; 0, the default: one per processor");
     verb.option("-o,--output", arguments->output, "FILE", "Write the field: .ply .vtk .npy .csv ...; - prints CSV");

@@ -77,7 +77,7 @@ std::vector<double> levels_of(const Arguments& a, std::span<const double> values
 DistanceField solve(const Arguments& a, const Mesh& mesh, const Talk& talk) {
   const Snap snap = snapper(mesh);
   std::vector<Source> sources;
-  for (const std::string& text : a.sources) {
+  for (const std::string& text : split_places(a.sources)) {
     const Where where = parse_where(text);
     sources.push_back({resolve(where, mesh, snap), where.offset});
   }
@@ -137,7 +137,7 @@ void add_isolines(CommandLine& command_line) {
   for (const Method m : all_methods()) methods.emplace_back(name_of(m));
   command_line.add("isolines", "Curves of equal distance, ordered and oriented", [&](Verb& verb) {
     verb.argument("FILE", a->file, "The mesh; - reads standard input");
-    verb.option("-s,--source", a->sources, "WHERE", "Distances from here; may be repeated");
+    verb.option("-s,--source", a->sources, "PLACE", "Distances from here; may be repeated");
     verb.option("--scalar", a->scalar_file, "FIELD", "These values instead, one per vertex");
     verb.option("--levels", a->levels, "L,L,...", "At these values");
     verb.option("--every", a->every, "H", "At the multiples of H");

@@ -20,8 +20,8 @@ namespace {
 
 constexpr const char* kExamples = R"(Rows and columns:
   all               every vertex, in the file's order
-  0,5,9             these vertices
-  FILE              one place per line, as for `brushfire distance --sources`
+  0,5,9             these vertices; at:1.5,0,-2, f:120:.2,.3,.5 and others as for `brushfire distance --source`
+  FILE              one place, or a list of vertices, per line, as for `brushfire distance --sources`
 
 Examples:
   brushfire matrix cortex.gii -o d.npy
@@ -43,18 +43,15 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool is_list_of_vertices(const std::string& text) {
-  return !text.empty() && text.find_first_not_of("0123456789,") == std::string::npos;
+bool is_file(const std::string& text) {
+  return !text.starts_with("f:") && !text.starts_with("at:") &&
+         text.find_first_not_of("0123456789,") != std::string::npos;
 }
 
 std::vector<Where> parse_places(const std::string& text) {
-  if (!is_list_of_vertices(text)) return read_where_file(text);
+  if (is_file(text)) return read_where_file(text);
   std::vector<Where> places;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    places.push_back(parse_where(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
+  for (const std::string& place : split_places({text})) places.push_back(parse_where(place));
   return places;
 }
 

@@ -110,9 +110,9 @@ void add_path(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("path", "Shortest path between points", [&](Verb& verb) {
     verb.argument("FILE", arguments->file, "The mesh; - reads standard input");
-    verb.option("--from", arguments->from, "WHERE", "Where the path begins");
-    verb.option("--to", arguments->to, "WHERE", "Where it ends");
-    verb.option("--via", arguments->via, "WHERE", "A point on the way; may be repeated");
+    verb.option("--from", arguments->from, "PLACE", "Where the path begins");
+    verb.option("--to", arguments->to, "PLACE", "Where it ends");
+    verb.option("--via", arguments->via, "PLACE", "A point on the way; may be repeated");
     verb.flag("--closed", arguments->closed, "Back to --from in the end");
     verb.flag("--tighten", arguments->tighten, "Pull tight: no bends at --via");
     verb.choice("-m,--method", arguments->method, {"exact", "dijkstra"}, "How to compute");

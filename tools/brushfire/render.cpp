@@ -160,7 +160,7 @@ Panel solved_panel(const Arguments& a, const Mesh& mesh, const std::string& meth
   Panel panel;
   panel.mesh = mesh;
   std::vector<Source> sources;
-  for (const std::string& text : a.sources) {
+  for (const std::string& text : split_places(a.sources)) {
     const Where where = parse_where(text);
     sources.push_back({resolve(where, mesh, snap), where.offset});
     panel.dots.push_back(position(mesh, sources.back().point));
@@ -180,11 +180,12 @@ Panel solved_panel(const Arguments& a, const Mesh& mesh, const std::string& meth
   exact.method = Method::Exact;
   exact.keep_paths = true;
   exact.cancel = &cancel_token();
-  for (const std::string& text : a.paths) exact.targets.push_back(resolve(parse_where(text), mesh, snap));
+  const std::vector<std::string> ends = split_places(a.paths);
+  for (const std::string& text : ends) exact.targets.push_back(resolve(parse_where(text), mesh, snap));
   const DistanceField to_targets = distance(mesh, sources, exact);
-  for (std::size_t i = 0; i < a.paths.size(); ++i) {
+  for (std::size_t i = 0; i < ends.size(); ++i) {
     const SurfacePath path = path_to(*to_targets.windows, exact.targets[i]);
-    if (path.points.empty()) throw Unreachable(a.paths[i]);
+    if (path.points.empty()) throw Unreachable(ends[i]);
     Polyline line;
     for (const SurfacePoint& p : path.points) line.points.push_back(position(mesh, p));
     panel.paths.push_back(std::move(line));
@@ -365,7 +366,7 @@ void add_render(CommandLine& command_line) {
   const auto a = std::make_shared<Arguments>();
   command_line.add("render", "Picture of a mesh and what was computed on it", [&](Verb& verb) {
     verb.argument("FILE", a->file, "The mesh; - reads standard input");
-    verb.option("-s,--source", a->sources, "WHERE", "Show the distance from here; may be repeated");
+    verb.option("-s,--source", a->sources, "PLACE", "Show the distance from here; may be repeated");
     verb.option("--scalar", a->scalar_file, "FIELD", "Show these values, one per vertex: .npy .csv .txt .gii ...");
     verb.option("--label-file", a->labels_file, "FIELD", "Show these labels, one per vertex");
     verb.flag("--labels", a->labels, "Colour by the nearest source");
@@ -373,7 +374,7 @@ void add_render(CommandLine& command_line) {
     verb.flag("--error", a->error, "One more panel for each method but the last: its error against the last");
     verb.option("--isolines", a->isolines, "N", "This many isolines");
     verb.flag("--bands", a->bands, "Bands of alternating lightness between the isolines");
-    verb.option("--path", a->paths, "WHERE", "Draw the shortest path from the sources to here; may be repeated");
+    verb.option("--path", a->paths, "PLACE", "Draw the shortest path from the sources to here; may be repeated");
     verb.option("--view", a->view, "NAME", "front, back, left, right, top, bottom or iso");
     verb.option("--azimuth", a->azimuth, "DEG", "Degrees around the up axis");
     verb.option("--elevation", a->elevation, "DEG", "Degrees above the horizon");

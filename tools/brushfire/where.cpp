@@ -5,6 +5,7 @@
 
 #include <brushfire/core/error.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -16,7 +17,7 @@ namespace {
 [[noreturn]] void refuse(std::string_view text, const char* why) {
   throw Error(ErrorCode::InvalidArgument,
               "'" + std::string(text) + "' is no place on a mesh: " + why +
-                  "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (x,y,z)");
+                  "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2)");
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -58,6 +59,12 @@ std::optional<std::array<double, 3>> three_numbers(std::string_view text) {
   return values;
 }
 
+// Numbers of vertices and commas, with @ and what follows it.
+bool is_list(std::string_view text) {
+  if (text.starts_with("f:") || text.starts_with("at:")) return false;
+  return text.find('@') != std::string_view::npos || text.find_first_not_of("0123456789, \t") == std::string_view::npos;
+}
+
 }  // namespace
 
 Where parse_where(std::string_view text) {
@@ -80,16 +87,37 @@ Where parse_where(std::string_view text) {
     const auto weights = three_numbers(place.substr(colon + 1));
     if (!weights) refuse(where.text, "the weights are not three numbers");
     where.place = FacePlace{*face, *weights};
-  } else if (place.find(',') != std::string_view::npos) {
-    const auto xyz = three_numbers(place);
+  } else if (place.starts_with("at:")) {
+    const auto xyz = three_numbers(place.substr(3));
     if (!xyz) refuse(where.text, "a position is three numbers");
     where.place = Vec3{(*xyz)[0], (*xyz)[1], (*xyz)[2]};
+  } else if (place.find(',') != std::string_view::npos) {
+    refuse(where.text, is_list(place) ? "one place is needed here, and several numbers are several vertices"
+                                      : "a position begins with at:");
   } else {
     const std::optional<std::uint64_t> vertex = whole(place);
     if (!vertex) refuse(where.text, "a vertex is a whole number from 0 up");
     where.place = VertexPlace{*vertex};
   }
   return where;
+}
+
+std::vector<std::string> split_places(const std::vector<std::string>& texts) {
+  std::vector<std::string> places;
+  for (const std::string& text : texts) {
+    const std::string_view list = trimmed(text);
+    // Other commas stand between numbers that belong together.
+    if (!is_list(list)) {
+      places.emplace_back(list);
+      continue;
+    }
+    for (std::size_t begin = 0; begin <= list.size();) {
+      const std::size_t end = std::min(list.find(',', begin), list.size());
+      places.emplace_back(list.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  }
+  return places;
 }
 
 std::vector<Where> read_where_file(const std::string& path) {
@@ -101,7 +129,7 @@ std::vector<Where> read_where_file(const std::string& path) {
     const std::string_view content = trimmed(std::string_view(line).substr(0, line.find('#')));
     if (content.empty()) continue;
     try {
-      places.push_back(parse_where(content));
+      for (const std::string& place : split_places({std::string(content)})) places.push_back(parse_where(place));
     } catch (const Error& e) {
       throw Error(e.code(), path + ":" + std::to_string(number) + ": " + e.what());
     }

@@ -1,8 +1,9 @@
 // Places on a mesh as text: how --source, --target and the lines of --sources FILE are read.
 //
 //   17                 vertex 17
+//   0,5,9              three vertices, where several places go: everywhere, as [0, 5, 9] is in Python
 //   f:120:.2,.3,.5     in face 120, with these weights of its three corners (they sum to one)
-//   1.5,0,-2           the point of the surface nearest to this position
+//   at:1.5,0,-2        the point of the surface nearest to this position
 //   17@0.5             any of them, with the value 0.5 to start from (sources only)
 #pragma once
 
@@ -37,11 +38,14 @@ struct Where {
   std::string text;  // as it was written
 };
 
-// Throws Error(InvalidArgument) that quotes the text and says what was expected.
+// One place. Throws Error(InvalidArgument) that quotes the text and says what was expected.
 Where parse_where(std::string_view text);
 
-// One place per line; empty lines and what follows a # are skipped. Throws Error(FileNotReadable), and
-// Error(InvalidArgument) with file and line number.
+// The places of an option that may be repeated, with lists of vertices taken apart.
+std::vector<std::string> split_places(const std::vector<std::string>& texts);
+
+// One place, or a list of vertices, per line; empty lines and what follows a # are skipped. Throws
+// Error(FileNotReadable), and Error(InvalidArgument) with file and line number.
 std::vector<Where> read_where_file(const std::string& path);
 
 // From a position in space to the surface.
