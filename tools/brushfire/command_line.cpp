@@ -50,6 +50,11 @@ int fail(int code, std::string message) {
   return code;
 }
 
+// A script whose variable is empty means something else than a script that leaves the option away.
+CLI::Validator not_empty() {
+  return CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "an empty value" : ""); }, "");
+}
+
 }  // namespace
 
 struct Verb::Parser {
@@ -65,23 +70,23 @@ struct CommandLine::Implementation {
 };
 
 void Verb::argument(const char* name, std::string& value, const char* help) {
-  parser_.app->add_option(name, value, help)->required()->type_name("");
+  parser_.app->add_option(name, value, help)->required()->check(not_empty())->type_name("");
 }
 
 void Verb::required_option(const char* names, std::string& value, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, value, help)->required()->type_name(placeholder);
+  parser_.app->add_option(names, value, help)->required()->check(not_empty())->type_name(placeholder);
 }
 
 void Verb::option(const char* names, std::string& value, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, value, help)->type_name(placeholder);
+  parser_.app->add_option(names, value, help)->check(not_empty())->type_name(placeholder);
 }
 
 void Verb::option(const char* names, std::optional<double>& value, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, value, help)->type_name(placeholder);
+  parser_.app->add_option(names, value, help)->check(not_empty())->type_name(placeholder);
 }
 
 void Verb::option(const char* names, std::vector<std::string>& values, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, values, help)->allow_extra_args(false)->type_name(placeholder);
+  parser_.app->add_option(names, values, help)->allow_extra_args(false)->check(not_empty())->type_name(placeholder);
 }
 
 void Verb::choice(const char* names, std::string& value, const std::vector<std::string>& choices, const char* help) {

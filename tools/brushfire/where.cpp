@@ -1,10 +1,9 @@
 // Reading of places.
 #include "where.h"
 
-#include <brushfire/mesh/nearest_point.h>
-
 #include <brushfire/core/error.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -110,14 +109,6 @@ std::vector<Where> read_where_file(const std::string& path) {
   return places;
 }
 
-Snap snapper(const Mesh& mesh) {
-  const auto finder = std::make_shared<std::optional<NearestPointFinder>>();
-  return [mesh, finder](Vec3 position) {
-    if (!*finder) finder->emplace(mesh);
-    return (**finder)(position).point;
-  };
-}
-
 SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
   const auto in_range = [&](std::uint64_t index, Index count, const char* what) {
     if (index < count) return static_cast<Index>(index);
@@ -125,7 +116,7 @@ SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
                 "'" + where.text + "': there is no such " + what + ", the mesh has " + std::to_string(count));
   };
   if (const auto* vertex = std::get_if<VertexPlace>(&where.place)) {
-    return vertex_point(mesh, in_range(vertex->index, mesh.vertex_count(), "vertex"));
+    return target_point(mesh, in_range(vertex->index, mesh.vertex_count(), "vertex"));
   }
   if (const auto* in_face = std::get_if<FacePlace>(&where.place)) {
     const SurfacePoint point{in_range(in_face->face, mesh.face_count(), "face"), in_face->weights};
@@ -133,6 +124,65 @@ SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
     return point;
   }
   return snap(std::get<Vec3>(where.place));
+}
+
+SurfacePoint PlaceFinder::target(const Where& where) {
+  return resolve(where, mesh_, [&](Vec3 position) {
+    if (!finder_) finder_.emplace(mesh_);
+    const NearestPoint nearest = (*finder_)(position);
+    if (within_ && nearest.distance > *within_) {
+      throw Error(ErrorCode::InvalidArgument, "'" + where.text + "' is " + readable(nearest.distance) +
+                                                  " from the surface, farther than --snap-within " +
+                                                  exact(*within_));
+    }
+    if (known_.insert(where.text).second) snapped_.push_back({where.text, nearest.distance});
+    return nearest.point;
+  });
+}
+
+SurfacePoint PlaceFinder::source(const Where& where) {
+  const SurfacePoint point = target(where);
+  if (!point.is_nowhere()) return point;
+  throw Error(ErrorCode::InvalidArgument, "'" + where.text + "': this vertex is in no face, nothing can be reached from it");
+}
+
+void PlaceFinder::tell(const Talk& talk) const {
+  // Positions that are read from text and lie on the surface miss it by the rounding of their last digit.
+  constexpr double kRounding = 1e-6;
+  const Box& box = mesh_.bounds();
+  const double size = norm(box.high - box.low);
+  std::size_t moved = 0;
+  const Snapped* farthest = nullptr;
+  for (const Snapped& s : snapped_) {
+    if (!(s.distance > kRounding * size)) continue;
+    ++moved;
+    if (farthest == nullptr || s.distance > farthest->distance) farthest = &s;
+  }
+  if (farthest == nullptr) return;
+  const std::string off = readable(farthest->distance) + " from the surface (the mesh is " + readable(size) + " across)";
+  talk.say(moved == 1 ? "'" + farthest->where + "' is " + off + ": its nearest point was taken"
+                      : std::to_string(moved) + " positions are off the surface, the farthest, '" + farthest->where +
+                            "', " + off + ": their nearest points were taken");
+}
+
+void PlaceFinder::add_to(Record& record) const {
+  std::vector<Record> list;
+  double farthest = 0;
+  for (const Snapped& s : snapped_) {
+    list.emplace_back().add("where", s.where).add("distance", s.distance);
+    farthest = std::max(farthest, s.distance);
+  }
+  record.add("snapped", std::move(list)).add("max_snap_distance", farthest);
+}
+
+void add_snap_within(Verb& verb, std::optional<double>& within) {
+  verb.option("--snap-within", within, "R", "Refuse positions (x,y,z) that are farther than this from the surface");
+}
+
+void check_snap_within(const std::optional<double>& within) {
+  if (within && !(*within >= 0)) {
+    throw Error(ErrorCode::InvalidArgument, "--snap-within " + exact(*within) + " is not a number >= 0");
+  }
 }
 
 }  // namespace brushfire::tool

@@ -1,34 +1,17 @@
 // Counts what is in a mesh, and says it.
+#include <brushfire/mesh/detail/disjoint_sets.h>
 #include <brushfire/mesh/detail/report.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace brushfire {
 namespace {
 
-class DisjointSets {
- public:
-  explicit DisjointSets(Index n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
-  Index find(Index a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  void unite(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
 Index count_components(const Mesh& mesh) {
-  DisjointSets sets(mesh.vertex_count());
+  detail::DisjointSets sets(mesh.vertex_count());
   for (const Face& t : mesh.faces()) {
     sets.unite(t[0], t[1]);
     sets.unite(t[1], t[2]);

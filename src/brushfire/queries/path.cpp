@@ -46,6 +46,7 @@ bool is_edge_tight(const DistanceField& field, Index from, Index to, double leng
 
 SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
   SurfacePath path;
+  if (target.is_nowhere()) return path;
   WindowField::Leg leg = field.last_leg(target);
   if (leg.points.empty()) {
     if (field.value(target).distance < kInfinity) throw lost(0);
@@ -74,7 +75,7 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
                                                 std::string(name_of(field.method)));
   }
   SurfacePath path;
-  if (vertex_point(mesh, target); field.distance[target] == kInfinity) return path;
+  if (target_point(mesh, target).is_nowhere() || field.distance[target] == kInfinity) return path;
   const std::span<const double> lengths = mesh.lengths();
   path.points.push_back(vertex_point(mesh, target));
   path.length = 0;
@@ -112,6 +113,7 @@ PathFinder::PathFinder(PathFinder&&) noexcept = default;
 PathFinder& PathFinder::operator=(PathFinder&&) noexcept = default;
 
 SurfacePath PathFinder::between(const SurfacePoint& from, const SurfacePoint& to, const CancelToken* cancel) {
+  if (from.is_nowhere() || to.is_nowhere()) return {};
   DistanceOptions options;
   options.method = Method::Exact;
   options.keep_paths = true;
@@ -124,7 +126,10 @@ SurfacePath PathFinder::between(const SurfacePoint& from, const SurfacePoint& to
 SurfacePath PathFinder::through(std::span<const SurfacePoint> waypoints, bool closed, const CancelToken* cancel) {
   if (waypoints.empty()) throw Error(ErrorCode::InvalidArgument, "a path needs at least one waypoint");
   const Mesh& mesh = solver_->mesh();
-  locate(mesh, waypoints.front());  // also where there is nothing to trace
+  for (const SurfacePoint& p : waypoints) {
+    if (p.is_nowhere()) return {{}, kInfinity, closed};
+    locate(mesh, p);  // also where there is nothing to trace
+  }
   SurfacePath path;
   path.closed = closed;
   path.length = 0;

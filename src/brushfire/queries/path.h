@@ -29,7 +29,8 @@ class PathFinder {
   PathFinder(PathFinder&&) noexcept;
   PathFinder& operator=(PathFinder&&) noexcept;
 
-  // The shortest path from one point to the other, to rounding. Throws as distance() does.
+  // The shortest path from one point to the other, to rounding; none from or to a point that is nowhere (see
+  // target_point()). Throws as distance() does.
   SurfacePath between(const SurfacePoint& from, const SurfacePoint& to, const CancelToken* cancel = nullptr);
 
   // Shortest paths from each waypoint to the next, joined; from the last back to the first where `closed`. It may bend

@@ -25,6 +25,8 @@ struct Problem {
   // whose entry in the field it changed, once each, in any order and also when it throws; error_bound stays empty.
   // Only given to an engine that lists_touched().
   std::vector<Index>* touched = nullptr;
+  // What is added to values afterwards, by source, in the mesh's units; empty: 0. For what outlives the run.
+  std::span<const double> bases{};
 };
 
 // Fills `field` in mesh.unit(): distance and source of every vertex ([vertex_count], already sized, +inf and kNoIndex),
