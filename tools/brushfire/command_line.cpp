@@ -3,6 +3,7 @@
 
 #include "interrupt.h"
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/version.h>
 
@@ -34,7 +35,7 @@ int exit_code(ErrorCode code) {
     case ErrorCode::UnknownFormat:
       return kBadInput;
     case ErrorCode::Cancelled:
-      return kInterrupted;
+      return interrupted_exit_code();
     case ErrorCode::FileNotWritable:
     case ErrorCode::TooLarge:
     case ErrorCode::Internal:
@@ -138,7 +139,7 @@ CommandLine::CommandLine() : implementation_(std::make_unique<Implementation>())
       "  brushfire distance bunny.ply --source 0 -o bunny-distance.ply\n"
       "\n"
       "Exit codes: 0 done, 1 internal error or output not writable, 2 usage, 3 unusable input file,\n"
-      "4 target unreachable, 130 interrupted.");
+      "4 target unreachable, 130 interrupted (Ctrl-C), 143 terminated.");
 }
 
 CommandLine::~CommandLine() = default;
@@ -168,12 +169,15 @@ int CommandLine::run(int argc, const char* const* argv) {
     for (const auto& verb : implementation_->verbs) {
       if (!verb->app->parsed()) continue;
       cancel_on_interrupt();
+      const CancelScope listen(&cancel_token());
       return verb->body(verb->talk);
     }
     write_stdout(app.help());
     return kOk;
   } catch (const Error& e) {
-    return fail(exit_code(e.code()), e.code() == ErrorCode::Cancelled ? "interrupted" : e.what());
+    if (e.code() != ErrorCode::Cancelled) return fail(exit_code(e.code()), e.what());
+    say_interrupted();
+    return interrupted_exit_code();
   } catch (const Unreachable& e) {
     return fail(kUnreachable, e.what());
   } catch (const std::bad_alloc&) {

@@ -2,11 +2,13 @@
 #include "where.h"
 
 #include <brushfire/core/error.h>
+#include <brushfire/io/byte_stream.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <cstring>
 #include <optional>
 
 namespace brushfire::tool {
@@ -91,21 +93,64 @@ Where parse_where(std::string_view text) {
   return where;
 }
 
+namespace {
+
+// A file or pipe line by line, as it comes: one that never ends is found wrong, or interrupted, in its midst.
+class Lines {
+ public:
+  explicit Lines(const std::string& path) : stream_(path, ByteStream::NamedPipes::Read) {}
+
+  // False at the end. Throws Error(InvalidArgument) where the line is longer than kLongest.
+  bool next(std::string& line) {
+    line.clear();
+    ++number_;
+    while (true) {
+      const char* const begin = block_.data() + at_;
+      const void* newline = std::memchr(begin, '\n', size_ - at_);
+      const std::size_t length =
+          newline != nullptr ? static_cast<std::size_t>(static_cast<const char*>(newline) - begin) : size_ - at_;
+      if (line.size() + length > kLongest) fail("is longer than " + std::to_string(kLongest) + " bytes");
+      line.append(begin, length);
+      at_ += length;
+      if (newline != nullptr) {
+        ++at_;
+        return true;
+      }
+      at_ = 0;
+      size_ = stream_.read(block_.data(), block_.size());
+      if (size_ == 0) return !line.empty();
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ErrorCode::InvalidArgument, stream_.name() + ":" + std::to_string(number_) + ": " + what);
+  }
+
+ private:
+  static constexpr std::size_t kLongest = 65536;
+
+  ByteStream stream_;
+  std::array<char, 65536> block_{};
+  std::size_t at_ = 0, size_ = 0;
+  int number_ = 0;
+};
+
+}  // namespace
+
 std::vector<Where> read_where_file(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw Error(ErrorCode::FileNotReadable, path + ": cannot be opened");
+  constexpr std::size_t kMost = 10'000'000;
+  Lines lines(path);
   std::vector<Where> places;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
+  for (std::string line; lines.next(line);) {
     const std::string_view content = trimmed(std::string_view(line).substr(0, line.find('#')));
     if (content.empty()) continue;
+    if (places.size() == kMost) lines.fail("more than ten million places");
     try {
       places.push_back(parse_where(content));
     } catch (const Error& e) {
-      throw Error(e.code(), path + ":" + std::to_string(number) + ": " + e.what());
+      lines.fail(e.what());
     }
   }
-  if (file.bad()) throw Error(ErrorCode::FileNotReadable, path + ": cannot be read");
   return places;
 }
 

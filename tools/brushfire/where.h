@@ -46,8 +46,9 @@ struct Where {
 // Throws Error(InvalidArgument) that quotes the text and says what was expected.
 Where parse_where(std::string_view text);
 
-// One place per line; empty lines and what follows a # are skipped. Throws Error(FileNotReadable), and
-// Error(InvalidArgument) with file and line number.
+// One place per line; empty lines and what follows a # are skipped. "-" is standard input, and named pipes are read.
+// Throws Error(FileNotReadable), and Error(InvalidArgument) with file and line number: also for a line of more than
+// 65536 bytes, and for more than ten million places.
 std::vector<Where> read_where_file(const std::string& path);
 
 // From a position in space to the surface.

@@ -1,6 +1,7 @@
 // Paths read off fields, and between pairs of points.
 #include <brushfire/queries/path.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/flat_face.h>
 
@@ -55,7 +56,9 @@ SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
   path.length = 0;
   path.points.push_back(leg.points.front());
   Index legs = 0;
+  Poll poll(64);
   while (true) {
+    poll();
     path.length += leg.length;
     for (std::size_t i = 1; i < leg.points.size(); ++i) {
       // A leg names a point on an edge once for either face, where it starts or ends there.

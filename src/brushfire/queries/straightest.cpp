@@ -1,6 +1,7 @@
 // Tracing straightest geodesics; the logarithmic map by where shortest paths start.
 #include <brushfire/queries/straightest.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/flat_face.h>
 #include <brushfire/queries/detail/tangent_fan.h>
@@ -301,7 +302,10 @@ LogMap log_map(const Mesh& mesh, const SurfacePoint& source, double max_radius, 
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   map.angle.assign(mesh.vertex_count(), unknown);
   std::vector<Index> chain;
+  const CancelScope listen(cancel);
+  Poll poll(64);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    poll();
     if (map.radius[v] == kInfinity || !std::isnan(map.angle[v])) continue;
     // Back along the vertices that the path bends at, to one whose angle is known or to the source.
     chain.clear();

@@ -55,7 +55,7 @@ class Dijkstra final : public Engine {
       heap_.pop_back();
       if (value != field.distance[v] || label != field.source[v]) continue;
       if (value > problem.max_distance) break;
-      if (++field.updates % kPollInterval == 0 && problem.options->cancel && problem.options->cancel->cancelled()) {
+      if (++field.updates % kPollInterval == 0 && problem.cancel && problem.cancel->cancelled()) {
         throw Error(ErrorCode::Cancelled, "cancelled");
       }
       for (const Index h : mesh_.corners(v)) {

@@ -1,6 +1,7 @@
 // Validation, dispatch to an engine, and what all engines share after the run: radius, units, counts.
 #include <brushfire/solvers/distance.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/core/populate.h>
 #include <brushfire/solvers/detail/dijkstra.h>
@@ -211,7 +212,7 @@ struct DistanceSolver::Workspace {
 
   detail::Engine& engine(Method method);
   detail::Problem problem(const DistanceOptions& options, std::vector<Index>* list) const {
-    return {sources, targets, offsets.radius(options.max_distance, mesh.unit()), &options, list, offsets.bases()};
+    return {sources, targets, offsets.radius(options.max_distance, mesh.unit()), &options, list, offsets.bases(), current_cancel_token()};
   }
   void clean(bool everything);
 };
@@ -242,7 +243,10 @@ DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
 DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
 const Mesh& DistanceSolver::mesh() const noexcept { return workspace_->mesh; }
 
-void DistanceSolver::set_up(const DistanceOptions& options) { workspace_->engine(options.method).set_up(options); }
+void DistanceSolver::set_up(const DistanceOptions& options) {
+  const CancelScope listen(options.cancel);
+  workspace_->engine(options.method).set_up(options);
+}
 
 DistanceField DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options) {
   DistanceField field;
@@ -252,6 +256,7 @@ DistanceField DistanceSolver::distance(std::span<const Source> sources, const Di
 
 void DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options, DistanceField& field) {
   Workspace& w = *workspace_;
+  const CancelScope listen(options.cancel);
   check(options);
   detail::Engine& engine = w.engine(options.method);  // first: what it derives of the mesh is not found twice
   locate_sources(w.mesh, sources, w.sources, w.offsets);
@@ -272,6 +277,7 @@ void DistanceSolver::distance(std::span<const Source> sources, const DistanceOpt
 void DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options,
                                      SparseField& field) {
   Workspace& w = *workspace_;
+  const CancelScope listen(options.cancel);
   check(options);
   locate_sources(w.mesh, sources, w.sources, w.offsets);
   locate_targets(w.mesh, options, w.targets);

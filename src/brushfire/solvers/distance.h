@@ -61,7 +61,7 @@ struct DistanceOptions {
   bool keep_windows = false;               // the same for every surface point: all windows are kept, some kB a vertex
   unsigned threads = 1;                    // for this one field; 0: one per processor. The result does not depend on it
   Progress progress;                       // called now and then; may be empty
-  const CancelToken* cancel = nullptr;     // polled now and then; may be null
+  const CancelToken* cancel = nullptr;     // polled now and then; null: what the thread listens to (see cancel.h)
 };
 
 struct DistanceField {
