@@ -62,7 +62,13 @@ std::vector<double> numbers(const std::string& text) {
 }
 
 std::vector<double> levels_of(const Arguments& a, std::span<const double> values) {
-  if (a.every) return levels_every(values, *a.every);
+  if (a.every) {
+    try {
+      return levels_every(values, *a.every);
+    } catch (const Error& e) {
+      refuse(std::string("--every: ") + e.what());
+    }
+  }
   if (!a.count) {
     std::vector<double> levels = numbers(a.levels);
     std::sort(levels.begin(), levels.end());

@@ -4,6 +4,7 @@
 #include "where.h"
 
 #include <brushfire/core/error.h>
+#include <brushfire/core/memory.h>
 #include <brushfire/figure/ambient_occlusion.h>
 #include <brushfire/figure/render.h>
 #include <brushfire/io/read_field.h>
@@ -316,6 +317,10 @@ std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> pa
   const double high = std::max(0.0, extent_of(panels).second);
   const double azimuth = options.camera.azimuth;
   const Progress progress = talk.progress("frames");
+  constexpr std::uint64_t kBytesPerPixel = 4;
+  require_memory(kBytesPerPixel * static_cast<std::uint64_t>(count) * panels.size() *
+                     static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height),
+                 0, "an animation of " + std::to_string(count) + " frames of this size", "ask for fewer or smaller ones");
   std::vector<Image> frames;
   for (int i = 0; i < count; ++i) {
     stop_if_interrupted();

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/text.h>
 #include <brushfire/core/planar.h>
 #include <brushfire/core/populate.h>
 #include <brushfire/core/uninitialized.h>
@@ -96,8 +97,8 @@ UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> 
     const Vec3& p = positions[v];
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
     throw Error(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + " has a coordinate that is not finite: (" +
-                                            std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
-                                            std::to_string(p.z) + ")");
+                                            number_as_text(p.x) + ", " + number_as_text(p.y) + ", " +
+                                            number_as_text(p.z) + ")");
   }
   throw Error(ErrorCode::Internal, "all coordinates are finite");
 }
@@ -272,13 +273,13 @@ void Mesh::Data::check_lengths() const {
       l[k] = input_lengths[3 * f + k];
       const bool loop = faces[f][k] == faces[f][(k + 1) % 3];
       if (!std::isfinite(l[k]) || l[k] < 0 || (loop && l[k] != 0)) {
-        throw_length_error(f, "length " + std::to_string(l[k]) + " of edge " + std::to_string(k) +
+        throw_length_error(f, "length " + number_as_text(l[k]) + " of edge " + std::to_string(k) +
                                   (loop ? " between a vertex and itself is not 0" : " is not finite and >= 0"));
       }
       const double other = input_lengths[ring[3 * f + k]];
       if (std::abs(l[k] - other) > kLengthAgreement * std::max(l[k], other)) {
-        throw_length_error(f, "edge " + std::to_string(k) + " has length " + std::to_string(l[k]) + ", but " +
-                                  std::to_string(other) + " in face " + std::to_string(ring[3 * f + k] / 3));
+        throw_length_error(f, "edge " + std::to_string(k) + " has length " + number_as_text(l[k]) + ", but " +
+                                  number_as_text(other) + " in face " + std::to_string(ring[3 * f + k] / 3));
       }
     }
     std::sort(l.begin(), l.end());

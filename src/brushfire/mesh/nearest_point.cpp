@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/text.h>
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -166,8 +167,8 @@ NearestPoint NearestPointFinder::operator()(Vec3 position) const {
   const Vec3 p = data_->scaled(position);
   const bool near_enough = std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
   if (!near_enough) {
-    throw Error(ErrorCode::InvalidArgument, "position (" + std::to_string(position.x) + ", " +
-                                                std::to_string(position.y) + ", " + std::to_string(position.z) +
+    throw Error(ErrorCode::InvalidArgument, "position (" + number_as_text(position.x) + ", " +
+                                                number_as_text(position.y) + ", " + number_as_text(position.z) +
                                                 ") is not finite, or more than 1e60 times as far out as the mesh");
   }
   const TreePoint at(p.x, p.y, p.z);

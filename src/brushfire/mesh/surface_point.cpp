@@ -2,6 +2,7 @@
 #include <brushfire/mesh/surface_point.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/core/text.h>
 #include <brushfire/core/planar.h>
 
 #include <algorithm>
@@ -20,13 +21,13 @@ void check(const Mesh& mesh, const SurfacePoint& p) {
   for (const double w : p.weights) {
     if (!(w >= -kWeightError) || !std::isfinite(w)) {
       throw Error(ErrorCode::InvalidArgument,
-                  "weight " + std::to_string(w) + " of a point in face " + std::to_string(p.face) + " is not >= 0");
+                  "weight " + number_as_text(w) + " of a point in face " + std::to_string(p.face) + " is not >= 0");
     }
     sum += w;
   }
   if (!(std::abs(sum - 1) <= kWeightError)) {
     throw Error(ErrorCode::InvalidArgument, "the weights of a point in face " + std::to_string(p.face) + " sum to " +
-                                                std::to_string(sum) + ", not to 1");
+                                                number_as_text(sum) + ", not to 1");
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/text.h>
 #include <brushfire/mesh/flat_face.h>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ void join(const Mesh& mesh, SurfacePath& a, const SurfacePath& b) {
 
 // Rays lead back to where they came from: this is a fault of ours, not of the caller's.
 Error lost(double length) {
-  return Error(ErrorCode::Internal, "the path was lost after a length of " + std::to_string(length) +
+  return Error(ErrorCode::Internal, "the path was lost after a length of " + number_as_text(length) +
                                         ": please report the mesh and the points");
 }
 

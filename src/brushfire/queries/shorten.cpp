@@ -120,6 +120,7 @@ class Shortener {
   std::vector<StraightLeg> straighten(const std::vector<Leg>& legs) const {
     std::vector<StraightLeg> pieces;
     for (const Leg& leg : legs) {
+      stop_if_cancelled();
       for (StraightLeg& p : detail::shortest_in_sleeve(mesh_, leg)) {
         // From a vertex to itself without leaving its faces: nothing.
         if (p.length == 0 && p.leg.steps.empty() && same_vertex(p.leg.begin, p.leg.end)) continue;

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/text.h>
 #include <brushfire/core/populate.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
@@ -64,7 +65,7 @@ void locate_sources(const Mesh& mesh, std::span<const Source> sources, std::vect
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (!std::isfinite(sources[i].offset)) {
       throw Error(ErrorCode::InvalidArgument,
-                  "offset " + std::to_string(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
+                  "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
     }
     located.push_back({locate(mesh, sources[i].point), 0, static_cast<Index>(i)});
   }
@@ -83,11 +84,11 @@ void locate_targets(const Mesh& mesh, const DistanceOptions& options, std::vecto
 void check(const DistanceOptions& options) {
   if (!(options.max_distance >= 0)) {
     throw Error(ErrorCode::InvalidArgument,
-                "max_distance " + std::to_string(options.max_distance) + " is not a number >= 0");
+                "max_distance " + number_as_text(options.max_distance) + " is not a number >= 0");
   }
   if (options.method == Method::Windows && !(options.tolerance >= 0 && options.tolerance <= kMaxTolerance)) {
-    throw Error(ErrorCode::InvalidArgument, "tolerance " + std::to_string(options.tolerance) + " is not in [0, " +
-                                                std::to_string(kMaxTolerance) + "]");
+    throw Error(ErrorCode::InvalidArgument, "tolerance " + number_as_text(options.tolerance) + " is not in [0, " +
+                                                number_as_text(kMaxTolerance) + "]");
   }
 }
 
