@@ -143,7 +143,7 @@ std::vector<std::string> many_waypoints(const std::string& mesh) {
   std::vector<std::string> arguments{"path", mesh, "--from", "0", "--to", "1", "--tighten"};
   for (int i = 0; i < 2000; ++i) {
     arguments.emplace_back("--via");
-    arguments.push_back(std::to_string(7919 * i % 20000));
+    arguments.push_back(std::to_string(7919 * i % 10000));
   }
   return arguments;
 }

@@ -19,7 +19,7 @@ namespace brushfire::tool {
 namespace {
 
 // With what stopping takes it is 0.3 s at most from the signal to the end.
-constexpr std::chrono::milliseconds kPatience{200};
+constexpr std::chrono::milliseconds kPatience{150};
 
 CancelToken interrupted;
 std::atomic<int> signal_number{SIGINT};

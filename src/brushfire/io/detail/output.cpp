@@ -38,9 +38,9 @@ Output::Output(const std::string& path) : name_(path == "-" ? "standard output" 
     return;
   }
   if (path.find('\0') != std::string::npos) fail("a name with a zero byte in it is no file's");
-  target_ = followed(path);
-  const bool exists = stat(target_.c_str(), &status) == 0;
+  const bool exists = stat(path.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) fail("is a directory");
+  target_ = exists && !S_ISREG(status.st_mode) ? path : followed(path);
   if (exists && !S_ISREG(status.st_mode)) {
     open_pipe_or_device();
     return;
