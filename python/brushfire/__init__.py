@@ -17,7 +17,7 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 
 from brushfire._core import version as __version__
 from brushfire._curves import LogMap, Path
-from brushfire._errors import BrushfireError, BrushfireIndexError
+from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._io import FileInfo, from_any, read
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
@@ -30,6 +30,8 @@ __all__ = [
     "Border",
     "BrushfireError",
     "BrushfireIndexError",
+    "BrushfireTypeError",
+    "BrushfireWarning",
     "Comparison",
     "Cut",
     "Descent",

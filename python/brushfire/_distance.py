@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, offsets
+from brushfire._arrays import Floats, callback, offsets
 from brushfire._errors import BrushfireError
 from brushfire._options import options
 from brushfire._places import PlaceArrays, Places
@@ -159,7 +159,7 @@ class Distances:
             end.index if end else None,
             end.weights if end else None,
             options(method, tolerance, max_distance, bound, precision, threads),
-            progress,
+            callback(progress),
         )
         if return_bound and error is None:
             raise BrushfireError("return_bound: the method has no bound, or there are targets")

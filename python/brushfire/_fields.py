@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, number, offsets, whole
+from brushfire._arrays import Floats, callback, number, offsets, whole
 from brushfire._curves import OnMesh, Path
 from brushfire._distance import Progress
 from brushfire._errors import BrushfireError
@@ -196,7 +196,7 @@ class Fields(OnMesh):
                 None if every is None else number(every, "every"),
                 0 if count is None else whole(count, "count", _MOST_LEVELS),
                 number(chord_error, "chord_error"),
-                progress,
+                callback(progress),
             )
         )
 

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._errors import BrushfireError
+from brushfire._arrays import path_text
+from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._mesh import Mesh
 
 
@@ -47,7 +48,7 @@ def read(path: str | os.PathLike[str], *, return_info: bool = False) -> Mesh | t
     ...     bf.read(path)
     Mesh(3 vertices, 1 faces)
     """
-    core, name, remarks, face_origin, vertex_map = _core.read(os.fspath(path))
+    core, name, remarks, face_origin, vertex_map = _core.read(path_text(path))
     mesh = Mesh._of(core)
     if not return_info:
         return mesh
@@ -89,7 +90,7 @@ def from_any(source: Any) -> Mesh:
             return Mesh(np.asarray(getattr(source, vertices)), np.asarray(getattr(source, faces)))
     if isinstance(source, (tuple, list)) and len(source) == 2:
         return Mesh(source[0], source[1])
-    raise TypeError(f"no mesh is known to be in a {type(source).__name__}")
+    raise BrushfireTypeError(f"no mesh is known to be in a {type(source).__name__}")
 
 
 def _from_cells(source: Any) -> Mesh:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,10 +13,10 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, number
+from brushfire._arrays import Floats, callback, number
 from brushfire._curves import Curves
 from brushfire._distance import Distances, Progress
-from brushfire._errors import BrushfireError
+from brushfire._errors import BrushfireError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Fields
 from brushfire._options import options, thread_count
 from brushfire._picture import Pictures
@@ -24,6 +25,10 @@ from brushfire._regions import Regions
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
+
+
+# Beyond this share of the mesh's size a position is far off its surface.
+_FAR = 0.1
 
 
 @contextlib.contextmanager
@@ -128,9 +133,10 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         f = _arrays.faces(faces)
         triples = _arrays.triples(lengths, "lengths")
         _arrays.check_faces(f.view(np.int32))
-        count = int(f.max()) + 1 if f.size and vertex_count is None else int(vertex_count or 0)
-        if count < 0:
-            raise BrushfireError(f"vertex_count: {count} is negative")
+        if vertex_count is None:
+            count = int(f.max()) + 1 if f.size else 0
+        else:
+            count = _arrays.whole(vertex_count, "vertex_count", np.iinfo(np.int32).max)
         return cls._of(_core.make_from_lengths(count, f, triples))
 
     @property
@@ -145,12 +151,15 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
 
     @property
     def vertices(self) -> Floats:
-        """The positions, (vertex_count, 3), a read-only view; (0, 3) for a mesh from lengths."""
+        """The positions, (vertex_count, 3), a read-only copy; (0, 3) for a mesh from lengths.
+
+        A copy every time (24 bytes a vertex): ask once, not in a loop.
+        """
         return self._mesh.vertices
 
     @property
     def faces(self) -> npt.NDArray[np.int32]:
-        """The vertex numbers of the faces, (face_count, 3), a read-only view."""
+        """The vertex numbers of the faces, (face_count, 3), a read-only copy: ask once, not in a loop."""
         return self._mesh.faces
 
     @property
@@ -175,12 +184,14 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         xyz = self._mesh.positions(arrays.index, arrays.weights)
         return xyz[0] if is_one(places) else xyz
 
-    def nearest(self, xyz: npt.ArrayLike) -> tuple[Points, Floats]:
+    def nearest(self, xyz: npt.ArrayLike, *, within: float = np.inf) -> tuple[Points, Floats]:
         """The points of the surface nearest to positions in space, and how far away they are.
 
         :param xyz: (k, 3), or (3,) for a single one.
+        :param within: farther than this from the surface no position may be.
         :return: :class:`Points` and distances, (k,) each.
-        :raises BrushfireError: for a mesh from lengths or without faces, and for positions that are not finite.
+        :raises BrushfireError: for a mesh from lengths or without faces, for positions that are not finite, and for those
+            that are farther away than ``within``.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
@@ -190,8 +201,29 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         """
         if self._finder is None:
             self._finder = _core.NearestPointFinder(self._mesh)
-        face, weights, distance = self._finder.nearest(at(xyz).xyz)
+        positions = at(xyz, within=within)
+        face, weights, distance = self._finder.nearest(positions.xyz)
+        too_far = distance > positions.within
+        if too_far.any():
+            bad = int(np.argmax(too_far))
+            raise BrushfireError(
+                f"position {bad} is {distance[bad]:.6g} from the surface, farther than within={positions.within:.6g}"
+            )
         return Points(face, weights), distance
+
+    def _snapped(self, positions: At) -> Points:
+        """Not without a word where that is far, for the size of the mesh."""
+        points, distance = self.nearest(positions.xyz, within=positions.within)
+        size = self._mesh.size
+        if np.isinf(positions.within) and distance.size and distance.max() > _FAR * size:
+            far = int(np.argmax(distance))
+            warnings.warn(
+                f"position {far} is {distance[far]:.6g} from the surface (the mesh is {size:.6g} across): its nearest "
+                "point was taken; at(..., within=...) says how far is near enough",
+                BrushfireWarning,
+                stacklevel=4,
+            )
+        return points
 
     def masked(self, open_vertices: npt.ArrayLike) -> Mesh:
         """The mesh of the faces whose three vertices are all open; vertices keep their numbers.
@@ -260,7 +292,7 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         else:
             _check_out(out, shape)
         if out.size:
-            _core.fill_matrix(self._mesh, out, *row, *column, chosen, thread_count(threads), progress)
+            _core.fill_matrix(self._mesh, out, *row, *column, chosen, thread_count(threads), callback(progress))
         return out
 
     def distances_within(
@@ -300,16 +332,15 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
             raise ImportError("distances_within() returns a scipy matrix: pip install 'brushfire[sparse]'") from None
         row, row_count = self._optional(rows, "rows")
         compute = _core.sparse_float32 if _is_float32(dtype) else _core.sparse_float64
-        if memory_limit < 0:
-            raise BrushfireError(f"memory_limit: {memory_limit} is negative")
+        limit = _arrays.whole(memory_limit, "memory_limit", np.iinfo(np.int64).max)
         data, indices, starts = compute(
             self._mesh,
             number(radius, "radius"),
             *row,
             options(method, tolerance, np.inf, precision=precision),
             thread_count(threads),
-            memory_limit,
-            progress,
+            limit,
+            callback(progress),
         )
         # scipy wants one integer type for both: 32 bits where they do.
         integer = np.int32 if len(data) <= np.iinfo(np.int32).max else np.int64
@@ -352,7 +383,14 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         column, _ = self._optional(columns, "columns")
         chosen = options(method, tolerance, max_distance, precision=precision)
         _core.write_matrix(
-            self._mesh, os.fspath(path), _is_float32(dtype), *row, *column, chosen, thread_count(threads), progress
+            self._mesh,
+            _arrays.path_text(path),
+            _is_float32(dtype),
+            *row,
+            *column,
+            chosen,
+            thread_count(threads),
+            callback(progress),
         )
 
     def _run(self) -> _core.Solver:
@@ -363,7 +401,7 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
 
     def _arrays(self, places: Any, what: str) -> PlaceArrays:
         if isinstance(places, At):
-            places = self.nearest(places.xyz)[0]
+            places = self._snapped(places)
         return place_arrays(places, self.vertex_count, what)
 
     def _optional(self, places: Any, what: str) -> tuple[tuple[Any, Any], int]:
@@ -419,15 +457,12 @@ class Solver(Distances):
 
 
 def _is_float32(dtype: npt.DTypeLike) -> bool:
-    wanted = np.dtype(dtype)
-    if wanted not in (np.dtype(np.float32), np.dtype(np.float64)):
-        raise BrushfireError(f"dtype: float32 or float64 are possible, not {wanted}")
-    return bool(wanted == np.float32)
+    return bool(_arrays.floating_type(dtype) == np.float32)
 
 
 def _check_out(out: Any, shape: tuple[int, int]) -> None:
     if not isinstance(out, np.ndarray):
-        raise TypeError(f"out: a numpy array is needed, not {type(out).__name__}")
+        raise BrushfireTypeError(f"out: a numpy array is needed, not {type(out).__name__}")
     _is_float32(out.dtype)
     if out.shape != shape or not out.flags.c_contiguous or not out.flags.writeable:
         raise BrushfireError(f"out: a writable C-contiguous array of shape {shape} is needed, not {out.shape}")

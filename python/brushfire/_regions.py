@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, Ints, offsets, whole
+from brushfire._arrays import Floats, Ints, callback, offsets, whole
 from brushfire._curves import OnMesh, Path
 from brushfire._distance import Labels, Progress
 from brushfire._errors import BrushfireError
@@ -147,7 +147,7 @@ class Regions(OnMesh):
             start.weights,
             offsets(offset, len(start.index)),
             options(method, tolerance, max_distance),
-            progress,
+            callback(progress),
         )
         return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders])
 
@@ -184,7 +184,7 @@ class Regions(OnMesh):
             index = arrays.index
         taken = whole(count, "count", np.iinfo(np.int32).max)
         chosen = options(method, tolerance, max_distance)
-        return Samples(*_core.farthest_points(self._mesh, taken, index, chosen, progress))
+        return Samples(*_core.farthest_points(self._mesh, taken, index, chosen, callback(progress)))
 
     def cut(self, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), edges: npt.ArrayLike = ()) -> Cut:
         """The mesh with barriers cut out, through which no distance and no path goes.

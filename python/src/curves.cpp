@@ -15,11 +15,10 @@ namespace {
 
 nb::tuple nearest(const NearestPointFinder& finder, const Triples<double>& xyz) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  std::vector<NearestPoint> found;
-  {
-    const nb::gil_scoped_release release;
-    found = finder(std::span(reinterpret_cast<const Vec3*>(xyz.data()), xyz.shape(0)));
-  }
+  constexpr std::size_t kBrief = 1000;
+  const std::vector<NearestPoint> found = listening(xyz.shape(0) < kBrief, [&] {
+    return finder(std::span(reinterpret_cast<const Vec3*>(xyz.data()), xyz.shape(0)));
+  });
   std::vector<SurfacePoint> points;
   std::vector<double> distances;
   for (const NearestPoint& n : found) {
@@ -37,7 +36,7 @@ nb::tuple path(const Mesh& mesh, const Vector<std::int64_t>& index, const Option
                bool tighten) {
   Computation computation{nb::none()};
   return path_to_numpy(computation.run(false, [&] {
-    SurfacePath found = PathFinder(mesh).through(points_from(mesh, {index, weights}), closed, computation.cancel());
+    SurfacePath found = PathFinder(mesh).through(targets_from(mesh, {index, weights}), closed, computation.cancel());
     if (tighten && !found.points.empty()) found = shorten(mesh, found.points, closed);
     return found;
   }));
@@ -45,12 +44,7 @@ nb::tuple path(const Mesh& mesh, const Vector<std::int64_t>& index, const Option
 
 nb::tuple shortened(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed) {
   const std::vector<SurfacePoint> points = points_from(mesh, {index, weights});
-  SurfacePath path;
-  {
-    const nb::gil_scoped_release release;
-    path = shorten(mesh, points, closed);
-  }
-  return path_to_numpy(path);
+  return path_to_numpy(listening(false, [&] { return shorten(mesh, points, closed); }));
 }
 
 double length(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed) {
@@ -67,7 +61,7 @@ nb::tuple paths(const Mesh& mesh, const Vector<std::int64_t>& index, const Optio
     DistanceOptions options;
     options.method = Method::Exact;
     options.keep_paths = true;
-    options.targets = points_from(mesh, {target_index, target_weights});
+    options.targets = targets_from(mesh, {target_index, target_weights});
     options.cancel = computation.cancel();
     field = distance(mesh, sources_from(mesh, {index, weights}, offsets), options);
     std::vector<SurfacePath> all;
