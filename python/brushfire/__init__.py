@@ -18,7 +18,7 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 from brushfire._any import from_any
 from brushfire._core import version as __version__
 from brushfire._curves import LogMap, Path
-from brushfire._errors import BrushfireError, BrushfireIndexError
+from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
 from brushfire._io import FileInfo, read
@@ -32,6 +32,8 @@ __all__ = [
     "Border",
     "BrushfireError",
     "BrushfireIndexError",
+    "BrushfireTypeError",
+    "BrushfireWarning",
     "Comparison",
     "Cut",
     "Descent",

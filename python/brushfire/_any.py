@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays
-from brushfire._errors import BrushfireError
+from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._io import is_file, read
 from brushfire._mesh import Mesh
 from brushfire._places import Points
@@ -63,10 +63,10 @@ def from_any(source: Any, *, format: str | None = None) -> Mesh:
     if isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview)) or is_file(source):
         return read(source, format=format)
     if format is not None:
-        raise TypeError(f"format: only bytes and files have one, not a {type(source).__name__}")
+        raise BrushfireTypeError(f"format: only bytes and files have one, not a {type(source).__name__}")
     found = _arrays_of(source)
     if found is None:
-        raise TypeError(_refusal(source))
+        raise BrushfireTypeError(_refusal(source))
     vertices, faces = found
     return Mesh(vertices, _triangles(faces, source))
 

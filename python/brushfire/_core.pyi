@@ -20,6 +20,7 @@ class Mesh:
     vertex_count: int
     face_count: int
     has_positions: bool
+    size: float
     vertices: _Floats
     faces: _Signed
     def lengths(self) -> _Floats: ...

@@ -61,7 +61,7 @@ class Files(OnMesh):
         """
         values = None if field is None else _one_each(_arrays.floats(field, "field"), "field")
         numbers = None if labels is None else _labels(labels)
-        place, kind = os.fspath(path), format or ""
+        place, kind = _arrays.path_text(path), format or ""
         if place.endswith(_DSCALAR) or kind == _DSCALAR[1:]:
             _write_dscalar(place, self._mesh.vertex_count, values, numbers, (name, label_name), structure)
         else:
@@ -103,7 +103,7 @@ def write(
     ...     print(open(path).read().splitlines()[-1])
     l 1 2 3
     """
-    place, kind = os.fspath(path), format or ""
+    place, kind = _arrays.path_text(path), format or ""
     curves = _curves(what)
     if curves is not None:
         _write_curves(place, curves, mesh, name, kind)

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._errors import BrushfireError
+from brushfire._arrays import path_text
+from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._mesh import Mesh
 
 
@@ -55,7 +56,7 @@ def read(source: Source, *, format: str | None = None, return_info: bool = False
     Mesh(3 vertices, 1 faces)
     """
     if isinstance(source, (str, os.PathLike)) and format is None:
-        loaded = _core.read(os.fspath(source))
+        loaded = _core.read(path_text(source))
     else:
         loaded = _core.read_bytes(*_content(source, format))
     core, name, remarks, face_origin, vertex_map = loaded
@@ -71,7 +72,7 @@ def _content(source: Any, format: str | None) -> tuple[bytes, str]:
     """The bytes, and a name for messages whose extension decides where they do not."""
     name = "bytes"
     if isinstance(source, (str, os.PathLike)):
-        name = os.fspath(source)
+        name = path_text(source)
         try:
             with open(name, "rb") as file:
                 source = file.read()
@@ -80,6 +81,8 @@ def _content(source: Any, format: str | None) -> tuple[bytes, str]:
     elif is_file(source):
         name = source.name if isinstance(getattr(source, "name", None), str) else "file"
         source = source.read()
+    elif not isinstance(source, (bytes, bytearray, memoryview)):
+        raise BrushfireTypeError(f"source: a path, bytes or an open file is needed, not {source!r}")
     content = source.encode() if isinstance(source, str) else bytes(source)
     return content, name if format is None else f"{name}.{format.lstrip('.')}"
 

@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import number
+from brushfire._arrays import floating_type, number, path_text, whole
 from brushfire._curves import OnMesh
-from brushfire._errors import BrushfireError
+from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._options import Options, options, thread_count
 from brushfire._places import PlaceArrays, Places
 from brushfire._progress import Progress, Reporter, shown
@@ -160,13 +160,12 @@ class Matrices(OnMesh):
         if symmetric is not None:
             _check_symmetric(symmetric, row, None)
         compute = _core.sparse_float32 if float_type(dtype) == np.float32 else _core.sparse_float64
-        if memory_limit < 0:
-            raise BrushfireError(f"memory_limit: {memory_limit} is negative")
+        most = whole(memory_limit, "memory_limit", np.iinfo(np.int64).max)
         _scipy_sparse()  # before anything is computed
         chosen = options(method, tolerance, np.inf, precision=precision)
         limit, team = number(radius, "radius"), thread_count(threads)
         with shown(progress, "rows") as report:
-            data, indices, starts = compute(self._mesh, limit, *_pair(row), chosen, team, memory_limit, report)
+            data, indices, starts = compute(self._mesh, limit, *_pair(row), chosen, team, most, report)
         if symmetric is not None:
             data, indices, starts = _symmetric_rows(data, indices, starts, symmetric)
         return sparse_matrix(data, indices, starts, self._mesh.vertex_count)
@@ -204,7 +203,7 @@ class Matrices(OnMesh):
         single = bool(float_type(dtype) == np.float32)
         team = thread_count(threads)
         with shown(progress, "matrix") as report:
-            _core.write_matrix(self._mesh, os.fspath(path), single, *_pair(row), *_pair(column), chosen, team, report)
+            _core.write_matrix(self._mesh, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
 
     def _optional(self, places: Any, what: str) -> PlaceArrays | None:
         """None for all vertices."""
@@ -227,19 +226,23 @@ def _part(report: Reporter | None, begin: int, end: int, rows: int) -> Reporter 
 
 def float_type(dtype: npt.DTypeLike) -> np.dtype[Any]:
     """float32 or float64."""
-    wanted = np.dtype(dtype)
-    if wanted not in (np.dtype(np.float32), np.dtype(np.float64)):
-        raise BrushfireError(f"dtype: float32 or float64 are possible, not {wanted}")
-    return wanted
+    return floating_type(dtype)
 
 
 def _new_matrix(shape: tuple[int, int], dtype: npt.DTypeLike) -> npt.NDArray[Any]:
-    wanted = np.dtype(dtype)
+    wanted = np.dtype(np.float16) if _is_half(dtype) else float_type(dtype)
     if wanted == np.float16:
         _require_memory_of_halves(shape)
     else:
-        _core.require_dense_memory(*shape, bool(float_type(wanted) == np.float32), 0)
+        _core.require_dense_memory(*shape, bool(wanted == np.float32), 0)
     return np.empty(shape, dtype=wanted)
+
+
+def _is_half(dtype: npt.DTypeLike) -> bool:
+    try:
+        return bool(np.dtype(dtype) == np.float16)
+    except TypeError:
+        return False
 
 
 def _require_memory_of_halves(shape: tuple[int, int]) -> None:
@@ -259,7 +262,7 @@ def _memory_of(out: Any) -> Any:
         try:
             return out.detach().numpy()
         except (TypeError, RuntimeError) as error:  # of a GPU, or of a type that numpy has not
-            raise TypeError(f"out: {error}") from None
+            raise BrushfireTypeError(f"out: {error}") from None
     return out
 
 
@@ -269,7 +272,7 @@ def _fits_core(array: Any) -> bool:
 
 def _check_out(array: Any, shape: tuple[int, int]) -> None:
     if isinstance(array, (list, tuple)) or not all(hasattr(array, a) for a in ("shape", "dtype", "__setitem__")):
-        raise TypeError(f"out: an array that can be written to is needed, not {type(array).__name__}")
+        raise BrushfireTypeError(f"out: an array that can be written to is needed, not {type(array).__name__}")
     if np.dtype(array.dtype) != np.float16:
         float_type(array.dtype)
     flags = getattr(array, "flags", None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -14,7 +15,7 @@ from brushfire import _arrays, _core
 from brushfire._arrays import Floats, number
 from brushfire._curves import Curves
 from brushfire._distance import Distances
-from brushfire._errors import BrushfireError
+from brushfire._errors import BrushfireError, BrushfireWarning
 from brushfire._fields import Fields
 from brushfire._files import Files
 from brushfire._matrices import Matrices, float_type, sparse_matrix
@@ -27,6 +28,10 @@ from brushfire._regions import Regions
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
+
+
+# Beyond this share of the mesh's size a position is far off its surface.
+_FAR = 0.1
 
 
 @contextlib.contextmanager
@@ -131,9 +136,10 @@ class Mesh(Distances, Curves, Fields, Regions, Matrices, Pictures, Files):
         f = _arrays.faces(faces)
         triples = _arrays.triples(lengths, "lengths")
         _arrays.check_faces(f.view(np.int32))
-        count = int(f.max()) + 1 if f.size and vertex_count is None else int(vertex_count or 0)
-        if count < 0:
-            raise BrushfireError(f"vertex_count: {count} is negative")
+        if vertex_count is None:
+            count = int(f.max()) + 1 if f.size else 0
+        else:
+            count = _arrays.whole(vertex_count, "vertex_count", np.iinfo(np.int32).max)
         return cls._of(_core.make_from_lengths(count, f, triples))
 
     @property
@@ -148,12 +154,15 @@ class Mesh(Distances, Curves, Fields, Regions, Matrices, Pictures, Files):
 
     @property
     def vertices(self) -> Floats:
-        """The positions, (vertex_count, 3), a read-only view; (0, 3) for a mesh from lengths."""
+        """The positions, (vertex_count, 3), a read-only copy; (0, 3) for a mesh from lengths.
+
+        A copy every time (24 bytes a vertex): ask once, not in a loop.
+        """
         return self._mesh.vertices
 
     @property
     def faces(self) -> npt.NDArray[np.int32]:
-        """The vertex numbers of the faces, (face_count, 3), a read-only view."""
+        """The vertex numbers of the faces, (face_count, 3), a read-only copy: ask once, not in a loop."""
         return self._mesh.faces
 
     @property
@@ -178,12 +187,14 @@ class Mesh(Distances, Curves, Fields, Regions, Matrices, Pictures, Files):
         xyz = self._mesh.positions(arrays.index, arrays.weights)
         return xyz[0] if is_one(places) else xyz
 
-    def nearest(self, xyz: npt.ArrayLike) -> tuple[Points, Floats]:
+    def nearest(self, xyz: npt.ArrayLike, *, within: float = np.inf) -> tuple[Points, Floats]:
         """The points of the surface nearest to positions in space, and how far away they are.
 
         :param xyz: (k, 3), or (3,) for a single one.
+        :param within: farther than this from the surface no position may be.
         :return: :class:`Points` and distances, (k,) each.
-        :raises BrushfireError: for a mesh from lengths or without faces, and for positions that are not finite.
+        :raises BrushfireError: for a mesh from lengths or without faces, for positions that are not finite, and for those
+            that are farther away than ``within``.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
@@ -193,8 +204,29 @@ class Mesh(Distances, Curves, Fields, Regions, Matrices, Pictures, Files):
         """
         if self._finder is None:
             self._finder = _core.NearestPointFinder(self._mesh)
-        face, weights, distance = self._finder.nearest(at(xyz).xyz)
+        positions = at(xyz, within=within)
+        face, weights, distance = self._finder.nearest(positions.xyz)
+        too_far = distance > positions.within
+        if too_far.any():
+            bad = int(np.argmax(too_far))
+            raise BrushfireError(
+                f"position {bad} is {distance[bad]:.6g} from the surface, farther than within={positions.within:.6g}"
+            )
         return Points(face, weights), distance
+
+    def _snapped(self, positions: At) -> Points:
+        """Not without a word where that is far, for the size of the mesh."""
+        points, distance = self.nearest(positions.xyz, within=positions.within)
+        size = self._mesh.size
+        if np.isinf(positions.within) and distance.size and distance.max() > _FAR * size:
+            far = int(np.argmax(distance))
+            warnings.warn(
+                f"position {far} is {distance[far]:.6g} from the surface (the mesh is {size:.6g} across): its nearest "
+                "point was taken; at(..., within=...) says how far is near enough",
+                BrushfireWarning,
+                stacklevel=4,
+            )
+        return points
 
     def masked(self, open_vertices: npt.ArrayLike) -> Mesh:
         """The mesh of the faces whose three vertices are all open; vertices keep their numbers.
@@ -245,7 +277,7 @@ class Mesh(Distances, Curves, Fields, Regions, Matrices, Pictures, Files):
 
     def _arrays(self, places: Any, what: str) -> PlaceArrays:
         if isinstance(places, At):
-            places = self.nearest(places.xyz)[0]
+            places = self._snapped(places)
         return place_arrays(places, self.vertex_count, what)
 
     def __repr__(self) -> str:

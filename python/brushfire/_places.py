@@ -10,8 +10,8 @@ from typing import Any, TypeAlias, overload
 import numpy as np
 import numpy.typing as npt
 
-from brushfire._arrays import Floats, Ints, any_array, floats, integers, triples, whole_numbers
-from brushfire._errors import BrushfireError
+from brushfire._arrays import Floats, Ints, any_array, floats, integer, integers, number, triples, whole_numbers
+from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._foreign import is_loose, listed
 
 
@@ -102,23 +102,29 @@ class At:
     """Positions in space that stand for the surface points nearest to them: see :func:`at`."""
 
     xyz: Floats
+    within: float = np.inf
 
     def __repr__(self) -> str:
         return f"At({len(self.xyz)} positions)"
 
 
-def at(xyz: npt.ArrayLike) -> At:
+def at(xyz: npt.ArrayLike, *, within: float = np.inf) -> At:
     """Positions in space as sources, targets, rows or columns: each is snapped to the nearest point of the surface.
 
     :param xyz: (3,) or (k, 3).
+    :param within: farther than this from the surface no position may be: a BrushfireError says which one is, and how
+        far. Where nothing is said, one that is farther than a tenth of the mesh's size is a :class:`BrushfireWarning`.
 
     >>> import brushfire as bf
     >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
-    >>> mesh.distance(bf.at([1, 0, 0.3]), method="exact").round(6).tolist()
+    >>> mesh.distance(bf.at([1, 0, 0.3], within=0.5), method="exact").round(6).tolist()
     [1.0, 1.0, 2.236068]
     """
     array = floats(xyz, "at")
-    return At(triples(array.reshape(1, 3) if array.shape == (3,) else array, "at"))
+    limit = number(within, "within")
+    if not limit >= 0:
+        raise BrushfireError(f"within: a number >= 0 is needed, not {limit}")
+    return At(triples(array.reshape(1, 3) if array.shape == (3,) else array, "at"), limit)
 
 
 @dataclass(frozen=True)
@@ -148,15 +154,15 @@ def _single(item: Any, what: str) -> tuple[int, tuple[float, float, float]]:
         weights = floats(item.weights, f"{what}: weights")
         if weights.shape != (3,) or not weights.any():
             raise BrushfireError(f"{what}: {item} needs three weights that sum to 1")
-        return operator.index(item.face), (weights[0], weights[1], weights[2])
+        return integer(item.face, f"{what}: face"), (weights[0], weights[1], weights[2])
     if isinstance(item, (bool, np.bool_)):
-        raise TypeError(f"{what}: a vertex number or a Point is needed, not {item!r}")
+        raise BrushfireTypeError(f"{what}: a vertex number or a Point is needed, not {item!r}")
     if isinstance(item, (float, np.floating)):
         return int(_vertices_of_floats(np.asarray(item, dtype=np.float64), what)), (0.0, 0.0, 0.0)
     try:
         return operator.index(item), (0.0, 0.0, 0.0)
     except TypeError:
-        raise TypeError(f"{what}: a vertex number or a Point is needed, not {type(item).__name__}") from None
+        raise BrushfireTypeError(f"{what}: a vertex number or a Point is needed, not {type(item).__name__}") from None
 
 
 def _listed(items: Sequence[Any], what: str) -> PlaceArrays:
@@ -171,12 +177,12 @@ def _listed(items: Sequence[Any], what: str) -> PlaceArrays:
 def _vertices_of_floats(array: npt.NDArray[Any], what: str) -> Ints:
     """Whole numbers that came as floats, out of a file or a table: vertices, but never what could be a position."""
     if array.ndim > 1 or array.shape == (3,):
-        raise TypeError(
+        raise BrushfireTypeError(
             f"{what}: {array.dtype} of shape {array.shape} could be a position: bf.at(...) says so, integers are vertices"
         )
     if not whole_numbers(array):
         bad = array.ravel()[~(array.ravel() == np.floor(array.ravel())) | ~np.isfinite(array.ravel())]
-        raise TypeError(f"{what}: vertices are whole numbers, not {bad[0] if bad.size else array.ravel()[0]}")
+        raise BrushfireTypeError(f"{what}: vertices are whole numbers, not {bad[0] if bad.size else array.ravel()[0]}")
     return array.astype(np.int64)
 
 

@@ -8,6 +8,8 @@ import sys
 from collections.abc import Callable, Iterator
 from typing import Any, TypeAlias
 
+from brushfire._errors import BrushfireTypeError
+
 Reporter: TypeAlias = Callable[[float], object]
 Progress: TypeAlias = Reporter | bool | None
 """A function of the share of the work that is done, True for a bar, None or False for nothing."""
@@ -24,7 +26,7 @@ def shown(progress: Progress, what: str) -> Iterator[Reporter | None]:
     elif callable(progress):
         yield progress
     else:
-        raise TypeError(f"progress: a function, True or None is needed, not {progress!r}")
+        raise BrushfireTypeError(f"progress: a function, True or None is needed, not {progress!r}")
 
 
 @contextlib.contextmanager

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from brushfire._errors import BrushfireError
+from brushfire._errors import BrushfireError, BrushfireTypeError
 
 Ints = npt.NDArray[np.int64]
 
@@ -50,7 +50,9 @@ def arrays_of_vtk(source: Any) -> tuple[Any, Ints]:
         if hasattr(data, "GetMapper")
         else ""
     )
-    raise TypeError(f"a {data.GetClassName()} is no data set" + (f": its {held} is what it shows" if held else ""))
+    raise BrushfireTypeError(
+        f"a {data.GetClassName()} is no data set" + (f": its {held} is what it shows" if held else "")
+    )
 
 
 def _to_numpy(array: Any) -> npt.NDArray[Any]:

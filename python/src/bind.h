@@ -64,6 +64,8 @@ struct PlaceArrays {
 };
 std::vector<Place> places_from(const PlaceArrays& arrays);
 std::vector<SurfacePoint> points_from(const Mesh& mesh, const PlaceArrays& arrays);
+// The same for what is only arrived at: a vertex in no face is nowhere, and nothing reaches it.
+std::vector<SurfacePoint> targets_from(const Mesh& mesh, const PlaceArrays& arrays);
 // Throws Error(InvalidArgument) unless there is exactly one.
 SurfacePoint single_point_from(const Mesh& mesh, const PlaceArrays& arrays);
 // Throws Error(InvalidArgument) unless there is one offset per source.

@@ -16,11 +16,10 @@ namespace {
 
 nb::tuple nearest(const NearestPointFinder& finder, const Triples<double>& xyz) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  std::vector<NearestPoint> found;
-  {
-    const nb::gil_scoped_release release;
-    found = finder(std::span(reinterpret_cast<const Vec3*>(xyz.data()), xyz.shape(0)));
-  }
+  constexpr std::size_t kBrief = 1000;
+  const std::vector<NearestPoint> found = listening(xyz.shape(0) < kBrief, [&] {
+    return finder(std::span(reinterpret_cast<const Vec3*>(xyz.data()), xyz.shape(0)));
+  });
   std::vector<SurfacePoint> points;
   std::vector<double> distances;
   for (const NearestPoint& n : found) {
@@ -39,7 +38,7 @@ nb::tuple path(Solver& solver, const Vector<std::int64_t>& index, const Optional
   const Mesh& mesh = solver.mesh();
   Computation computation{nb::none()};
   return path_to_numpy(computation.run(false, [&] {
-    const std::vector<SurfacePoint> places = points_from(mesh, {index, weights});
+    const std::vector<SurfacePoint> places = targets_from(mesh, {index, weights});
     SurfacePath found =
         solver.with([&](DistanceSolver& s) { return path_through(s, places, closed, computation.cancel()); });
     if (tighten && !found.points.empty()) found = shorten(mesh, found.points, closed);
@@ -49,12 +48,7 @@ nb::tuple path(Solver& solver, const Vector<std::int64_t>& index, const Optional
 
 nb::tuple shortened(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed) {
   const std::vector<SurfacePoint> points = points_from(mesh, {index, weights});
-  SurfacePath path;
-  {
-    const nb::gil_scoped_release release;
-    path = shorten(mesh, points, closed);
-  }
-  return path_to_numpy(path);
+  return path_to_numpy(listening(false, [&] { return shorten(mesh, points, closed); }));
 }
 
 double length(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed) {
@@ -72,7 +66,7 @@ nb::tuple paths(Solver& solver, const Vector<std::int64_t>& index, const Optiona
     DistanceOptions options;
     options.method = Method::Exact;
     options.keep_paths = true;
-    options.targets = points_from(mesh, {target_index, target_weights});
+    options.targets = targets_from(mesh, {target_index, target_weights});
     options.cancel = computation.cancel();
     const std::vector<Source> sources = sources_from(mesh, {index, weights}, offsets);
     solver.with([&](DistanceSolver& s) { s.distance_sparse(sources, options, field); });

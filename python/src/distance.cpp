@@ -19,7 +19,7 @@ nb::tuple solve(Solver& solver, const Vector<std::int64_t>& index, const std::op
   DistanceField field;
   field = computation.run(mesh.face_count() < kBriefFaces, [&] {
     sources = sources_from(mesh, {index, weights}, offsets);
-    if (target_index) options.targets = points_from(mesh, {*target_index, target_weights});
+    if (target_index) options.targets = targets_from(mesh, {*target_index, target_weights});
     return solver.with([&](DistanceSolver& s) { return s.distance(sources, options); });
   });
   if (target_index) {

@@ -23,12 +23,10 @@ nb::list to_list(std::span<const Isoline> lines) {
 }
 
 nb::list linear(const Mesh& mesh, const Vector<double>& values, const Vector<double>& levels) {
-  std::vector<Isoline> lines;
-  {
-    const nb::gil_scoped_release release;
-    lines = isolines(mesh, span_of(values), span_of(levels));
-  }
-  return to_list(lines);
+  // Copies: nobody may change them while they are looked at twice.
+  const std::vector<double> field(values.data(), values.data() + values.shape(0));
+  const std::vector<double> wanted(levels.data(), levels.data() + levels.shape(0));
+  return to_list(listening(false, [&] { return isolines(mesh, field, wanted); }));
 }
 
 // Levels that follow from the field, which is known only here: every `every` units, or `count` of them, or those given.
@@ -55,11 +53,7 @@ nb::list curved(Solver& solver, const Vector<std::int64_t>& index, const std::op
 }
 
 Result<double> gradients(const Mesh& mesh, const Vector<double>& values) {
-  std::vector<Vec3> found;
-  {
-    const nb::gil_scoped_release release;
-    found = face_gradients(mesh, span_of(values));
-  }
+  const std::vector<Vec3> found = listening(false, [&] { return face_gradients(mesh, span_of(values)); });
   std::vector<double> flat;
   flat.reserve(3 * found.size());
   for (const Vec3& g : found) flat.insert(flat.end(), {g.x, g.y, g.z});

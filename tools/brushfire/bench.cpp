@@ -37,7 +37,7 @@ against the exact distances.)";
 struct Arguments {
   std::string file;
   std::vector<std::string> methods, sources;
-  std::optional<double> source_count, repeat, threads;
+  std::optional<double> source_count, repeat, threads, snap_within;
   bool no_error = false;
 };
 
@@ -96,6 +96,7 @@ Plan plan_of(const Arguments& a) {
   plan.source_count = static_cast<std::size_t>(whole_number(a.source_count, 1, 1, kMany, "--sources"));
   plan.repetitions = static_cast<std::size_t>(whole_number(a.repeat, 5, 1, kMany, "--repeat"));
   plan.threads = static_cast<unsigned>(whole_number(a.threads, 1, 1, kMostThreads, "--threads"));
+  check_snap_within(a.snap_within);
   if (a.source_count && !a.sources.empty()) refuse("--sources N chooses vertices, --source names places: give one");
   for (const std::string& text : a.methods) plan.methods.push_back(method_of(text));
   if (!a.methods.empty()) return plan;
@@ -104,10 +105,9 @@ Plan plan_of(const Arguments& a) {
 }
 
 // The places named, or vertices that have faces, evenly spread over their numbers, from the first one on.
-std::vector<SurfacePoint> sources_of(const Arguments& a, const Plan& plan, const Mesh& mesh) {
+std::vector<SurfacePoint> sources_of(const Arguments& a, const Plan& plan, const Mesh& mesh, PlaceFinder& places) {
   std::vector<SurfacePoint> points;
-  const Snap snap = snapper(mesh);
-  for (const std::string& text : split_places(a.sources)) points.push_back(resolve(parse_where(text), mesh, snap));
+  for (const std::string& text : split_places(a.sources)) points.push_back(places.source(parse_where(text)));
   if (!points.empty()) return points;
   std::vector<Index> candidates;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -256,7 +256,7 @@ std::string in_words(const Arguments& a, const Plan& plan, const Mesh& mesh, std
 }
 
 std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::size_t sources,
-                 const std::vector<Result>& results) {
+                 const PlaceFinder& places, const std::vector<Result>& results) {
   std::vector<Record> methods;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Result& r = results[i];
@@ -290,13 +290,16 @@ std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::si
       .add("repetitions", static_cast<std::int64_t>(plan.repetitions))
       .add("clock", std::string(plan.threads == 1 ? "processor" : "wall"))
       .add("methods", std::move(methods));
+  places.add_to(record);
   return record.json();
 }
 
 int bench(const Arguments& a, const Talk& talk) {
   const Plan plan = plan_of(a);
   const Mesh mesh = read_mesh(a.file).mesh;
-  const std::vector<SurfacePoint> sources = sources_of(a, plan, mesh);
+  PlaceFinder places(mesh, a.snap_within);
+  const std::vector<SurfacePoint> sources = sources_of(a, plan, mesh, places);
+  places.tell(talk);
   const Progress progress = talk.progress("bench");
   const Bench bench(mesh, sources, plan, !a.no_error);
   std::vector<Result> results;
@@ -306,7 +309,7 @@ int bench(const Arguments& a, const Talk& talk) {
     results.push_back(bench.run(options));
   }
   talk.end_progress();
-  write_stdout(talk.json ? json(a, plan, mesh, sources.size(), results)
+  write_stdout(talk.json ? json(a, plan, mesh, sources.size(), places, results)
                          : in_words(a, plan, mesh, sources.size(), results));
   return kOk;
 }
@@ -322,6 +325,7 @@ void add_bench(CommandLine& command_line) {
     verb.option("--sources", arguments->source_count, "N", "Solve from each of N vertices, spread over the mesh (1)");
     verb.option("--repeat", arguments->repeat, "N", "Repetitions (5)");
     verb.option("--threads", arguments->threads, "N", "Threads that share out the sources, or a field (1)");
+    add_snap_within(verb, arguments->snap_within);
     verb.flag("--no-error", arguments->no_error, "Do not compute the exact distances to compare with");
     verb.talks();
     verb.examples(kExamples);

@@ -45,7 +45,7 @@ struct Arguments {
   std::vector<std::string> sources, targets;
   Accuracy accuracy;
   std::string precision = "float32";
-  std::optional<double> radius, threads;
+  std::optional<double> radius, threads, snap_within;
 };
 
 class Stopwatch {
@@ -106,6 +106,7 @@ void check(const Arguments& arguments, const Talk& talk) {
   if (arguments.radius && !(*arguments.radius >= 0)) {
     throw Error(ErrorCode::InvalidArgument, "--radius " + exact(*arguments.radius) + " is not a number >= 0");
   }
+  check_snap_within(arguments.snap_within);
   check_output(arguments.output);
   if (arguments.output == "-" && (talk.json || !arguments.targets.empty())) {
     throw Error(ErrorCode::InvalidArgument, "only one of -o -, --json and --target can have the standard output");
@@ -114,7 +115,7 @@ void check(const Arguments& arguments, const Talk& talk) {
 
 std::int64_t count(std::uint64_t n) { return static_cast<std::int64_t>(n); }
 
-std::string json(const Arguments& arguments, const Run& run) {
+std::string json(const Arguments& arguments, const Run& run, const PlaceFinder& places) {
   const DistanceField& field = run.field;
   const Index farthest = run.farthest();
   const std::optional<double> tolerance = promised_error(run.options);
@@ -147,7 +148,9 @@ std::string json(const Arguments& arguments, const Run& run) {
         .add("distance", field.target_distance[i])
         .add("source", reached ? count(field.target_source[i]) : -1);
   }
-  record.add("targets", std::move(targets)).add("output", arguments.output);
+  record.add("targets", std::move(targets));
+  places.add_to(record);
+  record.add("output", arguments.output);
   return record.json();
 }
 
@@ -187,14 +190,15 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   run.read_s = reading.seconds();
   stop_if_interrupted();
 
-  const Snap snap = snapper(run.mesh);
-  for (const Where& w : source_places) run.sources.push_back({resolve(w, run.mesh, snap), w.offset});
+  PlaceFinder places(run.mesh, arguments.snap_within);
+  for (const Where& w : source_places) run.sources.push_back({places.source(w), w.offset});
 
   options.precision = arguments.precision == "float32" ? Precision::Float : Precision::Double;
   options.max_distance = arguments.radius.value_or(kInfinity);
   options.cancel = &cancel_token();
   options.progress = talk.progress("distance");
-  for (const Where& w : run.target_places) options.targets.push_back(resolve(w, run.mesh, snap));
+  for (const Where& w : run.target_places) options.targets.push_back(places.target(w));
+  places.tell(talk);
 
   const Stopwatch setting_up;
   DistanceSolver solver(run.mesh);
@@ -211,7 +215,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
                 arguments.output == "-" ? "csv" : "");
   }
   if (talk.json) {
-    write_stdout(json(arguments, run));
+    write_stdout(json(arguments, run, places));
   } else if (!run.target_places.empty()) {
     std::string lines;
     for (const double d : run.field.target_distance) lines += exact(d) + "\n";
@@ -239,6 +243,7 @@ void add_distance(CommandLine& command_line) {
     add_accuracy(verb, arguments->accuracy);
     verb.choice("--precision", arguments->precision, {"float32", "float64"}, "Arithmetic of the marching methods");
     verb.option("-r,--radius", arguments->radius, "R", "Stop at this distance; what is farther reads inf");
+    add_snap_within(verb, arguments->snap_within);
     verb.option("--threads", arguments->threads, "N", "Threads for this field; 0, the default: one per processor");
     verb.option("-o,--output", arguments->output, "FILE", "Write the field: .ply .vtk .npy .csv ...; - prints CSV");
     verb.talks();

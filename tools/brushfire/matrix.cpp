@@ -6,7 +6,6 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_mesh.h>
-#include <brushfire/mesh/nearest_point.h>
 #include <brushfire/queries/distance_matrix.h>
 
 #include <algorithm>
@@ -36,7 +35,7 @@ struct Arguments {
   std::string rows = "all", columns = "all";
   Accuracy accuracy;
   std::string type = "float32";
-  std::optional<double> radius, threads;
+  std::optional<double> radius, threads, snap_within;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -56,13 +55,8 @@ std::vector<Where> parse_places(const std::string& text) {
 }
 
 // The places of a list; nullopt for all vertices.
-std::optional<std::vector<Place>> places_on(const Mesh& mesh, const std::string& text) {
+std::optional<std::vector<Place>> places_on(const Mesh& mesh, PlaceFinder& finder, const std::string& text) {
   if (text == "all") return std::nullopt;
-  std::optional<NearestPointFinder> finder;
-  const auto snap = [&](Vec3 position) {
-    if (!finder) finder.emplace(mesh);
-    return (*finder)(position).point;
-  };
   std::vector<Place> places;
   for (const Where& where : parse_places(text)) {
     if (where.has_offset) throw Error(ErrorCode::InvalidArgument, "'" + where.text + "': a matrix has no offsets");
@@ -71,7 +65,7 @@ std::optional<std::vector<Place>> places_on(const Mesh& mesh, const std::string&
     if (vertex && vertex->index < mesh.vertex_count()) {
       places.push_back(static_cast<Index>(vertex->index));
     } else {
-      places.push_back(resolve(where, mesh, snap));
+      places.push_back(finder.source(where));
     }
   }
   return places;
@@ -89,6 +83,7 @@ unsigned threads_of(const Arguments& arguments) {
 
 void check(const Arguments& arguments) {
   const bool sparse = is_sparse(arguments.output);
+  check_snap_within(arguments.snap_within);
   if (!sparse && !arguments.output.ends_with(".npy")) {
     throw Error(ErrorCode::InvalidArgument, "where to? give -o FILE.npy, .npz or .mtx");
   }
@@ -121,8 +116,10 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
 
   const Mesh mesh = read_mesh(arguments.file).mesh;
   stop_if_interrupted();
-  const std::optional<std::vector<Place>> row_places = places_on(mesh, arguments.rows);
-  const std::optional<std::vector<Place>> column_places = places_on(mesh, arguments.columns);
+  PlaceFinder finder(mesh, arguments.snap_within);
+  const std::optional<std::vector<Place>> row_places = places_on(mesh, finder, arguments.rows);
+  const std::optional<std::vector<Place>> column_places = places_on(mesh, finder, arguments.columns);
+  finder.tell(talk);
   const Places rows = row_places ? Places(*row_places) : std::nullopt;
   const Places columns = column_places ? Places(*column_places) : std::nullopt;
   const std::uint64_t row_count = rows ? rows->size() : mesh.vertex_count();
@@ -143,8 +140,8 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
 
   const std::optional<double> tolerance = promised_error(options.distance);
   if (talk.json) {
-    write_stdout(Record()
-                     .add("file", arguments.file)
+    Record record;
+    record.add("file", arguments.file)
                      .add("method", std::string(name_of(options.distance.method)))
                      .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
                      .add("vertices", std::int64_t{mesh.vertex_count()})
@@ -153,9 +150,9 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
                      .add("entries", static_cast<std::int64_t>(entries))
                      .add("radius", arguments.radius.value_or(kInfinity))
                      .add("dtype", arguments.type)
-                     .add("solve_s", solve_s)
-                     .add("output", arguments.output)
-                     .json());
+                     .add("solve_s", solve_s);
+    finder.add_to(record);
+    write_stdout(record.add("output", arguments.output).json());
   } else {
     talk.say(arguments.output + ": " + std::to_string(row_count) + " x " + std::to_string(column_count) + ", " +
              counted(entries, "entry", "entries") + ", in " + duration(solve_s));
@@ -176,6 +173,7 @@ void add_matrix(CommandLine& command_line) {
     add_accuracy(verb, arguments->accuracy);
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
     verb.option("--threads", arguments->threads, "N", "How many threads; one per processor if not given");
+    add_snap_within(verb, arguments->snap_within);
     verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy, with --radius also .npz .mtx");
     verb.talks();
     verb.examples(kExamples);

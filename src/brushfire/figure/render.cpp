@@ -2,11 +2,13 @@
 #include <brushfire/figure/render.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/core/memory.h>
 #include <brushfire/figure/detail/legend.h>
 #include <brushfire/figure/detail/panel.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 
 namespace brushfire {
@@ -35,6 +37,14 @@ void detail::check_request(std::span<const Panel> panels, const RenderOptions& o
     refuse(std::to_string(panels.size()) + " panels of " + std::to_string(options.width) +
            " pixels are wider than 16384");
   }
+  // The pixels, and what a PNG makes of them on its way to a file.
+  constexpr std::uint64_t kBytesPerPixel = 4 + 4 + 4;
+  require_memory(kBytesPerPixel * panels.size() * static_cast<std::uint64_t>(options.width) *
+                     static_cast<std::uint64_t>(options.height),
+                 0,
+                 "a picture of " + std::to_string(panels.size()) + " x " + std::to_string(options.width) + " x " +
+                     std::to_string(options.height) + " pixels",
+                 "ask for a smaller one");
   if (options.samples < 1 || options.samples > kMostSamples) refuse("samples per pixel lie between 1 and 8");
   if (!std::isfinite(options.camera.azimuth) || !std::isfinite(options.camera.elevation)) {
     refuse("azimuth and elevation are finite angles");

@@ -1,7 +1,9 @@
 // Paths read off fields, and between pairs of points.
 #include <brushfire/queries/path.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/text.h>
 #include <brushfire/mesh/flat_face.h>
 
 #include <algorithm>
@@ -34,7 +36,7 @@ void join(const Mesh& mesh, SurfacePath& a, const SurfacePath& b) {
 
 // Rays lead back to where they came from: this is a fault of ours, not of the caller's.
 Error lost(double length) {
-  return Error(ErrorCode::Internal, "the path was lost after a length of " + std::to_string(length) +
+  return Error(ErrorCode::Internal, "the path was lost after a length of " + number_as_text(length) +
                                         ": please report the mesh and the points");
 }
 
@@ -46,6 +48,7 @@ bool is_edge_tight(const DistanceField& field, Index from, Index to, double leng
 
 SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
   SurfacePath path;
+  if (target.is_nowhere()) return path;
   WindowField::Leg leg = field.last_leg(target);
   if (leg.points.empty()) {
     if (field.value(target).distance < kInfinity) throw lost(0);
@@ -54,7 +57,9 @@ SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
   path.length = 0;
   path.points.push_back(leg.points.front());
   Index legs = 0;
+  Poll poll(64);
   while (true) {
+    poll();
     path.length += leg.length;
     for (std::size_t i = 1; i < leg.points.size(); ++i) {
       // A leg names a point on an edge once for either face, where it starts or ends there.
@@ -74,7 +79,7 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
                                                 std::string(name_of(field.method)));
   }
   SurfacePath path;
-  if (vertex_point(mesh, target); field.distance[target] == kInfinity) return path;
+  if (target_point(mesh, target).is_nowhere() || field.distance[target] == kInfinity) return path;
   const std::span<const double> lengths = mesh.lengths();
   path.points.push_back(vertex_point(mesh, target));
   path.length = 0;
@@ -108,6 +113,7 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
 
 SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
                          const CancelToken* cancel) {
+  if (from.is_nowhere() || to.is_nowhere()) return {};
   DistanceOptions options;
   options.method = Method::Exact;
   options.keep_paths = true;
@@ -121,7 +127,10 @@ SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> w
                          const CancelToken* cancel) {
   if (waypoints.empty()) throw Error(ErrorCode::InvalidArgument, "a path needs at least one waypoint");
   const Mesh& mesh = solver.mesh();
-  locate(mesh, waypoints.front());  // also where there is nothing to trace
+  for (const SurfacePoint& p : waypoints) {
+    if (p.is_nowhere()) return {{}, kInfinity, closed};
+    locate(mesh, p);  // also where there is nothing to trace
+  }
   SurfacePath path;
   path.closed = closed;
   path.length = 0;

@@ -1,6 +1,7 @@
 // Tracing straightest geodesics; the logarithmic map by where shortest paths start.
 #include <brushfire/queries/straightest.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/flat_face.h>
 #include <brushfire/queries/detail/tangent_fan.h>
@@ -344,7 +345,10 @@ SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double 
   SparseLogMap map{std::move(field.vertex), std::move(field.distance), {}, leaving.total()};
   map.angle.assign(map.vertex.size(), kUnknownAngle);
   std::vector<std::size_t> chain;
+  const CancelScope listen(cancel);
+  Poll poll(64);
   for (std::size_t i = 0; i < map.vertex.size(); ++i) {
+    poll();
     if (leaving.is_source(map.vertex[i])) map.angle[i] = 0;
     if (std::isnan(map.angle[i])) find_angle(*field.windows, leaving, map, i, chain);
   }

@@ -152,9 +152,11 @@ WindowField::WindowField(std::shared_ptr<const detail::WindowFieldData> data) : 
 const Mesh& WindowField::mesh() const noexcept { return data_->mesh; }
 
 WindowField::Value WindowField::value(const SurfacePoint& point) const {
+  if (point.is_nowhere()) return {};
   const PointRecord record = Look(*data_).point(point).record;
   if (!(record.value < kInfinity)) return {};
-  return {data_->mesh.unit() * (record.value - data_->shift), record.label};
+  const double base = data_->bases.empty() ? 0 : data_->bases[record.label];
+  return {base + data_->mesh.unit() * (record.value - data_->shift), record.label};
 }
 
 WindowField::Leg WindowField::last_leg(Index vertex) const {
@@ -166,6 +168,7 @@ WindowField::Leg WindowField::last_leg(Index vertex) const {
 }
 
 WindowField::Leg WindowField::last_leg(const SurfacePoint& point) const {
+  if (point.is_nowhere()) return {};
   const PointLocation at = locate(data_->mesh, point);
   if (at.on == PointLocation::On::Vertex) return last_leg(at.vertex);
   return last_leg_of(*data_, Look(*data_).point(point), kNoIndex);
