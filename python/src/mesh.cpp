@@ -31,9 +31,8 @@ void check_vertex_count(std::size_t count) {
 Mesh make_mesh(const Triples<double>& v, const Triples<std::uint32_t>& f) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   check_vertex_count(v.shape(0));
-  return listening(f.shape(0) < kBriefFaces, [&] {
-    return Mesh({reinterpret_cast<const Vec3*>(v.data()), v.shape(0)}, faces_of(f));
-  });
+  return listening(f.shape(0) < kBriefFaces,
+                   [&] { return Mesh({reinterpret_cast<const Vec3*>(v.data()), v.shape(0)}, faces_of(f)); });
 }
 
 Mesh make_from_lengths(std::size_t vertex_count, const Triples<std::uint32_t>& f, const Triples<double>& l) {
@@ -44,8 +43,8 @@ Mesh make_from_lengths(std::size_t vertex_count, const Triples<std::uint32_t>& f
   });
 }
 
-// A numpy array that may be read only, of a copy: others ignore that flag (docs/decisions/python-arrays.md), and no mesh
-// may change under its solvers.
+// A numpy array that may be read only, of a copy: others ignore that flag (docs/decisions/python-arrays.md), and no
+// mesh may change under its solvers.
 template <class T, class Row>
 nb::ndarray<nb::numpy, const T> copied(std::span<const Row> rows) {
   static_assert(sizeof(Row) == 3 * sizeof(T));
