@@ -98,8 +98,8 @@ TEST(NumberCases, PointsOfAnEdgeThatOnlyDegenerateFacesHaveLieOnOneSegment) {
   const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}};
   const Mesh mesh(p, std::vector<Face>{{0, 1, 0}, {1, 0, 1}});
   for (const Method method : all_methods()) {
-    const Source source{{0, {0.1, 0.2, 0.7}}};                          // at 0.2
-    const SurfacePoint target{1, {0.25, 0.5, 0.25}};                    // at 0.5
+    const Source source{{0, {0.1, 0.2, 0.7}}};        // at 0.2
+    const SurfacePoint target{1, {0.25, 0.5, 0.25}};  // at 0.5
     const DistanceField field = field_of(mesh, {source}, method, {target});
     EXPECT_NEAR(field.target_distance[0], 0.3, kRounding) << name_of(method);
   }

@@ -147,13 +147,15 @@ TEST_F(Program, DistanceJsonHasStableKeys) {
   const Ended ended =
       run_program({"distance", path("square.off"), "--source", "0", "--target", "2", "--json", "-m", "dijkstra"});
   EXPECT_EQ(ended.code, 0);
-  EXPECT_EQ(
-      keys_of(ended.out),
-      (std::vector<std::string>{"schema",       "brushfire",       "file",        "method",        "precision",
-                                "tolerance",    "bound",           "vertices",    "faces",         "sources",
-                                "radius",       "reached",         "unreachable", "beyond_radius", "max_error_bound",
-                                "max_distance", "farthest_vertex", "updates",     "read_s",        "set_up_s",
-                                "solve_s",      "targets",         "output"}));
+  EXPECT_EQ(keys_of(ended.out), (std::vector<std::string>{"schema",       "brushfire",       "file",
+                                                          "method",       "precision",       "tolerance",
+                                                          "bound",        "vertices",        "faces",
+                                                          "sources",      "radius",          "reached",
+                                                          "unreachable",  "beyond_radius",   "max_error_bound",
+                                                          "max_distance", "farthest_vertex", "updates",
+                                                          "read_s",       "set_up_s",        "solve_s",
+                                                          "targets",      "snapped",         "max_snap_distance",
+                                                          "output"}));
 }
 
 // The number of a key of the outermost object; NaN where it is none.
@@ -414,7 +416,7 @@ TEST_F(Program, UnusableInputEndsWithThree) {
   EXPECT_EQ(said(unknown.err).rfind("brushfire: notes.txt: neither name nor content tell the format", 0), 0u);
   EXPECT_EQ(lines_of(unknown.err).size(), 1u);
   expect_error({"distance", path("square.off"), "--sources", path("missing.txt")}, 3,
-               "brushfire: missing.txt: cannot be opened");
+               "brushfire: missing.txt: no such file");
 }
 
 TEST_F(Program, ClosedOrFullStandardOutputIsAnError) {

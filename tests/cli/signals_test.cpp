@@ -36,7 +36,7 @@ milliseconds limit() {
   return known && load > 0.75 * std::thread::hardware_concurrency() ? kPromise + kLoadedSlack : kPromise;
 }
 
-enum class Input { None, Silent, Endless };   // standard input: empty; a pipe that says nothing; one that never ends
+enum class Input { None, Silent, Endless };  // standard input: empty; a pipe that says nothing; one that never ends
 enum class Output { Dropped, NobodyReads };  // standard output
 
 struct Case {
@@ -59,7 +59,8 @@ class Folder {
     std::ofstream fan(path("fan.obj"));
     constexpr int kFaces = 1'000'000;
     fan << "v 0 0 0\n";
-    for (int i = 0; i < kFaces; ++i) fan << "v " << std::cos(6.28 * i / kFaces) << ' ' << std::sin(6.28 * i / kFaces) << " 0\n";
+    for (int i = 0; i < kFaces; ++i)
+      fan << "v " << std::cos(6.28 * i / kFaces) << ' ' << std::sin(6.28 * i / kFaces) << " 0\n";
     for (int i = 0; i < kFaces; ++i) fan << "f 1 " << 2 + i << ' ' << 2 + (i + 1) % kFaces << '\n';
   }
 
@@ -164,17 +165,23 @@ std::vector<Case> cases(const Folder& f) {
       {"exact, one thread", {"distance", terrain, "-s", "0", "-m", "exact", "--threads", "1"}, milliseconds(900)},
       {"exact, two threads", {"distance", terrain, "-s", "0", "-m", "exact", "--threads", "2"}, milliseconds(900)},
       {"output to a pipe that nobody opens", {"distance", small, "-s", "0", "-o", f.path("pipe.csv")}},
-      {"output to a pipe that nobody reads", {"distance", terrain, "-s", "0", "-m", "dijkstra", "-o", "-"},
-       milliseconds(1500), Input::None, Output::NobodyReads},
+      {"output to a pipe that nobody reads",
+       {"distance", terrain, "-s", "0", "-m", "dijkstra", "-o", "-"},
+       milliseconds(1500),
+       Input::None,
+       Output::NobodyReads},
       {"nearest points", {"path", fan, "--from", "at:0,0,1", "--to", "5"}, milliseconds(1000)},
       {"paths", many_waypoints(sphere), milliseconds(300)},
-      {"straight curves", {"isolines", terrain, "-s", "0", "-m", "novotni-klein", "--count", "20000", "-o", out + ".json"},
+      {"straight curves",
+       {"isolines", terrain, "-s", "0", "-m", "novotni-klein", "--count", "20000", "-o", out + ".json"},
        milliseconds(900)},
-      {"curved curves", {"isolines", small, "-s", "0", "--count", "300", "--curved", "1e-13", "-o", out + ".json"},
+      {"curved curves",
+       {"isolines", small, "-s", "0", "--count", "300", "--curved", "1e-13", "-o", out + ".json"},
        milliseconds(500)},
       {"rows", {"matrix", sphere, "-o", out + ".npy", "-m", "exact"}, milliseconds(500)},
       {"rows within a radius", {"matrix", sphere, "-r", "1", "-m", "exact", "-o", out + ".npz"}, milliseconds(500)},
-      {"painting", {"render", terrain, "-s", "0", "-m", "dijkstra", "--size", "16384x16384", "-o", out + ".png"},
+      {"painting",
+       {"render", terrain, "-s", "0", "-m", "dijkstra", "--size", "16384x16384", "-o", out + ".png"},
        milliseconds(1500)},
       {"an animation", {"render", sphere, "-s", "0", "--wave", "500", "-o", out + ".webp"}, milliseconds(500)},
       {"reading a field", {"compare", "-", "-"}, milliseconds(200), Input::Silent},
@@ -197,10 +204,11 @@ TEST(Signals, EveryVerbInEveryPhaseEndsWithin300Milliseconds) {
       const milliseconds most = limit();
       const auto begin = Clock::now();
       run.send(signal);
-      while (!run.has_ended() && Clock::now() - begin < most + kLoadedSlack) run.feed_until(Clock::now() + milliseconds(1));
+      while (!run.has_ended() && Clock::now() - begin < most + kLoadedSlack)
+        run.feed_until(Clock::now() + milliseconds(1));
       const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-      std::printf("%-10s %-38s %-8s %8.0f%s\n", c.arguments[0].c_str(), c.phase, signal == SIGINT ? "SIGINT" : "SIGTERM",
-                  ms, most > kPromise ? "  (loaded machine)" : "");
+      std::printf("%-10s %-38s %-8s %8.0f%s\n", c.arguments[0].c_str(), c.phase,
+                  signal == SIGINT ? "SIGINT" : "SIGTERM", ms, most > kPromise ? "  (loaded machine)" : "");
       std::fflush(stdout);
       EXPECT_LE(ms, static_cast<double>(most.count())) << c.arguments[0] << ", " << c.phase;
       ASSERT_TRUE(run.has_ended());

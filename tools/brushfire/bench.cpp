@@ -255,8 +255,8 @@ std::string in_words(const Arguments& a, const Plan& plan, const Mesh& mesh, std
   return text;
 }
 
-std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::size_t sources,
-                 const PlaceFinder& places, const std::vector<Result>& results) {
+std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::size_t sources, const PlaceFinder& places,
+                 const std::vector<Result>& results) {
   std::vector<Record> methods;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Result& r = results[i];

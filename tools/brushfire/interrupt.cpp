@@ -43,7 +43,7 @@ void wait_for_signal(const sigset_t& signals) {
 
 // A program started with the signal ignored (nohup, a background job) keeps ignoring it.
 bool is_ignored(int signal) {
-  struct sigaction now {};
+  struct sigaction now{};
   return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
@@ -61,7 +61,8 @@ void say_interrupted() {
   constexpr std::string_view kLine = "brushfire: interrupted\n";
   pollfd err{STDERR_FILENO, POLLOUT, 0};
   // Where stderr is a pipe that nobody reads there is nothing to wait for.
-  if (!said.exchange(true) && poll(&err, 1, 0) == 1) static_cast<void>(!write(STDERR_FILENO, kLine.data(), kLine.size()));
+  if (!said.exchange(true) && poll(&err, 1, 0) == 1)
+    static_cast<void>(!write(STDERR_FILENO, kLine.data(), kLine.size()));
 }
 
 void cancel_on_interrupt() {

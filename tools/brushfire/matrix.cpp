@@ -142,15 +142,15 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
   if (talk.json) {
     Record record;
     record.add("file", arguments.file)
-                     .add("method", std::string(name_of(options.distance.method)))
-                     .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
-                     .add("vertices", std::int64_t{mesh.vertex_count()})
-                     .add("rows", static_cast<std::int64_t>(row_count))
-                     .add("columns", static_cast<std::int64_t>(column_count))
-                     .add("entries", static_cast<std::int64_t>(entries))
-                     .add("radius", arguments.radius.value_or(kInfinity))
-                     .add("dtype", arguments.type)
-                     .add("solve_s", solve_s);
+        .add("method", std::string(name_of(options.distance.method)))
+        .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
+        .add("vertices", std::int64_t{mesh.vertex_count()})
+        .add("rows", static_cast<std::int64_t>(row_count))
+        .add("columns", static_cast<std::int64_t>(column_count))
+        .add("entries", static_cast<std::int64_t>(entries))
+        .add("radius", arguments.radius.value_or(kInfinity))
+        .add("dtype", arguments.type)
+        .add("solve_s", solve_s);
     finder.add_to(record);
     write_stdout(record.add("output", arguments.output).json());
   } else {

@@ -321,7 +321,8 @@ std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> pa
   constexpr std::uint64_t kBytesPerPixel = 4;
   require_memory(kBytesPerPixel * static_cast<std::uint64_t>(count) * panels.size() *
                      static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height),
-                 0, "an animation of " + std::to_string(count) + " frames of this size", "ask for fewer or smaller ones");
+                 0, "an animation of " + std::to_string(count) + " frames of this size",
+                 "ask for fewer or smaller ones");
   std::vector<Image> frames;
   for (int i = 0; i < count; ++i) {
     stop_if_interrupted();

@@ -204,8 +204,7 @@ SurfacePoint PlaceFinder::target(const Where& where) {
     const NearestPoint nearest = (*finder_)(position);
     if (within_ && nearest.distance > *within_) {
       throw Error(ErrorCode::InvalidArgument, "'" + where.text + "' is " + readable(nearest.distance) +
-                                                  " from the surface, farther than --snap-within " +
-                                                  exact(*within_));
+                                                  " from the surface, farther than --snap-within " + exact(*within_));
     }
     if (known_.insert(where.text).second) snapped_.push_back({where.text, nearest.distance});
     return nearest.point;
@@ -215,7 +214,8 @@ SurfacePoint PlaceFinder::target(const Where& where) {
 SurfacePoint PlaceFinder::source(const Where& where) {
   const SurfacePoint point = target(where);
   if (!point.is_nowhere()) return point;
-  throw Error(ErrorCode::InvalidArgument, "'" + where.text + "': this vertex is in no face, nothing can be reached from it");
+  throw Error(ErrorCode::InvalidArgument,
+              "'" + where.text + "': this vertex is in no face, nothing can be reached from it");
 }
 
 void PlaceFinder::tell(const Talk& talk) const {
@@ -231,7 +231,8 @@ void PlaceFinder::tell(const Talk& talk) const {
     if (farthest == nullptr || s.distance > farthest->distance) farthest = &s;
   }
   if (farthest == nullptr) return;
-  const std::string off = readable(farthest->distance) + " from the surface (the mesh is " + readable(size) + " across)";
+  const std::string off =
+      readable(farthest->distance) + " from the surface (the mesh is " + readable(size) + " across)";
   talk.say(moved == 1 ? "'" + farthest->where + "' is " + off + ": its nearest point was taken"
                       : std::to_string(moved) + " positions are off the surface, the farthest, '" + farthest->where +
                             "', " + off + ": their nearest points were taken");

@@ -138,8 +138,9 @@ void paint_panel(const Panel& panel, const RenderOptions& options, ScalarRange r
   const std::vector<Capsule> capsules =
       overlays ? overlay_capsules(panel, options, projection) : std::vector<Capsule>{};
   PanelPainter painter(surface, projection, capsules, at, picture, depth);
-  parallel_for(painter.band_count(), options.threads, [&](unsigned, std::size_t band) { painter.paint_band(band); },
-               current_cancel_token());
+  parallel_for(
+      painter.band_count(), options.threads, [&](unsigned, std::size_t band) { painter.paint_band(band); },
+      current_cancel_token());
 }
 
 }  // namespace brushfire::detail

@@ -29,7 +29,7 @@ bool is_descriptor_path(const std::string& path) {
 // Before it is opened: opening alone may do something to a device.
 void refuse_what_is_no_file(const std::string& path, bool reads_named_pipes) {
   if (path.find('\0') != std::string::npos) not_readable(path, "a name with a zero byte in it is no file's");
-  struct stat status {};
+  struct stat status{};
   if (stat(path.c_str(), &status) != 0) not_readable(path, errno == ENOENT ? "no such file" : std::strerror(errno));
   if (S_ISDIR(status.st_mode)) not_readable(path, "is a directory");
   if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) not_readable(path, "is a device");
@@ -51,7 +51,7 @@ ByteStream::ByteStream(const std::string& path, NamedPipes pipes) : name_(path =
     if (descriptor_ < 0) not_readable(path, std::strerror(errno));
     is_own_ = true;
   }
-  struct stat status {};
+  struct stat status{};
   is_file_ = fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
   if (is_file_) size_ = static_cast<std::uint64_t>(status.st_size);
 }

@@ -3,9 +3,9 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/text.h>
 #include <brushfire/core/planar.h>
 #include <brushfire/core/populate.h>
+#include <brushfire/core/text.h>
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/face_geometry.h>

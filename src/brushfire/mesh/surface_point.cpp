@@ -2,8 +2,8 @@
 #include <brushfire/mesh/surface_point.h>
 
 #include <brushfire/core/error.h>
-#include <brushfire/core/text.h>
 #include <brushfire/core/planar.h>
+#include <brushfire/core/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,8 @@ Index halfedge_between(const Mesh& mesh, Index v, Index w) {
 // in the face that every name of that edge leads to, or of a vertex.
 void leave_degenerate_face(const Mesh& mesh, PointLocation& at) {
   const Face& t = mesh.faces()[at.face];
-  const Index heaviest = static_cast<Index>(std::max_element(at.weights.begin(), at.weights.end()) - at.weights.begin());
+  const Index heaviest =
+      static_cast<Index>(std::max_element(at.weights.begin(), at.weights.end()) - at.weights.begin());
   const Index v = t[heaviest];
   Index w = v;
   double share = 0;  // of the way from v to w

@@ -248,10 +248,10 @@ class CurveBuilder {
   void check_size(std::size_t nodes) const {
     if (nodes < kLookAtMemory) return;
     constexpr std::size_t kCopies = 2;  // a list that grows is in memory twice
-    require_memory(kCopies * nodes * sizeof(SurfacePoint), memory_,
-                   "more than " + std::to_string(nodes) + " nodes within a chord error of " +
-                       number_as_text(chord_error_),
-                   "ask for a larger chord error");
+    require_memory(
+        kCopies * nodes * sizeof(SurfacePoint), memory_,
+        "more than " + std::to_string(nodes) + " nodes within a chord error of " + number_as_text(chord_error_),
+        "ask for a larger chord error");
   }
 
   const WindowField& field_;

@@ -185,43 +185,44 @@ std::vector<Index> ranks(std::span<const double> values, std::span<const double>
   return rank;
 }
 
-// The levels that cross face f: from `first` up to `end`.
+// The levels that cross a face: from `first` up to `end`.
 struct CrossedLevels {
   Index first = 0, end = 0;
 };
-CrossedLevels crossed_levels(const Mesh& mesh, std::span<const Index> rank, Index f) {
-  const auto [a, b, c] = mesh.faces()[f];
-  const Index low = std::min({rank[a], rank[b], rank[c]}), high = std::max({rank[a], rank[b], rank[c]});
-  if (low == high || high == kUnreached || !mesh.is_face_usable(f)) return {};
-  return {low, high};
+CrossedLevels crossed_levels(const Face& t, std::span<const Index> rank) {
+  const auto [low, high] = std::minmax({rank[t[0]], rank[t[1]], rank[t[2]]});
+  const bool usable = t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+  return low == high || high == kUnreached || !usable ? CrossedLevels{} : CrossedLevels{low, high};
 }
 
-// Refuses curves that will not fit into memory: every crossing of a face is a point of the result and, while it is
-// traced, a place in a list and a node.
+// Refuses curves that will not fit into memory: every crossing of a face is a point of the result and a place in a
+// list. They are counted where it could be that many.
 void check_size(const Mesh& mesh, std::span<const Index> rank, std::size_t levels) {
+  constexpr std::uint64_t kEach = sizeof(SurfacePoint) + sizeof(Index);
+  const std::uint64_t memory = available_memory();
+  if (mesh.face_count() * std::uint64_t{levels} < memory / kEach) return;
   std::uint64_t crossings = 0;
   Poll poll;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
+  for (const Face& t : mesh.faces()) {
     poll();
-    const CrossedLevels crossed = crossed_levels(mesh, rank, f);
+    const CrossedLevels crossed = crossed_levels(t, rank);
     crossings += crossed.end - crossed.first;
   }
-  require_memory(crossings * (sizeof(SurfacePoint) + sizeof(Index)), 0,
-                 std::to_string(levels) + " levels cross faces " + std::to_string(crossings) + " times, which",
-                 "ask for fewer levels");
+  require_memory(
+      crossings * kEach, memory,
+      std::to_string(levels) + " levels cross faces " + std::to_string(crossings) + " times: to hold the curves",
+      "ask for fewer levels");
 }
 
 // Per level the faces that it crosses, ascending.
 std::vector<std::vector<Index>> crossed_faces(const Mesh& mesh, std::span<const Index> rank, std::size_t levels) {
   std::vector<std::vector<Index>> crossed(levels);
   Poll poll;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto [first, end] = crossed_levels(mesh, rank, f);
+  const std::span<const Face> faces = mesh.faces();
+  for (Index f = 0; f < faces.size(); ++f) {
     poll();
-    for (Index level = first; level < end; ++level) {
-      poll();
-      crossed[level].push_back(f);
-    }
+    const auto [first, end] = crossed_levels(faces[f], rank);
+    for (Index level = first; level < end; ++level) crossed[level].push_back(f);
   }
   return crossed;
 }

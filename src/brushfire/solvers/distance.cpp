@@ -3,8 +3,8 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/text.h>
 #include <brushfire/core/populate.h>
+#include <brushfire/core/text.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/offsets.h>
@@ -214,7 +214,13 @@ struct DistanceSolver::Workspace {
 
   detail::Engine& engine(Method method);
   detail::Problem problem(const DistanceOptions& options, std::vector<Index>* list) const {
-    return {sources, targets, offsets.radius(options.max_distance, mesh.unit()), &options, list, offsets.bases(), current_cancel_token()};
+    return {sources,
+            targets,
+            offsets.radius(options.max_distance, mesh.unit()),
+            &options,
+            list,
+            offsets.bases(),
+            current_cancel_token()};
   }
   void clean(bool everything);
 };

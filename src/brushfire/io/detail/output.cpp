@@ -29,7 +29,7 @@ constexpr std::size_t kAtOnce = PIPE_BUF;   // what a pipe that can be written t
 
 Output::Output(const std::string& path) : name_(path == "-" ? "standard output" : path), buffer_(kBufferSize) {
   stop_if_cancelled();
-  struct stat status {};
+  struct stat status{};
   if (path == "-") {
     if (std::fflush(stdout) != 0) fail(std::string("cannot be written: ") + std::strerror(errno));
     descriptor_ = STDOUT_FILENO;
@@ -39,6 +39,7 @@ Output::Output(const std::string& path) : name_(path == "-" ? "standard output" 
   }
   if (path.find('\0') != std::string::npos) fail("a name with a zero byte in it is no file's");
   const bool exists = stat(path.c_str(), &status) == 0;
+  if (!exists && errno == ELOOP) fail(std::strerror(errno));
   if (exists && S_ISDIR(status.st_mode)) fail("is a directory");
   target_ = exists && !S_ISREG(status.st_mode) ? path : followed(path);
   if (exists && !S_ISREG(status.st_mode)) {

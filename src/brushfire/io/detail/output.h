@@ -16,7 +16,8 @@ namespace brushfire::detail {
 
 // Collects bytes in a buffer and writes them to a temporary beside the target, which commit() renames; without commit()
 // the temporary goes away. "-" is standard output; devices and pipes are written to directly, links are followed.
-// Everything that fails is Error(FileNotWritable). Listens to the thread's CancelScope, also while a pipe is waited for.
+// Everything that fails is Error(FileNotWritable). Listens to the thread's CancelScope, also while a pipe is waited
+// for.
 class Output {
  public:
   explicit Output(const std::string& path);

@@ -53,7 +53,7 @@ bool lock(int descriptor) {
 
 // Whether the name still means the file that is open: it may have been removed, and another one have been made.
 bool is_at(int descriptor, const std::string& path) {
-  struct stat open {}, named {};
+  struct stat open{}, named{};
   return fstat(descriptor, &open) == 0 && lstat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
          open.st_dev == named.st_dev;
 }
@@ -69,7 +69,7 @@ bool is_temporary_of(std::string_view name, std::string_view target) {
 void remove_if_nobody_holds(const std::string& path) {
   const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;
-  struct stat status {};
+  struct stat status{};
   const bool is_file = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
   if (is_file && lock(descriptor) && is_at(descriptor, path)) unlink(path.c_str());
   close(descriptor);
@@ -154,6 +154,15 @@ bool TemporaryFile::rename_to(const std::string& target) {
   path_.clear();
   close(std::exchange(descriptor_, -1));
   return true;
+}
+
+// Where the file cannot be made or the file system has no locks, nobody is kept out.
+FileLock::FileLock(const std::string& path) : descriptor_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  is_taken_ = descriptor_ >= 0 && !lock(descriptor_) && errno == EWOULDBLOCK;
+}
+
+FileLock::~FileLock() {
+  if (descriptor_ >= 0) close(descriptor_);
 }
 
 std::string followed(const std::string& path) {

@@ -5,9 +5,10 @@
 
 namespace brushfire::detail {
 
-// The rule (docs/files.md): a file PATH is written as PATH.part-XXXXXX in the same folder, X one of 0-9 and a-v. Whoever
-// writes it holds a lock on it (flock) for as long as the process lives. One that nobody holds was left by a process
-// that was killed: who writes the same PATH next removes it. Where the file system has no locks, none is removed.
+// The rule (docs/files.md): a file PATH is written as PATH.part-XXXXXX in the same folder, X one of 0-9 and a-v.
+// Whoever writes it holds a lock on it (flock) for as long as the process lives. One that nobody holds was left by a
+// process that was killed: who writes the same PATH next removes it. Where the file system has no locks, none is
+// removed.
 class TemporaryFile {
  public:
   TemporaryFile() = default;
@@ -31,8 +32,23 @@ class TemporaryFile {
   int descriptor_ = -1;
 };
 
-// Where a chain of symbolic links ends, whether or not there is anything: what is written under a link's name is written
-// there. The path itself where it is no link.
+// A lock that one process has: on a file that is made where there is none, until the object or the process ends.
+class FileLock {
+ public:
+  explicit FileLock(const std::string& path);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+  bool is_taken() const { return is_taken_; }  // by somebody else
+
+ private:
+  int descriptor_ = -1;
+  bool is_taken_ = false;
+};
+
+// Where a chain of symbolic links ends, whether or not there is anything: what is written under a link's name is
+// written there. The path itself where it is no link.
 std::string followed(const std::string& path);
 
 }  // namespace brushfire::detail

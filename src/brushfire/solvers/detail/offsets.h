@@ -40,8 +40,9 @@ class Offsets {
   void look_at(const Mesh& mesh);
 
   std::vector<double> bases_;
-  std::vector<Index> component_;  // [vertex_count] where it has been needed: the lowest vertex that hangs together with it
-  double beyond_all_ = 0;         // farther than any two points of a component are from each other
+  std::vector<Index>
+      component_;          // [vertex_count] where it has been needed: the lowest vertex that hangs together with it
+  double beyond_all_ = 0;  // farther than any two points of a component are from each other
 };
 
 }  // namespace brushfire::detail
