@@ -66,43 +66,44 @@ TEST_F(Lies, AStepThatIsTooSmallIsToldAsItIs) {
 }
 
 TEST_F(Lies, APositionOffTheSurfaceIsToldInWordsAndInJson) {
-  const std::vector<std::string> call{"distance", square(), "--source", "1000,2000,3000", "--target", "0,0,0.5"};
+  const std::vector<std::string> call{"distance", square(), "--source", "at:1000,2000,3000", "--target", "at:0,0,0.5"};
   const Ended words = run_program(call);
   EXPECT_EQ(words.code, 0);
-  EXPECT_NE(words.err.find("2 positions are off the surface, the farthest, '1000,2000,3000', 3740."), std::string::npos)
+  EXPECT_NE(words.err.find("2 positions are off the surface, the farthest, 'at:1000,2000,3000', 3740."),
+            std::string::npos)
       << words.err;
   std::vector<std::string> json = call;
   json.emplace_back("--json");
   const Ended object = run_program(json);
   EXPECT_NE(object.out.find("\"max_snap_distance\": 3740."), std::string::npos) << object.out;
-  EXPECT_NE(object.out.find("\"where\": \"0,0,0.5\",\n      \"distance\": 0.5"), std::string::npos) << object.out;
+  EXPECT_NE(object.out.find("\"where\": \"at:0,0,0.5\",\n      \"distance\": 0.5"), std::string::npos) << object.out;
 }
 
 TEST_F(Lies, APositionOnTheSurfaceIsNotRemarkedOn) {
-  EXPECT_EQ(run_program({"distance", square(), "--source", "0.25,0.5,0", "--target", "2"}).err, "");
+  EXPECT_EQ(run_program({"distance", square(), "--source", "at:0.25,0.5,0", "--target", "2"}).err, "");
 }
 
 TEST_F(Lies, SnapWithinRefusesWhatIsFarther) {
   const std::vector<std::vector<std::string>> calls{
-      {"distance", square(), "--source", "0,0,2"},
-      {"distance", square(), "--source", "0", "--target", "0,0,2"},
-      {"path", square(), "--from", "0,0,2", "--to", "1"},
-      {"isolines", square(), "--source", "0,0,2", "--count", "3", "-o", path("a.obj")},
-      {"render", square(), "--source", "0,0,2", "-o", path("a.png")},
-      {"bench", square(), "--source", "0,0,2", "--repeat", "1"},
+      {"distance", square(), "--source", "at:0,0,2"},
+      {"distance", square(), "--source", "0", "--target", "at:0,0,2"},
+      {"path", square(), "--from", "at:0,0,2", "--to", "1"},
+      {"isolines", square(), "--source", "at:0,0,2", "--count", "3", "-o", path("a.obj")},
+      {"render", square(), "--source", "at:0,0,2", "-o", path("a.png")},
+      {"bench", square(), "--source", "at:0,0,2", "--repeat", "1"},
   };
   for (auto call : calls) {
     call.insert(call.end(), {"--snap-within", "1.5"});
     const Ended refused = run_program(call);
     EXPECT_EQ(refused.code, kUsage) << call[0];
-    EXPECT_NE(refused.err.find("'0,0,2' is 2 from the surface, farther than --snap-within 1.5"), std::string::npos)
+    EXPECT_NE(refused.err.find("'at:0,0,2' is 2 from the surface, farther than --snap-within 1.5"), std::string::npos)
         << refused.err;
     call.back() = "2";
     EXPECT_EQ(run_program(call).code, 0) << call[0];
     call.back() = "-1";
     EXPECT_EQ(run_program(call).code, kUsage) << call[0];
   }
-  write("rows.txt", "0,0,2\n");
+  write("rows.txt", "at:0,0,2\n");
   EXPECT_EQ(
       run_program({"matrix", square(), "--rows", path("rows.txt"), "-o", path("a.npy"), "--snap-within", "1"}).code,
       kUsage);
