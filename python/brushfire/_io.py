@@ -80,6 +80,8 @@ def _content(source: Any, format: str | None) -> tuple[bytes, str]:
     elif is_file(source):
         name = source.name if isinstance(getattr(source, "name", None), str) else "file"
         source = source.read()
+    elif not isinstance(source, (bytes, bytearray, memoryview)):
+        raise TypeError(f"source: a path, bytes or an open file is needed, not {source!r}")
     content = source.encode() if isinstance(source, str) else bytes(source)
     return content, name if format is None else f"{name}.{format.lstrip('.')}"
 

@@ -81,3 +81,6 @@ def test_bytes_that_are_no_mesh_say_why():
     assert error.value.code == "file_not_readable"
     with pytest.raises(TypeError, match="format"):
         bf.from_any((V, F), format="obj")
+    for source in (5, 5.5, None, ["a.ply"], (V, F)):
+        with pytest.raises(TypeError, match="source"):
+            bf.read(source)
