@@ -25,7 +25,7 @@ def path_text(path: Any, what: str = "path") -> str:
 def floating_type(dtype: Any) -> np.dtype[Any]:
     """float32 or float64."""
     try:
-        wanted = np.dtype(dtype)
+        wanted: np.dtype[Any] = np.dtype(dtype)
     except TypeError:
         raise BrushfireTypeError(f"dtype: float32 or float64 are possible, not {dtype!r}") from None
     if wanted not in (np.dtype(np.float32), np.dtype(np.float64)):
