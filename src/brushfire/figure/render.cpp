@@ -1,6 +1,7 @@
 // Validation, panels, frame.
 #include <brushfire/figure/render.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/core/memory.h>
 #include <brushfire/figure/detail/legend.h>
@@ -76,8 +77,12 @@ void detail::check_request(std::span<const Panel> panels, const RenderOptions& o
 namespace {
 
 Image blank(int width, int height, bool transparent) {
-  Image picture(width, height);
-  if (!transparent) std::fill(picture.rgba.begin(), picture.rgba.end(), std::uint8_t{255});
+  Image picture;
+  picture.width = width;
+  picture.height = height;
+  const std::size_t bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  picture.rgba.reserve(bytes);
+  in_pieces(bytes, [&](std::size_t, std::size_t end) { picture.rgba.resize(end, transparent ? 0 : 255); });
   return picture;
 }
 

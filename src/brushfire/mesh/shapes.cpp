@@ -180,7 +180,7 @@ Shape cube(Index cells) {
   };
   Shape s;
   make_room(s, 6 * side + 2, 12 * side);
-  s.positions.resize(6 * side + 2);
+  in_pieces(6 * side + 2, [&](std::size_t, std::size_t end) { s.positions.resize(end); });
   Poll poll;
   // Corners of a cell on each side, as seen from outside: (u, v) to (i, j, k).
   const std::array<std::function<std::array<Index, 3>(Index, Index)>, 6> sides{
