@@ -3,9 +3,9 @@
 
 #include <brushfire/solvers/windows/detail/ridge.h>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
-void Envelope::add(const Window& w, double b0, double b1, double d0, double d1) {
+void Envelope::add(const Window& w, Real b0, Real b1, Real d0, Real d1) {
   if (!(b1 > b0)) return;
   if (!merged_.empty() && merged_.back().window == &w && merged_.back().b1 == b0) {
     merged_.back().b1 = b1;
@@ -16,14 +16,14 @@ void Envelope::add(const Window& w, double b0, double b1, double d0, double d1) 
 }
 
 // The lower of a and b on [p,q], where both are lit; xp, xq: their values at p and q.
-void Envelope::decide(const Part& a, const Part& b, double p, double q, double ap, double bp, double aq, double bq) {
+void Envelope::decide(const Part& a, const Part& b, Real p, Real q, Real ap, Real bp, Real aq, Real bq) {
   const Window &wa = *a.window, &wb = *b.window;
-  const double within = tie(std::max(ap, aq));
-  const auto settled = [&](double f) { return std::abs(f) <= within ? 0.0 : f; };
-  const double fp = settled(ap - bp), fq = settled(aq - bq);
+  const Real within = tie(std::max(ap, aq));
+  const auto settled = [&](Real f) { return abs(f) <= within ? 0.0 : f; };
+  const Real fp = settled(ap - bp), fq = settled(aq - bq);
   if (fp * fq < 0) {
-    const double z = ridge(wa, wb, p, q, fp, fq);
-    const double az = value_at(wa, z), bz = value_at(wb, z);
+    const Real z = ridge(wa, wb, p, q, fp, fq);
+    const Real az = value_at(wa, z), bz = value_at(wb, z);
     if (fp < 0) {
       add(wa, p, z, ap, az);
       add(wb, z, q, bz, bq);
@@ -34,18 +34,18 @@ void Envelope::decide(const Part& a, const Part& b, double p, double q, double a
     return;
   }
   // One is lower at both ends; the other may win between them, where the slopes are equal, and only there.
-  const double x = equal_slope(wa, wb);
-  const double ax = x > p && x < q ? value_at(wa, x) : 0, bx = x > p && x < q ? value_at(wb, x) : 0;
-  const double fx = settled(ax - bx);
+  const Real x = equal_slope(wa, wb);
+  const Real ax = x > p && x < q ? value_at(wa, x) : 0, bx = x > p && x < q ? value_at(wb, x) : 0;
+  const Real fx = settled(ax - bx);
   const bool a_at_ends = fp < 0 || fq < 0 || (fp == 0 && fq == 0 && (fx < 0 || (fx == 0 && wa.root <= wb.root)));
   const Window& outer = a_at_ends ? wa : wb;
   const Window& inner = a_at_ends ? wb : wa;
-  const double op = a_at_ends ? ap : bp, oq = a_at_ends ? aq : bq;
-  const double gain = a_at_ends ? fx : -fx;  // > 0: the inner one wins at x
+  const Real op = a_at_ends ? ap : bp, oq = a_at_ends ? aq : bq;
+  const Real gain = a_at_ends ? fx : -fx;  // > 0: the inner one wins at x
   if (gain <= 0) return add(outer, p, q, op, oq);
-  const double gp = a_at_ends ? -fp : fp, gq = a_at_ends ? -fq : fq;  // inner - outer at the ends, >= 0
-  const double z0 = gp > 0 ? ridge(inner, outer, p, x, gp, -gain) : p;
-  const double z1 = gq > 0 ? ridge(inner, outer, x, q, -gain, gq) : q;
+  const Real gp = a_at_ends ? -fp : fp, gq = a_at_ends ? -fq : fq;  // inner - outer at the ends, >= 0
+  const Real z0 = gp > 0 ? ridge(inner, outer, p, x, gp, -gain) : p;
+  const Real z1 = gq > 0 ? ridge(inner, outer, x, q, -gain, gq) : q;
   add(outer, p, z0, op, value_at(outer, z0));
   add(inner, z0, z1, value_at(inner, z0), value_at(inner, z1));
   add(outer, z1, q, value_at(outer, z1), oq);
@@ -62,18 +62,18 @@ void Envelope::merge(std::size_t i, std::size_t middle, std::size_t end) {
       add(*b.window, b.b0, b.b1, b.d0, b.d1);
       ++j;
     } else if (a.b0 < b.b0) {
-      const double d = value_at(*a.window, b.b0);
+      const Real d = value_at(*a.window, b.b0);
       add(*a.window, a.b0, b.b0, a.d0, d);
       a.b0 = b.b0;
       a.d0 = d;
     } else if (b.b0 < a.b0) {
-      const double d = value_at(*b.window, a.b0);
+      const Real d = value_at(*b.window, a.b0);
       add(*b.window, b.b0, a.b0, b.d0, d);
       b.b0 = a.b0;
       b.d0 = d;
     } else {
-      const double q = std::min(a.b1, b.b1);
-      const double aq = a.b1 == q ? a.d1 : value_at(*a.window, q), bq = b.b1 == q ? b.d1 : value_at(*b.window, q);
+      const Real q = std::min(a.b1, b.b1);
+      const Real aq = a.b1 == q ? a.d1 : value_at(*a.window, q), bq = b.b1 == q ? b.d1 : value_at(*b.window, q);
       decide(a, b, a.b0, q, a.d0, b.d0, aq, bq);
       a.b0 = b.b0 = q;
       a.d0 = aq;
@@ -123,4 +123,4 @@ std::span<Window> Envelope::operator()(std::span<const Window> windows) {
   return result_;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -5,14 +5,14 @@
 #include <bit>
 #include <cstring>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 void copy_windows(const WindowColumns& from, const WindowColumns& to, Index count) {
-  std::memcpy(to.b0, from.b0, count * sizeof(double));
-  std::memcpy(to.b1, from.b1, count * sizeof(double));
-  std::memcpy(to.x, from.x, count * sizeof(double));
-  std::memcpy(to.y, from.y, count * sizeof(double));
-  std::memcpy(to.sigma, from.sigma, count * sizeof(double));
+  std::memcpy(to.b0, from.b0, count * sizeof(Real));
+  std::memcpy(to.b1, from.b1, count * sizeof(Real));
+  std::memcpy(to.x, from.x, count * sizeof(Real));
+  std::memcpy(to.y, from.y, count * sizeof(Real));
+  std::memcpy(to.sigma, from.sigma, count * sizeof(Real));
   std::memcpy(to.root, from.root, count * sizeof(Index));
 }
 
@@ -25,7 +25,7 @@ WindowBlock BlockPool::allocate(Index windows) {
     free.pop_back();
     return block;
   }
-  const std::size_t n = block.capacity(), size = n * (5 * sizeof(double) + sizeof(Index));
+  const std::size_t n = block.capacity(), size = n * (5 * sizeof(Real) + sizeof(Index));
   if (size > left_) {
     chunks_.emplace_back(std::max(size, kChunk));
     if (size > kChunk) {  // a chunk of its own; the current one stays in use
@@ -129,7 +129,7 @@ void ExactLists::prefetch_windows(Index first) const {
   constexpr std::size_t kLine = 64, kMost = 16;  // lines
   if (first == kNoIndex) return;
   const WindowList& list = links_[first].list;
-  const std::size_t column = list.block.capacity() * sizeof(double), used = list.size * sizeof(double);
+  const std::size_t column = list.block.capacity() * sizeof(Real), used = list.size * sizeof(Real);
   std::size_t lines = 0;
   for (std::size_t c = 0; c < 5; ++c) {
     for (std::size_t at = 0; at < used && lines < kMost; at += kLine, ++lines) {
@@ -143,4 +143,4 @@ void ExactLists::clear() {
   free_link_ = kNoIndex;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -9,38 +9,38 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
-double value_of(const WindowColumns& w, Index i, double at) { return w.sigma[i] + length_of(at - w.x[i], w.y[i]); }
+Real value_of(const WindowColumns& w, Index i, Real at) { return w.sigma[i] + length_of(at - w.x[i], w.y[i]); }
 
 // The usual case for a whole list at once: window i reaches into the next one, j = i + 1, and is the lower one where
 // their overlap begins, the next one where it ends, so that both end at the ridge. ridge_in_closed_form() says how that
 // is found. plain: 1 where all that holds.
-BRUSHFIRE_WIDE void ridges(const double* __restrict b0, const double* __restrict b1, const double* __restrict x,
-                           const double* __restrict y, const double* __restrict sigma, const double* __restrict d0,
-                           const double* __restrict d1, std::ptrdiff_t pairs, double* __restrict ridge,
-                           double* __restrict value_i, double* __restrict value_j, double* __restrict plain) {
+BRUSHFIRE_WIDE void ridges(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict x,
+                           const Real* __restrict y, const Real* __restrict sigma, const Real* __restrict d0,
+                           const Real* __restrict d1, std::ptrdiff_t pairs, Real* __restrict ridge,
+                           Real* __restrict value_i, Real* __restrict value_j, Real* __restrict plain) {
   for (std::ptrdiff_t i = 0; i < pairs; ++i) {
     const std::ptrdiff_t j = i + 1;
-    const double p = b0[j], q = b1[i];
-    const double ax = x[i] - p, bx = x[j] - p, ay = y[i], by = y[j], bqx = x[j] - q;
-    const double ip = sigma[i] + std::sqrt(ax * ax + ay * ay), jq = sigma[j] + std::sqrt(bqx * bqx + by * by);
-    const double within = tie(ip > d1[i] ? ip : d1[i]);
-    const double d = sigma[j] - sigma[i];
-    const double slope = 2 * (bx - ax);
-    const double rest = (ax - bx) * (ax + bx) + (ay - by) * (ay + by) - d * d;
-    const double qa = slope * slope - 4 * d * d, qb = slope * rest + 4 * d * d * bx;
-    const double qc = rest * rest - 4 * d * d * (bx * bx + by * by);
-    const double discriminant = qb * qb - qa * qc;
-    const double root = std::sqrt(discriminant > 0 ? discriminant : 0.0);
-    const double sum = qb > 0 ? -(qb + root) : root - qb;
-    const double x1 = sum / qa, x2 = qc / sum, x0 = -rest / slope, length = q - p;
+    const Real p = b0[j], q = b1[i];
+    const Real ax = x[i] - p, bx = x[j] - p, ay = y[i], by = y[j], bqx = x[j] - q;
+    const Real ip = sigma[i] + sqrt(ax * ax + ay * ay), jq = sigma[j] + sqrt(bqx * bqx + by * by);
+    const Real within = tie(ip > d1[i] ? ip : d1[i]);
+    const Real d = sigma[j] - sigma[i];
+    const Real slope = 2 * (bx - ax);
+    const Real rest = (ax - bx) * (ax + bx) + (ay - by) * (ay + by) - d * d;
+    const Real qa = slope * slope - 4 * d * d, qb = slope * rest + 4 * d * d * bx;
+    const Real qc = rest * rest - 4 * d * d * (bx * bx + by * by);
+    const Real discriminant = qb * qb - qa * qc;
+    const Real root = sqrt(discriminant > 0 ? discriminant : 0.0);
+    const Real sum = qb > 0 ? -(qb + root) : root - qb;
+    const Real x1 = sum / qa, x2 = qc / sum, x0 = -rest / slope, length = q - p;
     const bool fits1 = (x1 >= 0) & (x1 <= length) & ((slope * x1 + rest) * d >= 0);
-    const double z = p + (d == 0 ? x0 : (fits1 ? x1 : x2));
-    const double azx = z - x[i], bzx = z - x[j];
-    const double iz = sigma[i] + std::sqrt(azx * azx + ay * ay), jz = sigma[j] + std::sqrt(bzx * bzx + by * by);
-    const double off = iz > jz ? iz - jz : jz - iz;
+    const Real z = p + (d == 0 ? x0 : (fits1 ? x1 : x2));
+    const Real azx = z - x[i], bzx = z - x[j];
+    const Real iz = sigma[i] + sqrt(azx * azx + ay * ay), jz = sigma[j] + sqrt(bzx * bzx + by * by);
+    const Real off = iz > jz ? iz - jz : jz - iz;
     ridge[i] = z;
     value_i[i] = iz;
     value_j[i] = jz;
@@ -55,17 +55,16 @@ BRUSHFIRE_WIDE void ridges(const double* __restrict b0, const double* __restrict
 bool on_edge(const WindowColumns& w, Index i) {
   return -w.y[i] <= kOnEdge * (w.b1[i] - w.b0[i]) && w.x[i] > w.b0[i] && w.x[i] < w.b1[i];
 }
-BRUSHFIRE_WIDE std::int64_t nearly_on_edge(const double* __restrict b0, const double* __restrict b1,
-                                           const double* __restrict y, std::ptrdiff_t count) {
+BRUSHFIRE_WIDE std::int64_t nearly_on_edge(const Real* __restrict b0, const Real* __restrict b1,
+                                           const Real* __restrict y, std::ptrdiff_t count) {
   std::int64_t found = 0;
   for (std::ptrdiff_t i = 0; i < count; ++i) found += -y[i] <= kOnEdge * (b1[i] - b0[i]) ? 1 : 0;
   return found;
 }
 
 // How many of the windows another path makes superfluous (is_dominated()) or lie beyond the radius.
-BRUSHFIRE_WIDE std::int64_t useless(const double* __restrict b0, const double* __restrict b1,
-                                    const double* __restrict d0, const double* __restrict d1, std::ptrdiff_t count,
-                                    EdgeBounds edge, double radius) {
+BRUSHFIRE_WIDE std::int64_t useless(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict d0,
+                                    const Real* __restrict d1, std::ptrdiff_t count, EdgeBounds edge, Real radius) {
   std::int64_t found = 0;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const std::int64_t by_start = edge.start + b1[i] < d1[i] * kDominated;
@@ -78,7 +77,7 @@ BRUSHFIRE_WIDE std::int64_t useless(const double* __restrict b0, const double* _
 
 }  // namespace
 
-void ListTrimmer::operator()(WindowList& list, const EdgeBounds& edge, double radius, BlockPool& blocks) {
+void ListTrimmer::operator()(WindowList& list, const EdgeBounds& edge, Real radius, BlockPool& blocks) {
   list.age = 0;
   drop_dominated(list, edge, radius);
   if (!list.ordered) return replace_by_envelope(list, blocks);
@@ -93,10 +92,10 @@ void ListTrimmer::operator()(WindowList& list, const EdgeBounds& edge, double ra
 }
 
 // Leaves the values at the ends in d0_ and d1_.
-void ListTrimmer::drop_dominated(WindowList& list, const EdgeBounds& edge, double radius) {
+void ListTrimmer::drop_dominated(WindowList& list, const EdgeBounds& edge, Real radius) {
   const WindowColumns w = list.block.columns();
   if (d0_.size() < list.size) {
-    for (std::vector<double>* column : {&d0_, &d1_, &ridge_, &ridge_a_, &ridge_b_, &plain_}) {
+    for (std::vector<Real>* column : {&d0_, &d1_, &ridge_, &ridge_a_, &ridge_b_, &plain_}) {
       column->resize(2 * list.size);
     }
   }
@@ -104,7 +103,7 @@ void ListTrimmer::drop_dominated(WindowList& list, const EdgeBounds& edge, doubl
   if (useless(w.b0, w.b1, d0_.data(), d1_.data(), list.size, edge, radius) == 0) return;
   Index count = 0;
   for (Index i = 0; i < list.size; ++i) {
-    const double b0 = w.b0[i], b1 = w.b1[i], d0 = d0_[i], d1 = d1_[i];
+    const Real b0 = w.b0[i], b1 = w.b1[i], d0 = d0_[i], d1 = d1_[i];
     if (is_dominated(edge, b0, b1, d0, d1) || 0.5 * (d0 + d1 - (b1 - b0)) > radius) continue;
     if (count != i) w.move(count, i);
     d0_[count] = d0;
@@ -153,25 +152,25 @@ void ListTrimmer::sweep(const WindowColumns& w, Index count) {
 
 // Two windows that overlap: each loses what it was shown to lose, if that is at one of its ends.
 void ListTrimmer::settle(const WindowColumns& w, Index a, Index b) {
-  const double p = std::max(w.b0[a], w.b0[b]), q = std::min(w.b1[a], w.b1[b]);
-  const double ap = p == w.b0[a] ? d0_[a] : value_of(w, a, p), bp = p == w.b0[b] ? d0_[b] : value_of(w, b, p);
-  const double aq = q == w.b1[a] ? d1_[a] : value_of(w, a, q), bq = q == w.b1[b] ? d1_[b] : value_of(w, b, q);
-  const double within = tie(std::max(ap, aq));
-  const auto settled = [&](double f) { return std::abs(f) <= within ? 0.0 : f; };
-  const double fp = settled(ap - bp), fq = settled(aq - bq);
-  const auto cut_left = [&](Index i, double to, double value) {
+  const Real p = std::max(w.b0[a], w.b0[b]), q = std::min(w.b1[a], w.b1[b]);
+  const Real ap = p == w.b0[a] ? d0_[a] : value_of(w, a, p), bp = p == w.b0[b] ? d0_[b] : value_of(w, b, p);
+  const Real aq = q == w.b1[a] ? d1_[a] : value_of(w, a, q), bq = q == w.b1[b] ? d1_[b] : value_of(w, b, q);
+  const Real within = tie(std::max(ap, aq));
+  const auto settled = [&](Real f) { return abs(f) <= within ? 0.0 : f; };
+  const Real fp = settled(ap - bp), fq = settled(aq - bq);
+  const auto cut_left = [&](Index i, Real to, Real value) {
     w.b0[i] = to;
     d0_[i] = value;
   };
-  const auto cut_right = [&](Index i, double to, double value) {
+  const auto cut_right = [&](Index i, Real to, Real value) {
     w.b1[i] = to;
     d1_[i] = value;
   };
   if (fp * fq < 0) {
     const Vec2 s{w.x[a], w.y[a]}, t{w.x[b], w.y[b]};
-    double z = p + ridge_in_closed_form(s, t, w.sigma[b] - w.sigma[a], p, q - p);
-    double az = value_of(w, a, z), bz = value_of(w, b, z);
-    if (!(z >= p && z <= q && std::abs(az - bz) <= within)) {
+    Real z = p + ridge_in_closed_form(s, t, w.sigma[b] - w.sigma[a], p, q - p);
+    Real az = value_of(w, a, z), bz = value_of(w, b, z);
+    if (!(z >= p && z <= q && abs(az - bz) <= within)) {
       z = ridge(w.window(a), w.window(b), p, q, fp, fq);
       az = value_of(w, a, z);
       bz = value_of(w, b, z);
@@ -186,9 +185,9 @@ void ListTrimmer::settle(const WindowColumns& w, Index a, Index b) {
   bool a_wins = fp < 0 || fq < 0;
   const bool draw = fp == 0 && fq == 0;
   if (draw || (a_wins ? w.sigma[b] > w.sigma[a] : w.sigma[a] > w.sigma[b])) {
-    const double along = w.y[b] - w.y[a];
-    const double x = along == 0 ? kInfinity : (w.x[a] * w.y[b] - w.y[a] * w.x[b]) / along;
-    const double fx = x > p && x < q ? settled(value_of(w, a, x) - value_of(w, b, x)) : 0;
+    const Real along = w.y[b] - w.y[a];
+    const Real x = along == 0 ? kInfinity : (w.x[a] * w.y[b] - w.y[a] * w.x[b]) / along;
+    const Real fx = x > p && x < q ? settled(value_of(w, a, x) - value_of(w, b, x)) : 0;
     if (draw) {
       a_wins = fx < 0 || (fx == 0 && w.root[a] <= w.root[b]);
     } else if (a_wins ? fx > 0 : fx < 0) {
@@ -221,4 +220,4 @@ void ListTrimmer::replace_by_envelope(WindowList& list, BlockPool& blocks) {
   for (const Window& window : uncut_) out.set(count++, window);
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
 // How many events ahead each step of prefetching is.
@@ -163,7 +163,7 @@ Index Part::label_of(Index root) const {
   return first_ <= root && root < last_ ? run_->origins[root].label : labels_.at(root);
 }
 
-void Part::accept(Index v, double value, const Ray& ray, bool all_around) {
+void Part::accept(Index v, Real value, const Ray& ray, bool all_around) {
   if (!take(v, value, ray, all_around)) return;
   for (Index c = run_->values[v].next_copy; c != v && c != kNoIndex; c = run_->values[c].next_copy) {
     send_label(run_->structure.part_of_vertex(c), ray.root);
@@ -172,9 +172,9 @@ void Part::accept(Index v, double value, const Ray& ray, bool all_around) {
 }
 
 // False where it is nothing new.
-bool Part::take(Index v, double value, const Ray& ray, bool all_around) {
-  double& least = run_->values[v].lower;
-  const double before = least;
+bool Part::take(Index v, Real value, const Ray& ray, bool all_around) {
+  Real& least = run_->values[v].lower;
+  const Real before = least;
   const bool lower = value < before;
   if (!lower && (!run_->several || value > before || label_of(ray.root) >= run_->origins[v].label)) return false;
   least = value;
@@ -193,7 +193,7 @@ bool Part::take(Index v, double value, const Ray& ray, bool all_around) {
 
 // Along a ray or, where it is not `straight`, by a detour: a real path, but not one to follow back. Targets may lie on
 // an edge between two parts: they are told when all parts have stopped.
-void Part::offer_target(Index target, double value, double slack, double lift, const Ray& ray, bool straight) {
+void Part::offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight) {
   const TargetState& t = run_->targets[target];
   if (value + slack >= t.upper && !(straight && value <= t.lower)) return;
   traffic_->outbox.to_targets.push_back({target, value, slack, lift, ray, straight});
@@ -218,7 +218,7 @@ void Part::send_news() {
 }
 
 // Of another copy of v.
-void Part::hear(Index v, double upper, double estimate) {
+void Part::hear(Index v, Real upper, Real estimate) {
   VertexValues& at = run_->values[v];
   if (at.upper == kInfinity) touch(v, upper);
   at.upper = std::min(at.upper, upper);
@@ -237,4 +237,4 @@ void Part::receive(const Mail::WholeList& list, Workbench& bench) {
   queue_list(f, list.halfedge, nearer_end(f, list.halfedge % 3));
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Lists of exact runs are trimmed when their windows have crossed this many faces.
@@ -25,7 +25,7 @@ void Part::spread_list(Index h) {
   bench_->blocks.release(list.block);
 }
 
-inline void Part::offer_apex(Index apex, double value, const WindowColumns& w, Index i, Index h) {
+inline void Part::offer_apex(Index apex, Real value, const WindowColumns& w, Index i, Index h) {
   reach(apex, value);
   offer(apex, value, {{w.x[i], w.y[i]}, h, w.root[i], WindowKind::Circular}, false);
 }
@@ -33,7 +33,7 @@ inline void Part::offer_apex(Index apex, double value, const WindowColumns& w, I
 // What the list is to the apex. Returns the window that is best there among those that see it, if any.
 inline Index Part::reach_apex(Index h, const Frame& frame, const WindowColumns& w, Index count) {
   const Index apex = run_->structure.faces[h / 3].vertex[previous3(h % 3)];
-  double* const value = bench_->sight.value.data();
+  Real* const value = bench_->sight.value.data();
   const auto sees = [&](Index i) { return bench_->sight.left[i] > 0 && bench_->sight.right[i] > 0; };
   while (true) {
     const Index i = least_of(value, count);
@@ -51,7 +51,7 @@ inline Index Part::reach_apex(Index h, const Frame& frame, const WindowColumns& 
   // Nobody sees it: paths that bend where the windows next to it end.
   Index right = 0;
   while (right < count && bench_->sight.left[right] > 0) ++right;
-  const auto bend = [&](Index i, double x) {
+  const auto bend = [&](Index i, Real x) {
     reach(apex, w.sigma[i] + length_of(x - w.x[i], w.y[i]) + length_of(frame.apex.x - x, frame.apex.y));
   };
   if (right > 0) bend(right - 1, w.b1[right - 1]);
@@ -122,4 +122,4 @@ void Part::hand_over(Index h, const WindowList& list, Origin origin) {
   bench_->blocks.release(list.block);
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
 // A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
 // directions: limit rays through the corner are known to epsilon / share only.
-constexpr double kNear = 1e-3;
+constexpr Real kNear = 1e-3;
 
 }  // namespace
 
@@ -97,7 +97,7 @@ void Part::spread(Index h) {
 std::span<Window> Part::set_apart(std::span<Window> windows) {
   const auto others = std::stable_partition(windows.begin(), windows.end(), is_on_edge);
   for (auto w = windows.begin(); w != others; ++w) {
-    const double x = w->source.x;
+    const Real x = w->source.x;
     const bool beaten = std::any_of(windows.begin(), windows.end(), [&](const Window& o) {
       return o.b0 <= x && x <= o.b1 && value_at(o, x) - w->source.y < w->sigma - tie(w->sigma);
     });
@@ -167,7 +167,7 @@ void Part::pass(Index h, const Frame& frame, const Window& waiting) {
   if (run_->problem->options->keep_windows) kept_.push_back({run_->structure.outer_halfedge(h), w});
   if (frame.apex.y == 0 && w.source.y == 0) return pass_along(h, frame, w);
   const Division d = divide(w, frame.apex);
-  const double apex_value = straight_value(w, frame.apex);
+  const Real apex_value = straight_value(w, frame.apex);
   if (d.lit_left() && frame.left > 0) {
     const Window l = left_child(w, frame, d, apex_value);
     if (is_lit(l)) cross_edge(3 * (h / 3) + previous3(h % 3), l);
@@ -181,10 +181,10 @@ void Part::pass(Index h, const Frame& frame, const Window& waiting) {
 // Light from a point on the edge of a face without area: the point lies on another edge as well.
 void Part::pass_along(Index h, const Frame& frame, const Window& w) {
   const Index face = 3 * (h / 3), k = h % 3;
-  const double apex = frame.apex.x, x = w.source.x;
+  const Real apex = frame.apex.x, x = w.source.x;
   Window out = w;
   out.b0 = 0;
-  const auto send = [&](Index edge, double length, double from_start) {
+  const auto send = [&](Index edge, Real length, Real from_start) {
     out.source = {from_start, 0};
     out.b1 = length;
     out.d0 = value_at(out, 0);
@@ -224,16 +224,16 @@ void Part::shine_through(Index v, Index corner) {
   }
   for (const Index j : {next3(i), previous3(i)}) {
     if (f.vertex[j] == v) continue;
-    const double value = run_->values[v].lower + f.length[j == next3(i) ? i : j];
+    const Real value = run_->values[v].lower + f.length[j == next3(i) ? i : j];
     reach(f.vertex[j], value + slack_of(v));
     expect(f.vertex[j], value, lift_of(v));
     offer(f.vertex[j], value, {{}, kNoIndex, v, WindowKind::Circular}, false);
   }
 }
 
-double Part::slack_of(Index v) const { return std::max(0.0, run_->values[v].upper - run_->values[v].lower); }
-double Part::lift_of(Index v) const {
-  return std::clamp(run_->values[v].estimate - run_->values[v].lower, 0.0, slack_of(v));
+Real Part::slack_of(Index v) const { return std::max(Real{0}, run_->values[v].upper - run_->values[v].lower); }
+Real Part::lift_of(Index v) const {
+  return std::clamp(run_->values[v].estimate - run_->values[v].lower, Real{0}, slack_of(v));
 }
 
 // Along the sector's edges to their ends, and through its face.
@@ -253,11 +253,11 @@ void Part::shine_into(Index v, Sector sector) {
 }
 
 // Along the edge from v to corner j of a face that contains both.
-void Part::shine_along(Index v, Index face, Index j, double length) {
+void Part::shine_along(Index v, Index face, Index j, Real length) {
   const WindowFace& f = run_->structure.faces[face];
   const Index opposite = next3(j);  // the halfedge opposite of corner j; v is one of its ends
-  const double x = f.vertex[opposite] == v ? 0 : f.length[opposite];
-  const double value = run_->values[v].lower + length;
+  const Real x = f.vertex[opposite] == v ? 0 : f.length[opposite];
+  const Real value = run_->values[v].lower + length;
   reach(f.vertex[j], value + slack_of(v));
   expect(f.vertex[j], value, lift_of(v));
   const bool framed = f.length[opposite] > 0;
@@ -266,18 +266,18 @@ void Part::shine_along(Index v, Index face, Index j, double length) {
 
 // ---- sources
 
-void Part::start_at_vertex(Index v, double sigma, Index root) {
+void Part::start_at_vertex(Index v, Real sigma, Index root) {
   reach(v, sigma);
   expect(v, sigma, 0);
   offer(v, sigma, {{}, kNoIndex, root, WindowKind::Circular}, true);
 }
 
 // Straight to the corners, and through the edges that the source does not lie on.
-void Part::start_in_face(const FaceWeights& at, double sigma, Index root, Workbench& bench) {
+void Part::start_in_face(const FaceWeights& at, Real sigma, Index root, Workbench& bench) {
   bench_ = &bench;
   const WindowFace& f = run_->structure.faces[at.face];
-  const std::array<double, 3> distance = corner_distances_of(run_->structure, at);
-  const double longest = std::max({f.length[0], f.length[1], f.length[2]});
+  const std::array<Real, 3> distance = corner_distances_of(run_->structure, at);
+  const Real longest = std::max({f.length[0], f.length[1], f.length[2]});
   for (Index k = 0; k < 3; ++k) {
     const Index h = 3 * at.face + next3(k);  // opposite of corner k
     Ray ray{{}, kNoIndex, root, WindowKind::Circular};
@@ -285,7 +285,7 @@ void Part::start_in_face(const FaceWeights& at, double sigma, Index root, Workbe
       ray.halfedge = h;
       ray.source = in_frame(frame_of(f, next3(k)), next3(k), at.weights);
     }
-    const double value = sigma + distance[k];
+    const Real value = sigma + distance[k];
     reach(f.vertex[k], value);
     expect(f.vertex[k], value, 0);
     offer(f.vertex[k], value, ray, ray.halfedge == kNoIndex || distance[k] < kNear * longest);
@@ -304,7 +304,7 @@ void Part::start_in_face(const FaceWeights& at, double sigma, Index root, Workbe
   run_->targets.for_each_in(at.face, [&](const TargetInFace& t) {
     const Index k = f.length[0] > 0 ? 0 : 1;
     if (!(f.length[k] > 0)) return;
-    std::array<double, 3> step;
+    std::array<Real, 3> step;
     for (std::size_t i = 0; i < 3; ++i) step[i] = t.weights[i] - at.weights[i];
     const Vec2 d = in_frame(frame_of(f, k), k, step);
     const Vec2 source = in_frame(frame_of(f, k), k, at.weights);
@@ -312,4 +312,4 @@ void Part::start_in_face(const FaceWeights& at, double sigma, Index root, Workbe
   });
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -18,13 +18,13 @@
 #include <chrono>
 #include <limits>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Exact runs are quicker with narrower buckets.
-constexpr double kExactBucket = 0.2;
+constexpr Real kExactBucket = 0.2;
 // In buckets: exact runs not farther than this take windows one by one, lists of them would stay short.
-constexpr double kShort = 8;
+constexpr Real kShort = 8;
 
 // What working on a part takes in a round, more or less.
 constexpr std::chrono::microseconds kPatience{20};
@@ -95,7 +95,7 @@ class WindowEngine final : public Engine {
   }
 
   MergeOutlook outlook() const {
-    return {static_cast<double>(run_.structure.mesh.vertex_count()), static_cast<double>(run_.problem->sources.size()),
+    return {static_cast<Real>(run_.structure.mesh.vertex_count()), static_cast<Real>(run_.problem->sources.size()),
             run_.structure.typical_defect};
   }
 
@@ -104,7 +104,7 @@ class WindowEngine final : public Engine {
   void start(const LocatedSource& s) {
     const WindowStructure& structure = run_.structure;
     const Index root = structure.vertex_count() + s.label;
-    const double sigma = s.offset + run_.shift;
+    const Real sigma = s.offset + run_.shift;
     if (s.at.on == PointLocation::On::Vertex) {
       const Index v = structure.inner_vertex(s.at.vertex);
       active_part(structure.part_of_vertex(v)).start_at_vertex(v, sigma, root);
@@ -173,16 +173,16 @@ class WindowEngine final : public Engine {
     if (updates_ >= next_target_check_) narrow_radius();
   }
 
-  double share_done() const {
+  Real share_done() const {
     std::size_t touched = 0;
     for (const Part& p : parts_) touched += p.touched_count();
-    return static_cast<double>(touched) / run_.structure.vertex_count();
+    return static_cast<Real>(touched) / run_.structure.vertex_count();
   }
 
   // Nothing beyond the farthest target matters once all have been reached.
   void narrow_radius() {
     next_target_check_ = updates_ + run_.targets.size() + 256;
-    double farthest = 0;
+    Real farthest = 0;
     for (Index i = 0; i < run_.targets.size(); ++i) {
       const PointLocation& at = run_.problem->targets[i];
       const bool vertex = at.on == PointLocation::On::Vertex;
@@ -262,4 +262,4 @@ std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits, Mergi
   return std::make_unique<WindowEngine>(mesh, part_bits, merging);
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

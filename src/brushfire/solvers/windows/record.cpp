@@ -5,10 +5,10 @@
 
 #include <bit>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
-Vec2 in_frame(const Frame& frame, Index k, const std::array<double, 3>& weights) {
-  const double along = weights[next3(k)], up = weights[previous3(k)];
+Vec2 in_frame(const Frame& frame, Index k, const std::array<Real, 3>& weights) {
+  const Real along = weights[next3(k)], up = weights[previous3(k)];
   return {along * frame.length + up * frame.apex.x, up * frame.apex.y};
 }
 
@@ -68,4 +68,4 @@ std::vector<FaceWeights> faces_around(const Mesh& mesh, const PointLocation& at)
   return result;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

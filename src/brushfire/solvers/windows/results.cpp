@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 void Results::write(std::vector<Index>& scratch, ThreadTeam* team) {
   finish_targets();
@@ -20,7 +20,7 @@ Index Results::label_of(Index root) const {
   return root >= n ? root - n : run_.several ? run_.origins[root].label : 0;
 }
 
-void Results::offer_target(Index target, double value, double slack, double lift, const Ray& ray, bool straight) {
+void Results::offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight) {
   TargetState& t = run_.targets[target];
   t.upper = std::min(t.upper, value + slack);
   if (!straight) return;
@@ -33,13 +33,13 @@ void Results::offer_target(Index target, double value, double slack, double lift
 // Around the corners of a target's face.
 void Results::finish_targets() {
   for (const TargetInFace& t : run_.targets.in_faces()) {
-    const std::array<double, 3> d = corner_distances_of(run_.structure, {t.face, t.weights});
+    const std::array<Real, 3> d = corner_distances_of(run_.structure, {t.face, t.weights});
     for (Index k = 0; k < 3; ++k) {
       const Index v = run_.structure.faces[t.face].vertex[k];
       const VertexValues& at = run_.values[v];
       if (at.upper == kInfinity) continue;
-      const double slack = std::max(0.0, at.upper - at.lower);
-      offer_target(t.target, at.lower + d[k], slack, std::clamp(at.estimate - at.lower, 0.0, slack),
+      const Real slack = std::max(Real{0}, at.upper - at.lower);
+      offer_target(t.target, at.lower + d[k], slack, std::clamp(at.estimate - at.lower, Real{0}, slack),
                    {{}, kNoIndex, v, WindowKind::Circular});
     }
   }
@@ -128,7 +128,7 @@ void Results::write_targets() {
   }
 }
 
-Reading Results::read(double lower, double upper, double estimate, Index label) const {
+Reading Results::read(Real lower, Real upper, Real estimate, Index label) const {
   return detail::read(lower, upper, estimate, run_.start_of(label), run_.budget.share, run_.problem->options->bound);
 }
 
@@ -152,7 +152,7 @@ void Results::keep() {
   data->bases.assign(run_.problem->bases.begin(), run_.problem->bases.end());
   data->shift = run_.shift;
   PointRecord unknown;
-  if (run_.radius < kInfinity) unknown.value = std::numeric_limits<double>::quiet_NaN();
+  if (run_.radius < kInfinity) unknown.value = std::numeric_limits<Real>::quiet_NaN();
   constexpr Index kMany =
       4;  // of as many vertices one was touched: looking for its record costs more than room for all
   if (run_.problem->touched && run_.problem->touched->size() < mesh.vertex_count() / kMany) {
@@ -186,4 +186,4 @@ void Results::keep() {
   field_.windows = std::make_shared<WindowField>(std::move(data));
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -1,22 +1,22 @@
 // The crossing of two windows: closed form, checked, with a bracketed search behind it.
 #include <brushfire/solvers/windows/detail/ridge.h>
 
-namespace brushfire::detail {
-double ridge(const Window& a, const Window& b, double p, double q, double fp, double fq) {
-  const auto difference = [&](double x) { return value_at(a, x) - value_at(b, x); };
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+Real ridge(const Window& a, const Window& b, Real p, Real q, Real fp, Real fq) {
+  const auto difference = [&](Real x) { return value_at(a, x) - value_at(b, x); };
   if (a.kind == WindowKind::Circular && b.kind == WindowKind::Circular) {
-    const double x = p + ridge_in_closed_form(a.source, b.source, b.sigma - a.sigma, p, q - p);
-    if (x >= p && x <= q && std::abs(difference(x)) <= tie(value_at(a, x))) return x;
+    const Real x = p + ridge_in_closed_form(a.source, b.source, b.sigma - a.sigma, p, q - p);
+    if (x >= p && x <= q && abs(difference(x)) <= tie(value_at(a, x))) return x;
   }
   // Illinois: false position that halves the weight of an end which has stayed twice; bisection from then on.
   constexpr int kFalsePositions = 24, kSteps = 90;
-  double x = p;
+  Real x = p;
   int stayed = 0;
   for (int step = 0; step < kSteps; ++step) {
     x = step < kFalsePositions ? p + (q - p) * (fp / (fp - fq)) : 0.5 * (p + q);
     x = std::clamp(x, p, q);
-    const double f = difference(x);
-    if (std::abs(f) <= 0.25 * tie(value_at(a, x)) || x == p || x == q) return x;
+    const Real f = difference(x);
+    if (abs(f) <= 0.25 * tie(value_at(a, x)) || x == p || x == q) return x;
     if ((f < 0) == (fp < 0)) {
       p = x;
       fp = f;
@@ -32,4 +32,4 @@ double ridge(const Window& a, const Window& b, double p, double q, double fp, do
   return x;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

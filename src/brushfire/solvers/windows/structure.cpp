@@ -16,7 +16,7 @@
 #include <tuple>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Which halfedges are over the same edge, and what the faces around a vertex form: by inner numbers.
@@ -72,7 +72,7 @@ class FacesInOrder {
   const LocalityOrder& order_;
   std::span<const Face> faces_;
   std::span<const Vec3> positions_;
-  double scale_;
+  Real scale_;
 };
 
 Beyond beyond(std::span<const WindowFace> faces, std::span<const Index> opposite, Index h) {
@@ -85,18 +85,18 @@ Beyond beyond(std::span<const WindowFace> faces, std::span<const Index> opposite
 // What is typical of a mesh is found in as many places, more or less.
 constexpr std::size_t kSample = 4096;
 
-double median(std::span<double> numbers) {
+Real median(std::span<Real> numbers) {
   const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
   std::nth_element(numbers.begin(), middle, numbers.end());
   return *middle;
 }
 
 // Half the median edge (of a sample): the mean says nothing where few long edges stand beside many short ones.
-double typical_bucket(std::span<const WindowFace> faces) {
-  std::vector<double> sample;
+Real typical_bucket(std::span<const WindowFace> faces) {
+  std::vector<Real> sample;
   const std::size_t stride = std::max<std::size_t>(1, 3 * faces.size() / kSample);
   for (std::size_t h = 0; h < 3 * faces.size(); h += stride) {
-    const double length = faces[h / 3].length[h % 3];
+    const Real length = faces[h / 3].length[h % 3];
     if (length > 0) sample.push_back(length);
   }
   if (sample.empty()) return 1;
@@ -106,16 +106,16 @@ double typical_bucket(std::span<const WindowFace> faces) {
 // The sum of angles in (0, pi), as the product of as many turns of the plane: an arc tangent for each would take longer
 // than all the rest.
 struct AngleSum {
-  double x = 1, y = 0;  // the sum's direction
-  Index turns = 0;      // that are full
+  Real x = 1, y = 0;  // the sum's direction
+  Index turns = 0;    // that are full
 
   // An angle of these cosine and sine.
-  void add(double cosine, double sine) {
-    const double turned_x = x * cosine - y * sine, turned_y = x * sine + y * cosine;
+  void add(Real cosine, Real sine) {
+    const Real turned_x = x * cosine - y * sine, turned_y = x * sine + y * cosine;
     turns += y < 0 && turned_y >= 0 ? 1 : 0;
     x = turned_x, y = turned_y;
   }
-  double value() const { return 2 * kPi * (turns + (y < 0 ? 1 : 0)) + std::atan2(y, x); }
+  Real value() const { return 2 * kPi * (turns + (y < 0 ? 1 : 0)) + atan2(y, x); }
   bool exceeds_pi() const { return (turns > 0 || y < 0) && value() > kPi + kFlat; }
   bool exceeds_two_pi() const { return turns > 0 && value() > 2 * kPi + kFlat; }
 };
@@ -126,11 +126,11 @@ struct Around {
   float shortest = std::numeric_limits<float>::infinity(), longest = 0;  // of their edges
 
   // Whether a corner's edges may differ by more than kUnevenEdges; also where floats cannot tell.
-  bool is_uneven() const { return !(static_cast<double>(longest) < kUnevenEdges * static_cast<double>(shortest)); }
+  bool is_uneven() const { return !(static_cast<Real>(longest) < kUnevenEdges * static_cast<Real>(shortest)); }
 
   // Corner k of a face that has an area.
   void add(const WindowFace& f, Index k) {
-    const double a = f.length[k], b = f.length[previous3(k)], c = f.length[next3(k)], inverse = 1 / (a * b);
+    const Real a = f.length[k], b = f.length[previous3(k)], c = f.length[next3(k)], inverse = 1 / (a * b);
     angles.add(0.5 * (a * a + (b - c) * (b + c)) * inverse, f.double_area * inverse);
     shortest = std::min({shortest, static_cast<float>(a), static_cast<float>(b)});
     longest = std::max({longest, static_cast<float>(a), static_cast<float>(b)});
@@ -139,12 +139,12 @@ struct Around {
 
 // By how much the angles around a vertex differ from 2 pi, in the median (of a sample): large ones at a few corners and
 // creases say nothing about the rest.
-double typical_defect_of(std::span<const Around> around, std::span<const Bend> bend, std::span<const Link> links) {
-  std::vector<double> sample;
+Real typical_defect_of(std::span<const Around> around, std::span<const Bend> bend, std::span<const Link> links) {
+  std::vector<Real> sample;
   const std::size_t stride = std::max<std::size_t>(1, around.size() / kSample);
   for (std::size_t v = 0; v < around.size(); v += stride) {
     if (bend[v] == Bend::Full || links[v] != Link::Circle) continue;
-    sample.push_back(std::abs(2 * kPi - around[v].angles.value()));
+    sample.push_back(abs(2 * kPi - around[v].angles.value()));
   }
   return sample.empty() ? 0 : median(sample);
 }
@@ -168,9 +168,9 @@ void collect_places(std::span<const WindowFace> faces, std::vector<std::uint64_t
 
 }  // namespace
 
-double angle_at(const WindowFace& f, Index i) {
-  const double a = f.length[i], b = f.length[previous3(i)], c = f.length[next3(i)];
-  return std::atan2(f.double_area, 0.5 * (a * a + (b - c) * (b + c)));
+Real angle_at(const WindowFace& f, Index i) {
+  const Real a = f.length[i], b = f.length[previous3(i)], c = f.length[next3(i)];
+  return atan2(f.double_area, 0.5 * (a * a + (b - c) * (b + c)));
 }
 
 // In a part faces are in the order of their least vertices, those of one vertex in the mesh's order.
@@ -231,7 +231,7 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
     face.waiting = kNoIndex;
     face.has_target = false;
     face.usable = mesh.is_face_usable(order.faces[f]);
-    const double base = std::max({geometry.lengths[0], geometry.lengths[1], geometry.lengths[2]});
+    const Real base = std::max({geometry.lengths[0], geometry.lengths[1], geometry.lengths[2]});
     face.thin = face.double_area <= kThin * base * base;
     for (Index k = 0; k < 3; ++k) {
       face.length[k] = geometry.lengths[k];
@@ -325,4 +325,4 @@ void WindowStructure::close_rings(const std::vector<std::pair<Index, Index>>& li
   }
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

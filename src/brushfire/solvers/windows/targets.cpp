@@ -5,9 +5,9 @@
 
 #include <tuple>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
-std::array<double, 3> corner_distances_of(const WindowStructure& structure, const FaceWeights& at) {
+std::array<Real, 3> corner_distances_of(const WindowStructure& structure, const FaceWeights& at) {
   PointLocation here;
   here.face = structure.outer_face(at.face);
   here.weights = at.weights;
@@ -36,4 +36,4 @@ void Targets::clear(WindowStructure& structure) {
   states_.clear();
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

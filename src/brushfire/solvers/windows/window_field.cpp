@@ -62,7 +62,7 @@ class Look {
   // The least of: straight from a source in the face, around its corners, along its windows.
   Found evaluate(const PointLocation& at) const {
     Found best{{at.face, at.weights}, {}};
-    const auto offer = [&](const FaceWeights& f, double value, const Ray& ray, Index label) {
+    const auto offer = [&](const FaceWeights& f, Real value, const Ray& ray, Index label) {
       if (value < best.record.value || (value == best.record.value && label < best.record.label)) {
         best = {f, {value, label, ray}};
       }
@@ -73,7 +73,7 @@ class Look {
       PointLocation here;
       here.face = f.face;
       here.weights = f.weights;
-      const std::array<double, 3> d = corner_distances(mesh_, here);
+      const std::array<Real, 3> d = corner_distances(mesh_, here);
       for (Index k = 0; k < 3; ++k) {
         const Index v = mesh_.faces()[f.face][k];
         offer(f, data_.vertices[v].value + d[k], {{}, kNoIndex, v, {}}, data_.vertices[v].label);
@@ -155,7 +155,7 @@ WindowField::Value WindowField::value(const SurfacePoint& point) const {
   if (point.is_nowhere()) return {};
   const PointRecord record = Look(*data_).point(point).record;
   if (!(record.value < kInfinity)) return {};
-  const double base = data_->bases.empty() ? 0 : data_->bases[record.label];
+  const Real base = data_->bases.empty() ? 0 : data_->bases[record.label];
   return {base + data_->mesh.unit() * (record.value - data_->shift), record.label};
 }
 

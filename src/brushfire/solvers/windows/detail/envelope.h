@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // L5. The lower envelope of windows on one edge, by merging envelopes of halves: O(n log n) windows, whatever their
 // order and overlap (two windows cross at most twice, so envelopes stay short). Keeps its buffers between calls.
@@ -19,15 +19,15 @@ class Envelope {
  private:
   struct Part {
     const Window* window;
-    double b0, b1, d0, d1;
+    Real b0, b1, d0, d1;
   };
   void merge(std::size_t begin, std::size_t middle, std::size_t end);
-  void decide(const Part& a, const Part& b, double p, double q, double ap, double bp, double aq, double bq);
-  void add(const Window& w, double b0, double b1, double d0, double d1);
+  void decide(const Part& a, const Part& b, Real p, Real q, Real ap, Real bp, Real aq, Real bq);
+  void add(const Window& w, Real b0, Real b1, Real d0, Real d1);
 
   std::vector<Part> parts_, merged_;
   std::vector<std::size_t> starts_, next_starts_;
   std::vector<Window> result_;
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -6,29 +6,29 @@
 
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // Where the apex lies for each window of a list: what tells which edges the window goes on to.
 struct Sight {
   // Positive where a part of the window passes the apex on the left (the ray to the apex crosses the edge right of the
   // window's start), on the right. Both: the window sees the apex.
-  std::vector<double> left, right;
+  std::vector<Real> left, right;
   // The length of the straight path to the apex; infinite where the apex is clearly not seen.
-  std::vector<double> value;
+  std::vector<Real> value;
 };
 
 // Fills `sight` for the whole list.
 void look_at_apex(const WindowColumns& windows, Index count, const Frame& frame, Sight& sight);
 
 // The place of the least number; `count` > 0.
-Index least_of(const double* numbers, Index count);
+Index least_of(const Real* numbers, Index count);
 
 // Which windows go on to the left: those in [0, left_end) with goes_left > 0; to the right: those in
 // [right_begin, count) with goes_right > 0.
 struct Routes {
   Index left_end = 0, right_begin = 0;
-  const double *goes_left = nullptr, *goes_right = nullptr;  // Sight's own or the two below
-  std::vector<double> some_left, some_right;
+  const Real *goes_left = nullptr, *goes_right = nullptr;  // Sight's own or the two below
+  std::vector<Real> some_left, some_right;
 };
 
 // One angle, two sides. Of the windows that see the apex, one is the best there: `best` (kNoIndex: none is known). A
@@ -46,6 +46,6 @@ Index cross_to_right(const WindowColumns& windows, Index count, const Routes& ro
                      const Frame& frame, const WindowColumns& out);
 
 // The values at both ends.
-void end_values(const WindowColumns& windows, Index count, double* d0, double* d1);
+void end_values(const WindowColumns& windows, Index count, Real* d0, Real* d1);
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

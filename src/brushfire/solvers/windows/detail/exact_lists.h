@@ -9,15 +9,15 @@
 #include <cstdint>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // The columns of a list of circular windows without slack. The values at the ends are not kept: they are needed when a
 // list is trimmed, and a list crosses several faces between two trimmings.
 struct WindowColumns {
-  double *b0, *b1;  // the lit interval
-  double *x, *y;    // the virtual source
-  double* sigma;    // value there
-  Index* root;      // see Window::root
+  Real *b0, *b1;  // the lit interval
+  Real *x, *y;    // the virtual source
+  Real* sigma;    // value there
+  Index* root;    // see Window::root
 
   Window window(Index i) const {
     Window w;
@@ -59,7 +59,7 @@ struct WindowBlock {
   Index capacity() const { return Index{4} << size_class; }
   WindowColumns columns() const {
     const std::size_t n = capacity();
-    double* const d = reinterpret_cast<double*>(data);
+    Real* const d = reinterpret_cast<Real*>(data);
     return {d, d + n, d + 2 * n, d + 3 * n, d + 4 * n, reinterpret_cast<Index*>(d + 5 * n)};
   }
 };
@@ -103,7 +103,7 @@ class ExactLists {
  public:
   bool empty(Index first, Index h) const { return find(first, h) == kNoIndex; }
   // The key under which h's lists were queued last; infinity before that. Something must wait at h.
-  double& key(Index first, Index h) { return links_[find(first, h)].key; }
+  Real& key(Index first, Index h) { return links_[find(first, h)].key; }
 
   // The list waits at h from now on; its block is the caller's no longer.
   void put(Index& first, Index h, Origin origin, const WindowList& list);
@@ -121,7 +121,7 @@ class ExactLists {
  private:
   struct Link {
     WindowList list;
-    double key = kInfinity;  // of a halfedge's first link
+    Real key = kInfinity;  // of a halfedge's first link
     Index halfedge = kNoIndex;
     Index next = kNoIndex;
     Origin origin = Origin::Start;
@@ -136,4 +136,4 @@ class ExactLists {
   Index free_link_ = kNoIndex;  // freed ones, linked by next
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

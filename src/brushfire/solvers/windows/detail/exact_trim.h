@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // L5, L7 for the lists of exact runs. A list in order, nearly an envelope already, is gone through once from left to
 // right: of two windows that overlap, one loses what it was shown to lose, at both ends of the overlap and where slopes
@@ -16,20 +16,20 @@ namespace brushfire::detail {
 class ListTrimmer {
  public:
   // Nothing beyond `radius` is wanted. The list may move to another block of the pool.
-  void operator()(WindowList& list, const EdgeBounds& edge, double radius, BlockPool& blocks);
+  void operator()(WindowList& list, const EdgeBounds& edge, Real radius, BlockPool& blocks);
 
  private:
-  void drop_dominated(WindowList& list, const EdgeBounds& edge, double radius);
+  void drop_dominated(WindowList& list, const EdgeBounds& edge, Real radius);
   void sweep(const WindowColumns& w, Index count);
   void settle(const WindowColumns& w, Index a, Index b);
   void replace_by_envelope(WindowList& list, BlockPool& blocks);
 
-  std::vector<double> d0_, d1_;  // values at the ends
+  std::vector<Real> d0_, d1_;  // values at the ends
   // Of each window and the next one: where they cross, their values there; whether that is all there is to it.
-  std::vector<double> ridge_, ridge_a_, ridge_b_, plain_;
+  std::vector<Real> ridge_, ridge_a_, ridge_b_, plain_;
   std::vector<Index> kept_;
   std::vector<Window> windows_, uncut_;
   Envelope envelope_;
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

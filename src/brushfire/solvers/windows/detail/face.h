@@ -6,10 +6,10 @@
 
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // A face is thin whose lowest altitude is less than this share of its longest edge.
-inline constexpr double kThin = 1e-3;
+inline constexpr Real kThin = 1e-3;
 
 // What lies beyond an edge.
 enum class Beyond : std::uint8_t {
@@ -19,13 +19,13 @@ enum class Beyond : std::uint8_t {
 };
 
 struct alignas(64) WindowFace {
-  double length[3];    // of halfedge k, mesh.unit()
-  double double_area;  // mesh.unit()^2
-  Index vertex[3];     // corner k, where halfedge k starts
-  Index opposite[3];   // of halfedge k
-  Index waiting;       // the first of the windows that wait on the face's halfedges: see WindowLists
-  Beyond beyond[3];    // of halfedge k
-  bool usable : 1;     // three distinct vertices
+  Real length[3];     // of halfedge k, mesh.unit()
+  Real double_area;   // mesh.unit()^2
+  Index vertex[3];    // corner k, where halfedge k starts
+  Index opposite[3];  // of halfedge k
+  Index waiting;      // the first of the windows that wait on the face's halfedges: see WindowLists
+  Beyond beyond[3];   // of halfedge k
+  bool usable : 1;    // three distinct vertices
   bool has_target : 1;
   bool thin : 1;  // so low that light may go round through its neighbours for next to nothing: see WindowMemory
 };
@@ -37,16 +37,16 @@ constexpr Index previous3(Index k) { return 0b01'00'10u >> 2 * k & 3; }
 
 // A triangle over one of its edges a-b: a = (0,0), b = (length,0), apex above.
 struct Frame {
-  double length;  // a to b
-  double left;    // a to apex
-  double right;   // apex to b
+  Real length;  // a to b
+  Real left;    // a to apex
+  Real right;   // apex to b
   Vec2 apex;
 };
 
 // The frame of halfedge k of a face; its length is > 0.
 [[gnu::always_inline]] inline Frame frame_of(const WindowFace& f, Index k) {
-  const double length = f.length[k], left = f.length[previous3(k)], right = f.length[next3(k)];
+  const Real length = f.length[k], left = f.length[previous3(k)], right = f.length[next3(k)];
   return {length, left, right, apex_over_edge(length, left, right, f.double_area)};
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -4,7 +4,7 @@
 #include <brushfire/solvers/windows/detail/record.h>
 #include <brushfire/solvers/windows/detail/structure.h>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // The part of a face at its corner `corner` between two directions. Directions at a corner have x along the edge that
 // leaves it (halfedge 3 * face + corner) and y into the face; their length is of no account.
@@ -20,7 +20,7 @@ struct Sector {
 
 // The cosine and the sine of the angle at corner i, times the lengths of both edges.
 inline Vec2 opening_at(const WindowFace& f, Index i) {
-  const double a = f.length[i], b = f.length[previous3(i)], c = f.length[next3(i)];
+  const Real a = f.length[i], b = f.length[previous3(i)], c = f.length[next3(i)];
   return {0.5 * (a * a + (b - c) * (b + c)), f.double_area};
 }
 
@@ -34,18 +34,18 @@ constexpr Vec2 turned_back(Vec2 z, Vec2 by) { return {dot(z, by), cross(by, z)};
 
 // A shadow is lit wider by this on both sides: rounding of products of turns and of the arrival's direction. Whatever
 // it adds are real paths.
-inline constexpr double kShadowMargin = 1e-12;
+inline constexpr Real kShadowMargin = 1e-12;
 
 // Where light came from: over a halfedge, at this place of its line (in the halfedge's frame).
 struct CrossedAt {
-  double place = 0;
+  Real place = 0;
   Index halfedge = kNoIndex;
 };
 // Of a ray that reaches the vertex above its halfedge.
 inline CrossedAt crossed_at(const WindowStructure& mesh, const Ray& ray) {
   if (ray.halfedge == kNoIndex) return {};
   const Vec2 apex = frame_of(mesh.faces[ray.halfedge / 3], ray.halfedge % 3).apex;
-  const double along = origin_weight(ray.kind) * apex.y - ray.source.y;
+  const Real along = origin_weight(ray.kind) * apex.y - ray.source.y;
   return {(ray.source.x * apex.y - ray.source.y * apex.x) / along, ray.halfedge};
 }
 
@@ -80,8 +80,8 @@ struct StraightOn {
 // straight on is turned back by face after face until it lies within one.
 inline StraightOn straight_on(const WindowStructure& mesh, Index vertex, Index start, Index exit, Vec2 rest) {
   StraightOn s;
-  Vec2 z{-rest.x, std::max(0.0, rest.y)};  // pi - rest
-  z = {z.x + kShadowMargin * z.y, std::max(0.0, z.y - kShadowMargin * z.x)};
+  Vec2 z{-rest.x, std::max(Real{0}, rest.y)};  // pi - rest
+  z = {z.x + kShadowMargin * z.y, std::max(Real{0}, z.y - kShadowMargin * z.x)};
   while (next_in_fan(mesh, vertex, start, exit, s.at)) {
     const WindowFace& f = mesh.faces[s.at.face];
     const Vec2 opening = opening_at(f, s.at.corner);
@@ -90,9 +90,9 @@ inline StraightOn straight_on(const WindowStructure& mesh, Index vertex, Index s
       s.found = true;
       return s;
     }
-    const double scale = 1 / (f.length[s.at.corner] * f.length[previous3(s.at.corner)]);
+    const Real scale = 1 / (f.length[s.at.corner] * f.length[previous3(s.at.corner)]);
     z = scale * turned_back(z, opening);
-    z.y = std::max(0.0, z.y);
+    z.y = std::max(Real{0}, z.y);
     exit = s.at.exit();
   }
   return s;
@@ -141,12 +141,12 @@ void for_each_shadow(const WindowStructure& mesh, Index vertex, const CrossedAt&
 
 // The window that light from a sector's corner makes on the edge opposite of the corner, seen from beyond that edge: in
 // the frame from the end of halfedge 3 * face + next3(corner) to its start.
-inline Window window_of(const WindowFace& f, const Sector& sector, double sigma) {
+inline Window window_of(const WindowFace& f, const Sector& sector, Real sigma) {
   const Index i = sector.corner;
-  const double near = f.length[i], far = f.length[previous3(i)], length = f.length[next3(i)];
+  const Real near = f.length[i], far = f.length[previous3(i)], length = f.length[next3(i)];
   // A ray in direction z divides the opposite edge as  near sin(from near edge to z) : far sin(from z to far edge).
   const auto place = [&](Vec2 z) {
-    const double a = near * near * z.y, b = cross(z, sector.opening);
+    const Real a = near * near * z.y, b = cross(z, sector.opening);
     return a + b > 0 ? length * (b / (a + b)) : length;
   };
   Window w;
@@ -160,4 +160,4 @@ inline Window window_of(const WindowFace& f, const Sector& sector, double sigma)
   return w;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 struct Mail {
   // A root, with its label: to be known before what comes from there. Of runs with several sources.
@@ -17,13 +17,13 @@ struct Mail {
   // A window or a source sees a vertex: to each of its other copies.
   struct Offer {
     Index vertex;
-    double value;
+    Real value;
     Ray ray;
     bool all_around;
   };
   struct ToTarget {
     Index target;
-    double value, slack, lift;
+    Real value, slack, lift;
     Ray ray;
     bool straight;
   };
@@ -58,4 +58,4 @@ struct Mail {
   }
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

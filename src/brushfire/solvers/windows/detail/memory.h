@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // Around a needle, or through two faces without area over the same vertices, light comes back to where it was hardly
 // longer or no longer at all, as often as you like; nothing that compares with vertices would stop it. Over the edges
@@ -28,21 +28,21 @@ class WindowMemory {
   void clear() { known_.clear(); }
 
  private:
-  static constexpr double kTurns = 32 * std::numeric_limits<double>::epsilon();
+  static constexpr Real kTurns = 32 * std::numeric_limits<Real>::epsilon();
 
   static bool covers(const Window& k, const Window& w) {
     // Light that has come round has been turned through a few frames: its source and its ends have moved by some
     // epsilons of the longest number there. That must not look like an improvement, or it would go round for ever and
     // improve each time; dropping a true one of that size costs no more than that.
-    const double moved = kTurns * (norm(w.source) + w.b1);
+    const Real moved = kTurns * (norm(w.source) + w.b1);
     if (k.b0 > w.b0 + moved || k.b1 < w.b1 - moved) return false;
-    const auto no_worse = [&](double x) { return value_at(k, x) <= value_at(w, x) + moved; };
+    const auto no_worse = [&](Real x) { return value_at(k, x) <= value_at(w, x) + moved; };
     if (!no_worse(w.b0) || !no_worse(w.b1)) return false;
-    const double x = equal_slope(k, w);
+    const Real x = equal_slope(k, w);
     return !(x > w.b0 && x < w.b1) || no_worse(x);
   }
 
   std::unordered_map<Index, std::vector<Window>> known_;
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -20,10 +20,10 @@
 #include <utility>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // A vertex this little (relative) off a window's limit ray counts as seen, with the length of the path that bends.
-inline constexpr double kSeen = 1e-10;
+inline constexpr Real kSeen = 1e-10;
 
 // What is written by one thread all the time stays clear of what another one reads: processors fetch lines by twos.
 inline constexpr std::size_t kApart = 128;  // bytes
@@ -69,11 +69,11 @@ class alignas(kApart) Part {
     return traffic_->outbox;
   }
 
-  void start_at_vertex(Index v, double sigma, Index root);
-  void start_in_face(const FaceWeights& at, double sigma, Index root, Workbench& bench);
+  void start_at_vertex(Index v, Real sigma, Index root);
+  void start_in_face(const FaceWeights& at, Real sigma, Index root, Workbench& bench);
   // What came from other parts.
   void learn_label(const Mail::Label& label) { labels_[label.root] = label.label; }
-  void hear(Index v, double upper, double estimate);
+  void hear(Index v, Real upper, Real estimate);
   void receive(const Mail::Offer& offer) { take(offer.vertex, offer.value, offer.ray, offer.all_around); }
   void receive(const Mail::OneWindow& window, Workbench& bench);
   void receive(const Mail::WholeList& list, Workbench& bench);
@@ -104,7 +104,7 @@ class alignas(kApart) Part {
   // ---- values of vertices
 
   // A real path of this length leads to v.
-  [[gnu::always_inline]] void reach(Index v, double length) {
+  [[gnu::always_inline]] void reach(Index v, Real length) {
     VertexValues& at = run_->values[v];
     if (at.upper == kInfinity) touch(v, length);
     traffic_->news.push_if((length < at.upper) & at.has_copies(), v);
@@ -117,7 +117,7 @@ class alignas(kApart) Part {
   Index label_of(Index root) const;
 
   // part.cpp: vertices
-  void touch(Index v, double length) {
+  void touch(Index v, Real length) {
     if (!(length < kInfinity)) return;
     if (touched_ < room_for_touched()) list_of_touched()[touched_] = v;
     ++touched_;
@@ -125,17 +125,17 @@ class alignas(kApart) Part {
   // They are listed as long as they are few: going through all costs less than a long list.
   Index* list_of_touched() const { return run_->touched.data() + first_ / kFewTouched; }
   Index room_for_touched() const { return last_ / kFewTouched - first_ / kFewTouched; }
-  [[gnu::always_inline]] void expect(Index v, double value, double lift) {
-    double& estimate = run_->values[v].estimate;
+  [[gnu::always_inline]] void expect(Index v, Real value, Real lift) {
+    Real& estimate = run_->values[v].estimate;
     estimate = std::min(estimate, value + lift);
   }
   // A window or a source sees v. Where paths may bend, light will go on from there.
-  [[gnu::always_inline]] void offer(Index v, double value, const Ray& ray, bool all_around) {
+  [[gnu::always_inline]] void offer(Index v, Real value, const Ray& ray, bool all_around) {
     if (!(value > run_->values[v].lower)) accept(v, value, ray, all_around);
   }
-  [[gnu::noinline]] void accept(Index v, double value, const Ray& ray, bool all_around);
-  bool take(Index v, double value, const Ray& ray, bool all_around);
-  void offer_target(Index target, double value, double slack, double lift, const Ray& ray, bool straight = true);
+  [[gnu::noinline]] void accept(Index v, Real value, const Ray& ray, bool all_around);
+  bool take(Index v, Real value, const Ray& ray, bool all_around);
+  void offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight = true);
   [[gnu::always_inline]] void prefetch_face(Index h) const;
   [[gnu::always_inline]] void prefetch_around(Index h) const;
   [[gnu::always_inline]] void prefetch_windows(Index h) const;
@@ -176,19 +176,19 @@ class alignas(kApart) Part {
   bool goes_in_lists(Index h) const { return run_->in_lists && !face(h).thin; }
   // The key of lists is what is known of the nearer end of the edge: nearly all that enters over the edge has come by
   // then.
-  double nearer_end(const WindowFace& f, Index k) const {
+  Real nearer_end(const WindowFace& f, Index k) const {
     return std::min(run_->values[f.vertex[k]].upper, run_->values[f.vertex[next3(k)]].upper);
   }
-  [[gnu::always_inline]] void queue_list(WindowFace& f, Index h, double key) {
+  [[gnu::always_inline]] void queue_list(WindowFace& f, Index h, Real key) {
     EventQueue& queue = traffic_->queue;
-    double& queued = traffic_->lists.key(f.waiting, h);
+    Real& queued = traffic_->lists.key(f.waiting, h);
     if (key < queued && !(queued < kInfinity && queue.same_bucket(key, queued))) queue.push_list(h, key);
     queued = std::min(queued, key);
   }
   void spread_list(Index h);
   void cross_face(Index h, const WindowList& list);
   [[gnu::always_inline]] Index reach_apex(Index h, const Frame& frame, const WindowColumns& w, Index count);
-  [[gnu::always_inline]] void offer_apex(Index apex, double value, const WindowColumns& w, Index i, Index h);
+  [[gnu::always_inline]] void offer_apex(Index apex, Real value, const WindowColumns& w, Index i, Index h);
   void reach_targets(Index h, const Frame& frame, const WindowColumns& w, Index count);
   void hand_over(Index h, const WindowList& list, Origin origin);
   void send(Index h, const WindowList& list, Origin origin);
@@ -198,9 +198,9 @@ class alignas(kApart) Part {
   void shine(Index v);
   void shine_through(Index v, Index corner);
   void shine_into(Index v, Sector sector);
-  void shine_along(Index v, Index face, Index j, double length);
-  double slack_of(Index v) const;
-  double lift_of(Index v) const;
+  void shine_along(Index v, Index face, Index j, Real length);
+  Real slack_of(Index v) const;
+  Real lift_of(Index v) const;
 
   RunState* run_;
   Index number_;
@@ -214,4 +214,4 @@ class alignas(kApart) Part {
   std::unordered_map<Index, Index> labels_;  // of roots in other parts, in runs with several sources
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -4,7 +4,7 @@
 #include <brushfire/solvers/windows/detail/face.h>
 #include <brushfire/solvers/windows/detail/window.h>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // How a window's rays divide between the sides of the triangle that it enters. A ray through (b,0) passes the apex at a
 // distance that is proportional to  aside = across - b * along  (positive: to its left), and meets the left (right)
@@ -12,8 +12,8 @@ namespace brushfire::detail {
 // The sums cancel for rays that graze the side; the error then runs along the ray and moves it sideways by rounding
 // only.
 struct Division {
-  double aside0 = 0, aside1 = 0;  // of the rays through b0 and b1
-  double depth = 0;
+  Real aside0 = 0, aside1 = 0;  // of the rays through b0 and b1
+  Real depth = 0;
 
   bool lit_left() const { return aside0 > 0; }
   bool lit_right() const { return aside1 < 0; }
@@ -31,12 +31,12 @@ inline Division divide(const Window& w, Vec2 apex) {
 //
 // On a-apex, in the frame with a at the origin; needs lit_left() and a side longer than 0.
 [[gnu::always_inline]] inline Window left_child(const Window& w, const Frame& frame, const Division& d,
-                                                double apex_value) {
-  const double inverse = 1 / frame.left;
+                                                Real apex_value) {
+  const Real inverse = 1 / frame.left;
   const Vec2 u{frame.apex.x * inverse, frame.apex.y * inverse};
   Window l = w;
   l.source = {dot(w.source, u), w.source.y * u.x - w.source.x * u.y};
-  const auto place = [&](double b, double aside) {
+  const auto place = [&](Real b, Real aside) {
     return std::min(frame.left, frame.left * (b * d.depth / (aside + b * d.depth)));
   };
   if (w.b0 <= 0) {
@@ -56,15 +56,15 @@ inline Division divide(const Window& w, Vec2 apex) {
 }
 // On apex-b, with the apex at the origin; needs lit_right() and a side longer than 0.
 [[gnu::always_inline]] inline Window right_child(const Window& w, const Frame& frame, const Division& d,
-                                                 double apex_value) {
-  const double inverse = 1 / frame.right;
+                                                 Real apex_value) {
+  const Real inverse = 1 / frame.right;
   const Vec2 u{(frame.length - frame.apex.x) * inverse, -frame.apex.y * inverse};  // from the apex to b
   const Vec2 s = w.source - origin_weight(w.kind) * frame.apex;
   Window r = w;
   r.source = {dot(s, u), s.y * u.x - s.x * u.y};
   if (w.kind == WindowKind::Linear) r.sigma = apex_value;
-  const auto place = [&](double b, double aside) {
-    return std::max(0.0, frame.right * (-aside / ((frame.length - b) * d.depth - aside)));
+  const auto place = [&](Real b, Real aside) {
+    return std::max(Real{0}, frame.right * (-aside / ((frame.length - b) * d.depth - aside)));
   };
   if (d.lit_left()) {
     r.b0 = 0;
@@ -87,7 +87,7 @@ struct Children {
   Window left, right;
   bool has_left = false, has_right = false;
 };
-inline Children propagate(const Window& w, const Frame& frame, double apex_value) {
+inline Children propagate(const Window& w, const Frame& frame, Real apex_value) {
   Children children;
   const Division d = divide(w, frame.apex);
   if (d.lit_left() && frame.left > 0) {
@@ -103,14 +103,14 @@ inline Children propagate(const Window& w, const Frame& frame, double apex_value
 
 // Whether all light of the window that is worth less than `radius` ends in the triangle: the lines through its other
 // edges, as far as any light goes there, are farther. A false "no" costs time only.
-inline bool ends_in_face(const Window& w, const Frame& frame, double radius) {
+inline bool ends_in_face(const Window& w, const Frame& frame, Real radius) {
   if (w.kind != WindowKind::Circular) return false;
   const Vec2 c = frame.apex, b{frame.length, 0};
   const Crossing at = crossing(w, c);
-  const double room = radius - w.sigma;
+  const Real room = radius - w.sigma;
   const bool leaves_left = at.across > w.b0 * at.along && cross(w.source, c) <= room * frame.left;
   const bool leaves_right = at.across < w.b1 * at.along && cross(c - b, w.source - b) <= room * frame.right;
   return !leaves_left && !leaves_right;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -9,36 +9,36 @@
 #include <cmath>
 #include <limits>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // The part of a tolerance that is kept back for rounding, so that the promise holds to the letter.
-inline constexpr double kRounding = 4e-12;
+inline constexpr Real kRounding = 4e-12;
 // What adding the source's offset rounds away.
-inline constexpr double kOffsetRounding = 8 * std::numeric_limits<double>::epsilon();
+inline constexpr Real kOffsetRounding = 8 * std::numeric_limits<Real>::epsilon();
 // The relative error of exact runs, measured to be 1e-13 at most.
-inline constexpr double kExactBound = 1e-12;
+inline constexpr Real kExactBound = 1e-12;
 
 // What merges may spend: nothing in exact runs, nor where it would be less than `least` of the length.
-inline MergeBudget budget_of(const DistanceOptions& options, double least) {
+inline MergeBudget budget_of(const DistanceOptions& options, Real least) {
   if (options.method == Method::Exact) return {};
-  const double promise = options.tolerance - 1.01 * kRounding;
-  const double share = options.bound == Bound::Estimate ? 2 * promise : promise;
+  const Real promise = options.tolerance - 1.01 * kRounding;
+  const Real share = options.bound == Bound::Estimate ? 2 * promise : promise;
   return {share < least ? 0 : share};
 }
 
 // A value, how far it may be off, and that as a share of the path's length.
 struct Reading {
-  double value, bound, relative;
+  Real value, bound, relative;
 };
 
 // For lower <= distance <= upper of a place whose paths begin with the value `start`; `share`: of the budget, 0 where
 // the run was exact.
-inline Reading read(double lower, double upper, double estimate, double start, double share, Bound wanted) {
-  const double of_offset = kOffsetRounding * std::abs(start);
+inline Reading read(Real lower, Real upper, Real estimate, Real start, Real share, Bound wanted) {
+  const Real of_offset = kOffsetRounding * abs(start);
   lower = std::min(lower, upper);  // in exact runs they differ by rounding
-  const double length = lower - start;
+  const Real length = lower - start;
   if (!(share > 0)) return {lower, kExactBound * length + of_offset, kExactBound};
-  double value = lower;
+  Real value = lower;
   switch (wanted) {
     case Bound::Lower:
       break;
@@ -47,14 +47,14 @@ inline Reading read(double lower, double upper, double estimate, double start, d
       break;
     case Bound::Estimate: {
       // Anywhere within t of both ends: there is such a place because upper - lower <= 2 t length.
-      const double reach = 0.5 * share * length;
-      const double least = std::min(upper - reach, upper), most = std::max(lower + reach, lower);
+      const Real reach = 0.5 * share * length;
+      const Real least = std::min(upper - reach, upper), most = std::max(lower + reach, lower);
       value = std::clamp(std::clamp(estimate, lower, upper), least, std::max(least, most));
       break;
     }
   }
-  const double bound = std::max(value - lower, upper - value) + kRounding * length;
+  const Real bound = std::max(value - lower, upper - value) + kRounding * length;
   return {value, bound + of_offset, length > 0 ? bound / length : 0};
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

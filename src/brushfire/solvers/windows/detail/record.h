@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // The ray comes over `halfedge` from `source` (in the halfedge's frame; y >= 0: from inside of the halfedge's face or
 // its edge). kNoIndex: along an edge of a face with a repeated vertex, or the point is the source itself.
@@ -23,7 +23,7 @@ struct Ray {
 };
 
 struct PointRecord {
-  double value = kInfinity;  // mesh.unit(), offsets included
+  Real value = kInfinity;  // mesh.unit(), offsets included
   Index label = kNoIndex;
   Ray ray;
 };
@@ -62,9 +62,9 @@ struct KeptWindow {
 struct WindowFieldData {
   Mesh mesh;
   std::vector<LocatedSource> sources;
-  std::vector<double> bases;  // what is to be added to values, by source, in the mesh's units; empty: 0
-  double shift = 0;           // what was added to every value so that none is negative
-  bool exact = true;          // no merging: rays lead back to roots
+  std::vector<Real> bases;  // what is to be added to values, by source, in the mesh's units; empty: 0
+  Real shift = 0;           // what was added to every value so that none is negative
+  bool exact = true;        // no merging: rays lead back to roots
   bool all_points = false;
   VertexRecords vertices;               // [vertex_count]; value NaN: farther than the run went
   std::vector<PointLocation> targets;   // where not all_points
@@ -77,12 +77,12 @@ struct WindowFieldData {
 };
 
 // A point of a face in the frame of the face's halfedge k; weights by corner.
-Vec2 in_frame(const Frame& frame, Index k, const std::array<double, 3>& weights);
+Vec2 in_frame(const Frame& frame, Index k, const std::array<Real, 3>& weights);
 
 // All descriptions of a point by faces that contain it: itself, and for a point on an edge, the edge's other faces.
 struct FaceWeights {
   Index face;
-  std::array<double, 3> weights;
+  std::array<Real, 3> weights;
 };
 template <class Visit>
 void for_each_face_around(const Mesh& mesh, const PointLocation& at, Visit&& visit) {
@@ -100,4 +100,4 @@ void for_each_face_around(const Mesh& mesh, const PointLocation& at, Visit&& vis
 }
 std::vector<FaceWeights> faces_around(const Mesh& mesh, const PointLocation& at);
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -8,14 +8,14 @@
 #include <span>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 class Results {
  public:
   Results(RunState& run, std::span<Part> parts, DistanceField& field) : run_(run), parts_(parts), field_(field) {}
 
   // A target is told of a path; see Part::offer_target().
-  void offer_target(Index target, double value, double slack, double lift, const Ray& ray, bool straight = true);
+  void offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight = true);
   // The field, and what paths need later where that is wanted. `scratch` is room to work in; `team` may be null.
   void write(std::vector<Index>& scratch, ThreadTeam* team);
 
@@ -23,7 +23,7 @@ class Results {
   Index label_of(Index root) const;
   VertexValues all_copies(Index v) const;
   bool is_first_copy(Index v) const;
-  Reading read(double lower, double upper, double estimate, Index label) const;
+  Reading read(Real lower, Real upper, Real estimate, Index label) const;
   Index outer_root(Index root) const;
   Ray outer(Ray ray) const;
   void finish_targets();
@@ -31,7 +31,7 @@ class Results {
   // What is counted on the way.
   struct Tally {
     Index beyond_radius = 0;
-    double largest_bound = 0;
+    Real largest_bound = 0;
   };
   void write_vertices(ThreadTeam* team);
   Tally write_vertices(const Part& part);
@@ -43,4 +43,4 @@ class Results {
   DistanceField& field_;
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // The vertices that a run touches are listed up to one in as many.
 inline constexpr Index kFewTouched = 4;
@@ -30,16 +30,16 @@ struct RunState {
 
   const Problem* problem = nullptr;
   MergeBudget budget;
-  bool several = false;       // sources
-  bool in_lists = false;      // windows travel in lists
-  double bucket_width = 1;    // of the queues
-  double shift = 0;           // added to all values, so that none is negative
-  double radius = kInfinity;  // nothing beyond is wanted
+  bool several = false;     // sources
+  bool in_lists = false;    // windows travel in lists
+  Real bucket_width = 1;    // of the queues
+  Real shift = 0;           // added to all values, so that none is negative
+  Real radius = kInfinity;  // nothing beyond is wanted
 
   bool merges() const { return budget.share > 0; }
   bool keeps_rays() const { return problem->options->keep_paths || problem->options->keep_windows; }
   // The value with which paths from a source start.
-  double start_of(Index label) const { return problem->sources[label].offset + shift; }
+  Real start_of(Index label) const { return problem->sources[label].offset + shift; }
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

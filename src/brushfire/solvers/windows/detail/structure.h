@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // How a vertex that is reached sends light on. A shortest path bends at a vertex only where it leaves at an angle of pi
 // or more on either side, so a Saddle lights what lies between. Full lights everything: that is more than needed, but
@@ -60,8 +60,8 @@ struct WindowStructure {
   std::vector<Index> first_vertex;  // [parts + 1]
   std::vector<Copy> copies;         // ascending
   unsigned part_bits = 0;
-  double bucket_width = 1;    // half a typical edge
-  double typical_defect = 0;  // the median of |2 pi - angles around a vertex|, of inner vertices
+  Real bucket_width = 1;    // half a typical edge
+  Real typical_defect = 0;  // the median of |2 pi - angles around a vertex|, of inner vertices
 
  private:
   void cut_into_parts();
@@ -70,16 +70,16 @@ struct WindowStructure {
 };
 
 // The angle at corner i.
-double angle_at(const WindowFace& f, Index i);
+Real angle_at(const WindowFace& f, Index i);
 
 // A corner whose edges differ by more than this factor: rounding of the lengths turns directions there by up to
 // kUnevenEdges epsilons, too much to tell what is in a shadow.
-inline constexpr double kUnevenEdges = 1e3;
+inline constexpr Real kUnevenEdges = 1e3;
 // A face whose altitude is less than this share of its longest edge: what it is made of is rounding of the lengths, and
 // so are its angles.
-inline constexpr double kNoArea = 1e-13;
+inline constexpr Real kNoArea = 1e-13;
 // Angle sums beyond 2 pi (pi on a boundary) by less than this are rounding; a shadow so narrow hides nothing for longer
 // than that share of the distance.
-inline constexpr double kFlat = 1e-13;
+inline constexpr Real kFlat = 1e-13;
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

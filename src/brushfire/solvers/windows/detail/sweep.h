@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // Sweeps windows in ascending order of b0 from left to right. The swept ones are disjoint; the next one is compared
 // with the last of them, and merged with it, and the result with the one before, as long as that works (L8). Only
@@ -61,9 +61,9 @@ class Sweep {
   Step before(const Window& a, Window& b) {
     if (count_ < 2) return Step::Envelope;
     const Window& c = w_[count_ - 2];
-    const double p = b.b0, q = a.b0;
+    const Real p = b.b0, q = a.b0;
     if (c.b1 < q || c.b0 > p || b.b1 < q) return Step::Envelope;
-    const double bq = value_at(b, q), x = equal_slope(c, b);
+    const Real bq = value_at(b, q), x = equal_slope(c, b);
     if (!(value_at(c, p) < b.d0 && c.d1 < bq) || (x > p && x < q)) return Step::Envelope;
     b.b0 = q;
     b.d0 = bq;
@@ -72,17 +72,17 @@ class Sweep {
 
   // a and b overlap on [p,q].
   Step over(Window& a, Window& b) {
-    const double p = b.b0, q = std::min(a.b1, b.b1);
-    const double ap = p > a.b0 ? value_at(a, p) : a.d0, bp = b.d0;
-    const double aq = q < a.b1 ? value_at(a, q) : a.d1, bq = q < b.b1 ? value_at(b, q) : b.d1;
-    const double within = tie(std::max(ap, aq));
-    const double fp = std::abs(ap - bp) <= within ? 0 : ap - bp, fq = std::abs(aq - bq) <= within ? 0 : aq - bq;
+    const Real p = b.b0, q = std::min(a.b1, b.b1);
+    const Real ap = p > a.b0 ? value_at(a, p) : a.d0, bp = b.d0;
+    const Real aq = q < a.b1 ? value_at(a, q) : a.d1, bq = q < b.b1 ? value_at(b, q) : b.d1;
+    const Real within = tie(std::max(ap, aq));
+    const Real fp = abs(ap - bp) <= within ? 0 : ap - bp, fq = abs(aq - bq) <= within ? 0 : aq - bq;
     if (fp < 0 && fq > 0 && q == a.b1) return cross(a, b, p, q, fp, fq);
     if (fp * fq < 0) return Step::Envelope;
     const bool a_lower = fp < 0 || fq < 0 || (fp == 0 && fq == 0 && a.root <= b.root);
-    const double x = equal_slope(a, b);
+    const Real x = equal_slope(a, b);
     if (x > p && x < q) {  // the other one may be lower between
-      const double fx = value_at(a, x) - value_at(b, x);
+      const Real fx = value_at(a, x) - value_at(b, x);
       if (a_lower ? fx > within : fx < -within) return Step::Envelope;
     }
     if (a_lower) {
@@ -98,13 +98,13 @@ class Sweep {
   }
 
   // a is lower at p and b at q.
-  Step cross(Window& a, Window& b, double p, double q, double fp, double fq) {
-    const double near = p + (q - p) * (fp / (fp - fq));
+  Step cross(Window& a, Window& b, Real p, Real q, Real fp, Real fq) {
+    const Real near = p + (q - p) * (fp / (fp - fq));
     if (merge_(a, b, {near, value_at(a, near), value_at(b, near)})) {
       --count_;
       return Step::Again;
     }
-    const double z = ridge(a, b, p, q, fp, fq);
+    const Real z = ridge(a, b, p, q, fp, fq);
     a.b1 = b.b0 = z;
     a.d1 = value_at(a, z);
     b.d0 = value_at(b, z);
@@ -117,4 +117,4 @@ class Sweep {
   std::size_t count_ = 0;
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -9,23 +9,23 @@
 #include <span>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 struct TargetInFace {
   Index face;
   Index target;
-  std::array<double, 3> weights;
+  std::array<Real, 3> weights;
 };
 
 struct TargetState {
-  double lower = kInfinity;     // least value of the windows that see the target, after merging
-  double upper = kInfinity;     // length of the shortest real path known
-  double estimate = kInfinity;  // what the window that gave `lower` expects the distance to be
+  Real lower = kInfinity;     // least value of the windows that see the target, after merging
+  Real upper = kInfinity;     // length of the shortest real path known
+  Real estimate = kInfinity;  // what the window that gave `lower` expects the distance to be
   Ray ray;
 };
 
 // From a point of an inner face to the face's corners.
-std::array<double, 3> corner_distances_of(const WindowStructure& structure, const FaceWeights& at);
+std::array<Real, 3> corner_distances_of(const WindowStructure& structure, const FaceWeights& at);
 
 class Targets {
  public:
@@ -50,4 +50,4 @@ class Targets {
   std::vector<TargetInFace> in_faces_;  // by face; a target on an edge once for each of its faces
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

@@ -4,15 +4,15 @@
 
 #include <brushfire/solvers/windows/detail/fan.h>
 
-namespace brushfire::detail {
+namespace brushfire::detail::BRUSHFIRE_NUMBERS {
 
 // What every window that passes a vertex reads.
 struct alignas(32) VertexValues {
-  double upper = kInfinity;     // length of the shortest real path known
-  double lower = kInfinity;     // least value of the windows that see the vertex, after merging
-  double estimate = kInfinity;  // the least distance that a window expected that saw it, before merging
-  Index next_copy = kNoIndex;   // in another part; the copies of a vertex form a ring. kNoIndex: there is one only
-  bool sent = false;            // among the news that are about to be sent to the other copies
+  Real upper = kInfinity;      // length of the shortest real path known
+  Real lower = kInfinity;      // least value of the windows that see the vertex, after merging
+  Real estimate = kInfinity;   // the least distance that a window expected that saw it, before merging
+  Index next_copy = kNoIndex;  // in another part; the copies of a vertex form a ring. kNoIndex: there is one only
+  bool sent = false;           // among the news that are about to be sent to the other copies
 
   bool has_copies() const { return next_copy != kNoIndex; }
   void forget() { *this = {kInfinity, kInfinity, kInfinity, next_copy, false}; }
@@ -21,7 +21,7 @@ static_assert(sizeof(VertexValues) == 32);
 
 // What a vertex where paths may bend needs to send light on.
 struct VertexLight {
-  double place = 0;           // where its least value came from: CrossedAt, without its padding
+  Real place = 0;             // where its least value came from: CrossedAt, without its padding
   Index halfedge = kNoIndex;  // likewise
   bool all_around = false;    // sends light in all directions, whatever its faces are like
   bool waiting = false;       // its value has fallen since it last sent light
@@ -37,4 +37,4 @@ struct Origins {
   Index label = kNoIndex;
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
