@@ -75,8 +75,8 @@ DistanceOptions options_named(const std::string& name) {
   options.method = method_named(name.substr(0, colon));
   if (colon == std::string::npos) return options;
   const std::string option = name.substr(colon + 1);
-  if (option == "double" || option == "float") {
-    options.precision = option == "float" ? Precision::Float : Precision::Double;
+  if (option == "float64" || option == "float32") {
+    options.precision = option == "float32" ? Precision::Float : Precision::Double;
   } else {
     options.tolerance = std::stod(option);
   }

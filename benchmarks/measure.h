@@ -37,7 +37,7 @@ struct RelativeError {
 };
 RelativeError relative_error(std::span<const double> distance, std::span<const double> truth);
 
-// A method, followed by :float, :double or a tolerance (windows:1e-3) where one is wanted.
+// A method, followed by :float32, :float64 or a tolerance (windows:1e-3) where one is wanted.
 DistanceOptions options_named(const std::string& name);
 
 // What main() returns: what run() does, or 1 after an exception, which is told on stderr under the program's name.

@@ -290,8 +290,8 @@ def overhead(arguments):
         v, f = (str(Path(folder) / n) for n in "vf")
         V.astype("<f8").tofile(v)
         F.astype("<i4").tofile(f)
-        for method in ("windows", "novotni-klein:float"):
-            names = {"windows": "brushfire", "novotni-klein:float": "brushfire-nk-float"}
+        for method in ("windows", "novotni-klein:float32"):
+            names = {"windows": "brushfire", "novotni-klein:float32": "brushfire-nk-float"}
             commands = [
                 [str(TIME_SOLVER), v, f, "0", method],
                 [sys.executable, str(HERE / "peer.py"), v, f, "0", names[method]],

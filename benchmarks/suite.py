@@ -16,7 +16,7 @@ import peers
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 DEMO = Path("/usr/share/doc/libcgal-demo/data.tar.gz")
 
-MARCHING = "novotni-klein,novotni-klein:double,kimmel-sethian,novotni-klein-2002,dijkstra"
+MARCHING = "novotni-klein,novotni-klein:float64,kimmel-sethian,novotni-klein-2002,dijkstra"
 WINDOWS = "windows:1e-2,windows:1e-3,windows:1e-4,windows:1e-5,exact"
 FAST = "meshlib,pymeshlab,gc-fmm"
 ALL = {"methods": f"{MARCHING},{WINDOWS}"}

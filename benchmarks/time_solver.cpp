@@ -2,9 +2,9 @@
 //
 //   time_solver VERTICES FACES SOURCE METHOD [DISTANCES]
 //
-// VERTICES holds float64 x y z, FACES int32 triples (raw, little endian). METHOD may be followed by :float, :double or
-// a tolerance (windows:1e-3). A round builds the mesh from the arrays and everything that the method derives from it,
-// solves, and solves again. In seconds of processor time:
+// VERTICES holds float64 x y z, FACES int32 triples (raw, little endian). METHOD may be followed by :float32, :float64
+// or a tolerance (windows:1e-3). A round builds the mesh from the arrays and everything that the method derives from
+// it, solves, and solves again. In seconds of processor time:
 //   set_up_s  what is built before the first solve;   first_s  arrays to first field;   solve_s  the second solve
 // (into a field that is there already; the first one where that took more than five seconds). memory_mib is the peak
 // above the arrays when the first round has its first field, which is written to DISTANCES (raw float64). Rounds begin

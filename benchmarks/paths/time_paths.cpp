@@ -1,8 +1,9 @@
-// What paths and isolines cost beside the field: reading a path off it, a near pair without it.
+// What paths and logarithmic maps cost beside the field: reading a path off it, a near pair without it, a small disc.
 //
 //   time_paths [LEVEL]     on folded spheres of 10 * 4^LEVEL + 2 vertices (default 8: 655362)
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
+#include <brushfire/queries/straightest.h>
 
 #include "../measure.h"
 
@@ -58,5 +59,27 @@ int main(int argc, char** argv) {
     std::printf("pair at 5 %% of the largest distance: median %.3f ms, %.0f times cheaper than the field\n",
                 1e3 * median(pair_s), field_s / median(pair_s));
   }
+
+  // Discs of about 3200 vertices, and what the exact distances in them take alone.
+  std::vector<double> sorted = field.distance;
+  std::sort(sorted.begin(), sorted.end());
+  const double radius = sorted[std::min<std::size_t>(sorted.size() - 1, 3200)];
+  DistanceOptions disc;
+  disc.method = Method::Exact;
+  disc.max_distance = radius;
+  std::vector<double> map_s, distance_s, reached;
+  SparseField near;
+  for (Index v = 0; v < mesh.vertex_count(); v += mesh.vertex_count() / 200) {
+    const Source centre{vertex_point(mesh, v)};
+    start = benchmark::cpu_seconds();
+    const SparseLogMap map = log_map(solver, centre.point, radius);
+    map_s.push_back(benchmark::cpu_seconds() - start);
+    start = benchmark::cpu_seconds();
+    solver.distance_sparse(std::span(&centre, 1), disc, near);
+    distance_s.push_back(benchmark::cpu_seconds() - start);
+    reached.push_back(static_cast<double>(map.vertex.size()));
+  }
+  std::printf("log map of a disc: median %.3f ms, %.2f times its distances, median %.0f vertices\n",
+              1e3 * median(map_s), median(map_s) / median(distance_s), median(reached));
   return 0;
 }

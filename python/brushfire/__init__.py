@@ -15,11 +15,13 @@ other numeric types, Fortran order and lists are converted, once, when the mesh 
 Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; meshes may be shared between threads.
 """
 
+from brushfire._any import from_any
 from brushfire._core import version as __version__
 from brushfire._curves import LogMap, Path
-from brushfire._errors import BrushfireError, BrushfireIndexError
+from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
-from brushfire._io import FileInfo, from_any, read
+from brushfire._files import write
+from brushfire._io import FileInfo, read
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
@@ -30,6 +32,8 @@ __all__ = [
     "Border",
     "BrushfireError",
     "BrushfireIndexError",
+    "BrushfireTypeError",
+    "BrushfireWarning",
     "Comparison",
     "Cut",
     "Descent",
@@ -55,4 +59,5 @@ __all__ = [
     "read",
     "render",
     "render_svg",
+    "write",
 ]

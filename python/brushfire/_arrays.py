@@ -2,23 +2,45 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from brushfire._errors import BrushfireError, BrushfireIndexError
+from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError
+from brushfire._foreign import to_numpy
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
+Labels = npt.NDArray[np.int32]
+
+
+def path_text(path: Any, what: str = "path") -> str:
+    """The name of a file."""
+    try:
+        return os.fsdecode(path)
+    except TypeError:
+        raise BrushfireTypeError(f"{what}: the name of a file is needed, not {path!r}") from None
+
+
+def floating_type(dtype: Any) -> np.dtype[Any]:
+    """float32 or float64."""
+    try:
+        wanted: np.dtype[Any] = np.dtype(dtype)
+    except TypeError:
+        raise BrushfireTypeError(f"dtype: float32 or float64 are possible, not {dtype!r}") from None
+    if wanted not in (np.dtype(np.float32), np.dtype(np.float64)):
+        raise BrushfireError(f"dtype: float32 or float64 are possible, not {wanted}")
+    return wanted
 
 
 def any_array(values: npt.ArrayLike, what: str) -> npt.NDArray[Any]:
-    """As numpy understands it."""
+    """As numpy understands it; arrays of other libraries too."""
     try:
-        return np.asarray(values)
+        return to_numpy(values)
     except ValueError:  # rows of different lengths
-        raise TypeError(f"{what}: the rows do not form an array") from None
+        raise BrushfireTypeError(f"{what}: the rows do not form an array") from None
 
 
 def floats(values: npt.ArrayLike, what: str) -> Floats:
@@ -27,7 +49,7 @@ def floats(values: npt.ArrayLike, what: str) -> Floats:
     if array.size == 0:
         return np.zeros(array.shape)
     if array.dtype.kind not in "fiu":
-        raise TypeError(f"{what}: numbers are needed, not {array.dtype}")
+        raise BrushfireTypeError(f"{what}: numbers are needed, not {array.dtype}")
     return np.asarray(array, dtype=np.float64, order="C")
 
 
@@ -37,10 +59,15 @@ def integers(values: npt.ArrayLike, what: str) -> Ints:
     if array.size == 0:
         return np.zeros(array.shape, dtype=np.int64)
     if array.dtype.kind not in "iu":
-        raise TypeError(f"{what}: integers are needed, not {array.dtype}")
+        raise BrushfireTypeError(f"{what}: integers are needed, not {array.dtype}")
     if array.dtype == np.uint64 and array.max() > np.iinfo(np.int64).max:
         raise BrushfireIndexError(f"{what}: {array.max()} does not exist")
     return np.asarray(array, dtype=np.int64, order="C")
+
+
+def whole_numbers(array: npt.NDArray[Any]) -> bool:
+    """Whether all of these floats are integers that 64 bits hold."""
+    return bool((np.abs(array) < 2.0**63).all() and (array == np.floor(array)).all())
 
 
 def columns(array: npt.NDArray[Any], count: int, what: str) -> None:
@@ -74,7 +101,7 @@ def faces(values: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     if array.size == 0:
         return np.zeros((0, 3), dtype=np.uint32)
     if array.dtype.kind not in "iu":
-        raise TypeError(f"faces: integers are needed, not {array.dtype}")
+        raise BrushfireTypeError(f"faces: integers are needed, not {array.dtype}")
     columns(array, 3, "faces")
     if array.dtype not in (np.int32, np.uint32):
         check_faces(array)
@@ -101,16 +128,27 @@ def offsets(values: npt.ArrayLike, count: int) -> Floats:
 
 
 def number(value: Any, what: str) -> float:
+    """A float of any real number; texts that look like one are not."""
+    if isinstance(value, (bool, str, bytes, bytearray)):
+        raise BrushfireTypeError(f"{what}: a number is needed, not {value!r}")
     try:
         return float(value)
     except (TypeError, ValueError):
-        raise TypeError(f"{what}: a number is needed, not {value!r}") from None
+        raise BrushfireTypeError(f"{what}: a number is needed, not {value!r}") from None
+    except OverflowError:
+        raise BrushfireError(f"{what}: {value} is beyond the largest number") from None
+
+
+def integer(value: Any, what: str) -> int:
+    """Of Python or numpy; whole floats, truth values and texts are not."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise BrushfireTypeError(f"{what}: an integer is needed, not {value!r}")
+    return int(value)
 
 
 def whole(value: Any, what: str, most: int) -> int:
     """An integer from 0 to ``most``."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
-        raise TypeError(f"{what}: an integer is needed, not {value!r}")
+    value = integer(value, what)
     if not 0 <= value <= most:
         raise BrushfireError(f"{what}: a number from 0 to {most} is needed, not {value}")
     return int(value)

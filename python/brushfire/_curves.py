@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, Ints, number, offsets
+from brushfire._arrays import Floats, Ints, Labels, number, offsets
 from brushfire._errors import BrushfireError
 from brushfire._places import PlaceArrays, Places, Points
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Path:
     """A polyline on the surface; straight between consecutive points, which share a face.
 
@@ -28,6 +28,21 @@ class Path:
     positions: Floats
     length: float
     closed: bool = False
+    _mesh: _core.Mesh | None = field(default=None, repr=False, compare=False)
+
+    def __repr__(self) -> str:
+        return f"Path({len(self.points)} points, length {self.length:.6g}{', closed' if self.closed else ''})"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Path):
+            return NotImplemented
+        return self.points == other.points and self.length == other.length and self.closed == other.closed
+
+    def __hash__(self) -> int:
+        return hash((len(self.points), self.length, self.closed))
+
+    def __reduce__(self) -> tuple[type[Path], tuple[Any, ...]]:
+        return Path, (self.points, self.positions, self.length, self.closed)
 
 
 @dataclass(frozen=True)
@@ -35,12 +50,17 @@ class LogMap:
     """Polar coordinates of every vertex around a source.
 
     ``radius`` (vertex_count,): the exact distance. ``angle`` (vertex_count,): the direction in which the shortest path
-    leaves the source, NaN where there is none. ``total_angle``: the full turn at the source.
+    leaves the source, NaN where there is none. ``total_angle``: the full turn at the source. ``vertices``: None, or
+    with ``sparse=True`` the numbers of those that are reached, (k,), of which the arrays speak then.
     """
 
     radius: Floats
     angle: Floats
     total_angle: float
+    vertices: Labels | None = None
+
+    def __repr__(self) -> str:
+        return f"LogMap({np.isfinite(self.radius).sum()} of {len(self.radius)} vertices reached)"
 
 
 class OnMesh:
@@ -57,7 +77,10 @@ class OnMesh:
             positions = self._mesh.positions(face.astype(np.int64), weights)
         else:
             positions = np.zeros((0, 3))
-        return Path(Points(face, weights), positions, length, closed)
+        return Path(Points(face, weights), positions, length, closed, self._mesh)
+
+    def _run(self) -> _core.Solver:
+        raise NotImplementedError
 
     def _joined(self, places: Sequence[Any], what: str) -> tuple[Ints, Floats]:
         """Index and weights of all of them, one after the other."""
@@ -90,7 +113,7 @@ class Curves(OnMesh):
         (7.0, 5.0)
         """
         index, weights = self._joined(places, "places")
-        return self._path(_core.path(self._mesh, index, weights, bool(closed), bool(tighten)))
+        return self._path(_core.path(self._run(), index, weights, bool(closed), bool(tighten)))
 
     def paths(self, sources: Places, targets: Places, *, offset: npt.ArrayLike = 0.0) -> tuple[list[Path], Any]:
         """The shortest path to every target from the source that is nearest to it, all off one exact field.
@@ -108,7 +131,7 @@ class Curves(OnMesh):
         """
         start, end = self._arrays(sources, "sources"), self._arrays(targets, "targets")
         source, found = _core.paths(
-            self._mesh, start.index, start.weights, offsets(offset, len(start.index)), end.index, end.weights
+            self._run(), start.index, start.weights, offsets(offset, len(start.index)), end.index, end.weights
         )
         return [self._path(p) for p in found], source
 
@@ -128,7 +151,7 @@ class Curves(OnMesh):
         if end.index.shape != (1,) or end.weights is not None and end.weights.any():
             raise BrushfireError("target: a single vertex is needed")
         start_offsets = offsets(offset, len(start.index))
-        return self._path(_core.edge_path(self._mesh, start.index, start.weights, start_offsets, int(end.index[0])))
+        return self._path(_core.edge_path(self._run(), start.index, start.weights, start_offsets, int(end.index[0])))
 
     def shorten(self, path: Path | Points | Sequence[Places], *, closed: bool | None = None) -> Path:
         """A polyline pulled straight like a rubber band: the shortest path that it can be moved into on the surface.
@@ -190,11 +213,11 @@ class Curves(OnMesh):
         walked, end = _core.trace(self._mesh, arrays.index, arrays.weights, angle, along, number(length, "length"))
         return self._path(walked), end
 
-    def angle_of(self, point: Places, direction: npt.ArrayLike) -> tuple[float, float]:
-        """A direction in space as an angle at a surface point, as :meth:`trace` and :meth:`log_map` count it.
+    def angle_of(self, place: Places, direction: npt.ArrayLike) -> tuple[float, float]:
+        """A direction in space as an angle at a place, as :meth:`trace` and :meth:`log_map` count it.
 
         :param direction: (3,), projected onto the surface; not 0.
-        :return: the angle, and the full turn at the point: 2 pi inside a face, the sum of the angles at a vertex.
+        :return: the angle, and the full turn at the place: 2 pi inside a face, the sum of the angles at a vertex.
         :raises BrushfireError: for a mesh from lengths, and for a direction of length 0.
 
         >>> import brushfire as bf
@@ -202,14 +225,17 @@ class Curves(OnMesh):
         >>> [round(a, 6) for a in mesh.angle_of(0, [1, 1, 0])]
         [0.785398, 1.570796]
         """
-        arrays = self._arrays(point, "point")
+        arrays = self._arrays(place, "place")
         vector = _arrays.floats(direction, "direction")
         if vector.shape != (3,):
             raise BrushfireError(f"direction: shape (3,) is needed, not {vector.shape}")
         return _core.angle_of(self._mesh, arrays.index, arrays.weights, vector.reshape(1, 3))
 
-    def log_map(self, source: Places, max_radius: float = np.inf) -> LogMap:
+    def log_map(self, source: Places, max_radius: float = np.inf, *, sparse: bool = False) -> LogMap:
         """Polar coordinates around a source: exact distance, and the direction of the shortest path.
+
+        :param max_radius: what is farther reads +inf and NaN.
+        :param sparse: only of the vertices that are reached: see :class:`LogMap`.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
@@ -219,4 +245,9 @@ class Curves(OnMesh):
         """
         arrays = self._arrays(source, "source")
         limit = number(max_radius, "max_radius")
-        return LogMap(*_core.log_map(self._mesh, arrays.index, arrays.weights, limit))
+        vertices, radius, angle, total = _core.log_map(self._run(), arrays.index, arrays.weights, limit)
+        if sparse:
+            return LogMap(radius, angle, total, vertices)
+        every = np.full((2, self._mesh.vertex_count), ((np.inf,), (np.nan,)))
+        every[:, vertices] = radius, angle
+        return LogMap(every[0], every[1], total)

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, offsets
+from brushfire._arrays import Floats, Labels, offsets
 from brushfire._errors import BrushfireError
 from brushfire._options import options
 from brushfire._places import PlaceArrays, Places
-
-Labels = npt.NDArray[np.int32]
-Progress = Callable[[float], object] | None
+from brushfire._progress import Progress, shown
 
 
 class Distances:
@@ -26,6 +23,12 @@ class Distances:
 
     def _arrays(self, places: Any, what: str) -> PlaceArrays:
         raise NotImplementedError
+
+    def _or_defaults(
+        self, method: Any, tolerance: Any, bound: Any, precision: Any, *, limit: Any
+    ) -> tuple[Any, Any, Any, Any, Any]:
+        """As options() takes them, with what a solver was made with where a call says none of them."""
+        return method, tolerance, limit, bound, precision
 
     @overload
     def distance(
@@ -113,8 +116,9 @@ class Distances:
     ) -> Floats | tuple[Any, ...]:
         """Distances from the nearest of the sources to every vertex, or to the targets.
 
-        :param sources: a vertex, a :class:`Point`, a list or array of them, a mask with one bool per vertex, or
-            :class:`Points`; at least one.
+        :param sources: places: a vertex, a :class:`Point`, several of them in whatever holds several (lists, sets,
+            generators, arrays of numpy, torch, jax, pandas, ...), a mask with one bool per vertex, :class:`Points`, or
+            :func:`at` positions; at least one. Numbers count from 0, and negative ones do not exist.
         :param method: one of :func:`methods`; the library's default if none is given.
         :param tolerance: for method ``"windows"``, which is meant where a tolerance is given: the relative error at every
             vertex is at most this; in [0, 0.1], 0 is exact, and so are those so small that an exact run is quicker.
@@ -129,7 +133,8 @@ class Distances:
         :param targets: where only some distances are needed; the solver may stop as soon as it has them.
         :param return_source: also return which source is nearest: its position in ``sources``, -1 where none is.
         :param return_bound: also return the proven absolute error of each distance, for methods that have one.
-        :param progress: called with the share of the work that is done, some times a second, from the calling thread.
+        :param progress: called with the share of the work that is done, some times a second, from the calling thread;
+            True shows a bar, with tqdm where that is installed.
         :return: float64 of shape (vertex_count,) or (targets,), in the units of the vertices; +inf where nothing is
             reached. With ``return_source`` and ``return_bound`` a tuple: distances, int32 sources, float64 bounds.
         :raises BrushfireIndexError: for a vertex or face that does not exist.
@@ -152,15 +157,18 @@ class Distances:
         """
         start = self._arrays(sources, "sources")
         end = None if targets is None else self._arrays(targets, "targets")
-        distance, source, error = self._run().solve(
-            start.index,
-            start.weights,
-            offsets(offset, len(start.index)),
-            end.index if end else None,
-            end.weights if end else None,
-            options(method, tolerance, max_distance, bound, precision, threads),
-            progress,
-        )
+        given = offsets(offset, len(start.index))
+        chosen = options(*self._or_defaults(method, tolerance, bound, precision, limit=max_distance), threads)
+        with shown(progress, "distance") as report:
+            distance, source, error = self._run().solve(
+                start.index,
+                start.weights,
+                given,
+                end.index if end else None,
+                end.weights if end else None,
+                chosen,
+                report,
+            )
         if return_bound and error is None:
             raise BrushfireError("return_bound: the method has no bound, or there are targets")
         if return_source or return_bound:

@@ -43,6 +43,23 @@ class BrushfireIndexError(BrushfireError, IndexError):
         super().__init__(message, code)
 
 
+class BrushfireTypeError(BrushfireError, TypeError):
+    """A value of another type than the call takes: a BrushfireError and a TypeError.
+
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> try:
+    ...     mesh.distance(0, threads=1.5)
+    ... except bf.BrushfireError as error:
+    ...     print(error)
+    threads: an integer is needed, not 1.5
+    """
+
+
+class BrushfireWarning(UserWarning):
+    """Something that was done and may not be what was meant: a position far off was moved to the surface."""
+
+
 def error_of(code: str, message: str) -> BrushfireError:
     """The exception for an error of the C++ library, which calls this."""
     if code == "index_out_of_range":

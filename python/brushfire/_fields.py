@@ -11,10 +11,10 @@ import numpy.typing as npt
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats, number, offsets, whole
 from brushfire._curves import OnMesh, Path
-from brushfire._distance import Progress
 from brushfire._errors import BrushfireError
 from brushfire._options import options
 from brushfire._places import Places
+from brushfire._progress import Progress, shown
 
 _MOST_LEVELS = 1_000_000
 
@@ -30,6 +30,9 @@ class Isoline:
     level: float
     level_index: int
     line: Path
+
+    def __repr__(self) -> str:
+        return f"Isoline(level {self.level:.6g}, {self.line!r})"
 
 
 @dataclass(frozen=True)
@@ -185,9 +188,9 @@ class Fields(OnMesh):
         start = self._arrays(sources, "sources")
         if chord_error is None:
             chord_error = 0.01 * float(self._mesh.report()["mean_edge_length"])  # type: ignore[arg-type]
-        return self._isolines(
-            _core.curved_isolines(
-                self._mesh,
+        with shown(progress, "isolines") as report:
+            found = _core.curved_isolines(
+                self._run(),
                 start.index,
                 start.weights,
                 offsets(offset, len(start.index)),
@@ -196,9 +199,9 @@ class Fields(OnMesh):
                 None if every is None else number(every, "every"),
                 0 if count is None else whole(count, "count", _MOST_LEVELS),
                 number(chord_error, "chord_error"),
-                progress,
+                report,
             )
-        )
+        return self._isolines(found)
 
     def _isolines(self, lines: list[tuple[float, int, _core.PathArrays]]) -> list[Isoline]:
         return [Isoline(level, index, self._path(line)) for level, index, line in lines]
@@ -218,11 +221,11 @@ class Fields(OnMesh):
         """
         return _core.face_gradients(self._mesh, _values(values, "values"))
 
-    def steepest_descent(self, values: npt.ArrayLike, point: Places) -> Descent | None:
-        """The direction in which a field falls fastest from a point, of all faces around it; None where it falls nowhere.
+    def steepest_descent(self, values: npt.ArrayLike, place: Places) -> Descent | None:
+        """The direction in which a field falls fastest from a place, of all faces around it; None where it falls nowhere.
 
         :param values: one per vertex, (vertex_count,).
-        :param point: a vertex or a :class:`Point`.
+        :param place: a vertex or a :class:`Point`.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0], [2, 0], [2, 2], [0, 2]], [[0, 1, 2], [0, 2, 3]])
@@ -230,7 +233,7 @@ class Fields(OnMesh):
         >>> down.face, down.slope, (down.vector + 0.0).round(6).tolist()
         (0, -1.0, [-1.0, 0.0, 0.0])
         """
-        arrays = self._arrays(point, "point")
+        arrays = self._arrays(place, "place")
         found = _core.steepest_descent(self._mesh, _values(values, "values"), arrays.index, arrays.weights)
         return None if found is None else Descent(*found)
 

@@ -1,16 +1,17 @@
-"""Meshes from files and from other libraries' objects."""
+"""Meshes from files."""
 
 from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Literal, overload
+from typing import IO, Any, Literal, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._errors import BrushfireError
+from brushfire._arrays import path_text
+from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._mesh import Mesh
 
 
@@ -28,26 +29,37 @@ class FileInfo:
     vertex_map: npt.NDArray[np.int32] | None
 
 
+Source: TypeAlias = "str | os.PathLike[str] | bytes | bytearray | memoryview | IO[bytes] | IO[str]"
+
+
 @overload
-def read(path: str | os.PathLike[str], *, return_info: Literal[False] = ...) -> Mesh: ...
+def read(source: Source, *, format: str | None = ..., return_info: Literal[False] = ...) -> Mesh: ...
 @overload
-def read(path: str | os.PathLike[str], *, return_info: Literal[True]) -> tuple[Mesh, FileInfo]: ...
-def read(path: str | os.PathLike[str], *, return_info: bool = False) -> Mesh | tuple[Mesh, FileInfo]:
+def read(source: Source, *, format: str | None = ..., return_info: Literal[True]) -> tuple[Mesh, FileInfo]: ...
+def read(source: Source, *, format: str | None = None, return_info: bool = False) -> Mesh | tuple[Mesh, FileInfo]:
     """A mesh from a file: the file's vertex order, indices and double precision are kept.
 
     The content decides about the format where it names one, the extension otherwise.
 
+    :param source: a path, the ``bytes`` of a file, or an open file, which is read to its end.
+    :param format: an extension ("obj", "ply", ...) that counts in place of the name's.
     :param return_info: also return a :class:`FileInfo`.
     :raises BrushfireError: codes ``file_not_readable``, ``unknown_format``, ``file_malformed`` (with line or byte).
 
-    >>> import brushfire as bf, os, tempfile
+    >>> import brushfire as bf, io, os, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = os.path.join(folder, "triangle.obj")
     ...     _ = open(path, "w").write("v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n")
     ...     bf.read(path)
     Mesh(3 vertices, 1 faces)
+    >>> bf.read(io.BytesIO(b"v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n"), format="obj")
+    Mesh(3 vertices, 1 faces)
     """
-    core, name, remarks, face_origin, vertex_map = _core.read(os.fspath(path))
+    if isinstance(source, (str, os.PathLike)) and format is None:
+        loaded = _core.read(path_text(source))
+    else:
+        loaded = _core.read_bytes(*_content(source, format))
+    core, name, remarks, face_origin, vertex_map = loaded
     mesh = Mesh._of(core)
     if not return_info:
         return mesh
@@ -56,53 +68,25 @@ def read(path: str | os.PathLike[str], *, return_info: bool = False) -> Mesh | t
     )
 
 
-def from_any(source: Any) -> Mesh:
-    """A mesh from whatever holds one: judged by its attributes, no other library is imported.
-
-    - a Mesh, itself; a path (``str`` or ``os.PathLike``), read;
-    - ``(vertices, faces)``: a pair of arrays;
-    - trimesh, Open3D, igl-like: ``.vertices`` and ``.faces`` or ``.triangles``;
-    - pyvista ``PolyData``: ``.points`` and ``.regular_faces``, or ``.faces`` in VTK's layout (3, a, b, c, ...);
-    - meshio: ``.points`` and ``.cells_dict["triangle"]``;
-    - nibabel GIFTI: ``.agg_data("pointset")`` and ``.agg_data("triangle")``;
-    - nilearn surface meshes: ``.coordinates`` and ``.faces``.
-
-    :raises TypeError: for anything else.
-    :raises BrushfireError: where the faces are not triangles, or do not make a mesh.
-
-    >>> import brushfire as bf
-    >>> bf.from_any(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
-    Mesh(3 vertices, 1 faces)
-    """
-    if isinstance(source, Mesh):
-        return source
+def _content(source: Any, format: str | None) -> tuple[bytes, str]:
+    """The bytes, and a name for messages whose extension decides where they do not."""
+    name = "bytes"
     if isinstance(source, (str, os.PathLike)):
-        return read(source)
-    if hasattr(source, "agg_data"):
-        return Mesh(source.agg_data("pointset"), source.agg_data("triangle"))
-    if hasattr(source, "points") and hasattr(source, "cells_dict"):
-        return _from_cells(source)
-    if hasattr(source, "points") and hasattr(source, "faces"):
-        return Mesh(source.points, _vtk_faces(source))
-    for vertices, faces in (("vertices", "faces"), ("vertices", "triangles"), ("coordinates", "faces"), ("V", "F")):
-        if hasattr(source, vertices) and hasattr(source, faces):
-            return Mesh(np.asarray(getattr(source, vertices)), np.asarray(getattr(source, faces)))
-    if isinstance(source, (tuple, list)) and len(source) == 2:
-        return Mesh(source[0], source[1])
-    raise TypeError(f"no mesh is known to be in a {type(source).__name__}")
+        name = path_text(source)
+        try:
+            with open(name, "rb") as file:
+                source = file.read()
+        except OSError as error:
+            raise BrushfireError(f"{name}: {error.strerror}", "file_not_readable") from None
+    elif is_file(source):
+        name = source.name if isinstance(getattr(source, "name", None), str) else "file"
+        source = source.read()
+    elif not isinstance(source, (bytes, bytearray, memoryview)):
+        raise BrushfireTypeError(f"source: a path, bytes or an open file is needed, not {source!r}")
+    content = source.encode() if isinstance(source, str) else bytes(source)
+    return content, name if format is None else f"{name}.{format.lstrip('.')}"
 
 
-def _from_cells(source: Any) -> Mesh:
-    others = sorted(set(source.cells_dict) - {"triangle", "vertex", "line"})
-    if others:
-        raise BrushfireError(f"cells of type {', '.join(others)}: triangles are needed")
-    return Mesh(source.points, source.cells_dict.get("triangle", np.zeros((0, 3), dtype=np.int64)))
-
-
-def _vtk_faces(source: Any) -> npt.NDArray[Any]:
-    faces = np.asarray(source.faces)
-    if faces.ndim == 2:
-        return faces
-    if faces.size % 4 != 0 or (faces.reshape(-1, 4)[:, 0] != 3).any():
-        raise BrushfireError("polygons that are not triangles: triangulate() them first")
-    return faces.reshape(-1, 4)[:, 1:]
+def is_file(source: Any) -> bool:
+    """Whether it is open for reading; some libraries' meshes have a read(), too."""
+    return callable(getattr(source, "read", None)) and callable(getattr(source, "readline", None))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import os
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -14,16 +14,24 @@ import numpy.typing as npt
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats, number
 from brushfire._curves import Curves
-from brushfire._distance import Distances, Progress
-from brushfire._errors import BrushfireError
+from brushfire._distance import Distances
+from brushfire._errors import BrushfireError, BrushfireWarning
 from brushfire._fields import Fields
-from brushfire._options import options, thread_count
+from brushfire._files import Files
+from brushfire._matrices import Matrices, float_type, sparse_matrix
+from brushfire._notebook import mesh_table
+from brushfire._options import Options, options
 from brushfire._picture import Pictures
 from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
+from brushfire._progress import Progress, shown
 from brushfire._regions import Regions
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
+
+
+# Beyond this share of the mesh's size a position is far off its surface.
+_FAR = 0.1
 
 
 @contextlib.contextmanager
@@ -78,7 +86,7 @@ class MeshReport:
         return "\n".join([head, *self.remarks])
 
 
-class Mesh(Distances, Curves, Fields, Regions, Pictures):
+class Mesh(Distances, Curves, Fields, Regions, Matrices, Pictures, Files):
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
     :param vertices: (n, 3) positions, or (n, 2) for a flat mesh. Kept as float64.
@@ -128,9 +136,10 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         f = _arrays.faces(faces)
         triples = _arrays.triples(lengths, "lengths")
         _arrays.check_faces(f.view(np.int32))
-        count = int(f.max()) + 1 if f.size and vertex_count is None else int(vertex_count or 0)
-        if count < 0:
-            raise BrushfireError(f"vertex_count: {count} is negative")
+        if vertex_count is None:
+            count = int(f.max()) + 1 if f.size else 0
+        else:
+            count = _arrays.whole(vertex_count, "vertex_count", np.iinfo(np.int32).max)
         return cls._of(_core.make_from_lengths(count, f, triples))
 
     @property
@@ -145,12 +154,15 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
 
     @property
     def vertices(self) -> Floats:
-        """The positions, (vertex_count, 3), a read-only view; (0, 3) for a mesh from lengths."""
+        """The positions, (vertex_count, 3), a read-only copy; (0, 3) for a mesh from lengths.
+
+        A copy every time (24 bytes a vertex): ask once, not in a loop.
+        """
         return self._mesh.vertices
 
     @property
     def faces(self) -> npt.NDArray[np.int32]:
-        """The vertex numbers of the faces, (face_count, 3), a read-only view."""
+        """The vertex numbers of the faces, (face_count, 3), a read-only copy: ask once, not in a loop."""
         return self._mesh.faces
 
     @property
@@ -175,12 +187,14 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         xyz = self._mesh.positions(arrays.index, arrays.weights)
         return xyz[0] if is_one(places) else xyz
 
-    def nearest(self, xyz: npt.ArrayLike) -> tuple[Points, Floats]:
+    def nearest(self, xyz: npt.ArrayLike, *, within: float = np.inf) -> tuple[Points, Floats]:
         """The points of the surface nearest to positions in space, and how far away they are.
 
         :param xyz: (k, 3), or (3,) for a single one.
+        :param within: farther than this from the surface no position may be.
         :return: :class:`Points` and distances, (k,) each.
-        :raises BrushfireError: for a mesh from lengths or without faces, and for positions that are not finite.
+        :raises BrushfireError: for a mesh from lengths or without faces, for positions that are not finite, and for those
+            that are farther away than ``within``.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
@@ -190,8 +204,29 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         """
         if self._finder is None:
             self._finder = _core.NearestPointFinder(self._mesh)
-        face, weights, distance = self._finder.nearest(at(xyz).xyz)
+        positions = at(xyz, within=within)
+        face, weights, distance = self._finder.nearest(positions.xyz)
+        too_far = distance > positions.within
+        if too_far.any():
+            bad = int(np.argmax(too_far))
+            raise BrushfireError(
+                f"position {bad} is {distance[bad]:.6g} from the surface, farther than within={positions.within:.6g}"
+            )
         return Points(face, weights), distance
+
+    def _snapped(self, positions: At) -> Points:
+        """Not without a word where that is far, for the size of the mesh."""
+        points, distance = self.nearest(positions.xyz, within=positions.within)
+        size = self._mesh.size
+        if np.isinf(positions.within) and distance.size and distance.max() > _FAR * size:
+            far = int(np.argmax(distance))
+            warnings.warn(
+                f"position {far} is {distance[far]:.6g} from the surface (the mesh is {size:.6g} across): its nearest "
+                "point was taken; at(..., within=...) says how far is near enough",
+                BrushfireWarning,
+                stacklevel=4,
+            )
+        return points
 
     def masked(self, open_vertices: npt.ArrayLike) -> Mesh:
         """The mesh of the faces whose three vertices are all open; vertices keep their numbers.
@@ -213,147 +248,26 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
             return type(self)(self.vertices, self.faces[chosen])
         return type(self).from_lengths(self.faces[chosen], self._mesh.lengths()[chosen], self.vertex_count)
 
-    def solver(self) -> Solver:
-        """A solver for many calls on this mesh: see :class:`Solver`."""
-        return Solver(self)
-
-    def distance_matrix(
-        self,
-        rows: Places | None = None,
-        columns: Places | None = None,
-        *,
-        method: str | None = None,
-        tolerance: float | None = None,
-        max_distance: float = np.inf,
-        precision: str | None = None,
-        dtype: npt.DTypeLike = np.float32,
-        out: npt.NDArray[Any] | None = None,
-        threads: int = 0,
-        progress: Progress = None,
-    ) -> npt.NDArray[Any]:
-        """Distances from every row's place to every column's place.
-
-        :param rows: vertices, points or a mask; all vertices if none are given.
-        :param columns: likewise.
-        :param method, tolerance, precision: as for :meth:`distance`.
-        :param max_distance: what is farther reads +inf.
-        :param dtype: float32 (rounded from float64, 7 digits) or float64.
-        :param out: a C-contiguous, writable array of shape (rows, columns) of the dtype that is wanted, a
-            ``numpy.memmap`` for instance, to be filled instead of a new one.
-        :param threads: 0 means one per processor. The numbers are the same to the bit for any number of threads.
-        :return: (rows, columns). Rows and columns of vertices in no face are +inf throughout.
-        :raises BrushfireError: code ``too_large`` before anything is computed where the result does not fit into memory.
+    @property
+    def area(self) -> float:
+        """The area of the surface, in the square of the units of the vertices.
 
         >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> mesh.distance_matrix([0, 1], method="dijkstra").tolist()
-        [[0.0, 3.0, 5.0, 4.0], [3.0, 0.0, 4.0, 7.0]]
+        >>> bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]]).area
+        12.0
         """
-        row, row_count = self._optional(rows, "rows")
-        column, column_count = self._optional(columns, "columns")
-        shape = (row_count, column_count)
-        chosen = options(method, tolerance, max_distance, precision=precision)
-        if out is None:
-            single = _is_float32(dtype)
-            _core.require_dense_memory(*shape, single, 0)
-            out = np.empty(shape, dtype=np.float32 if single else np.float64)
-        else:
-            _check_out(out, shape)
-        if out.size:
-            _core.fill_matrix(self._mesh, out, *row, *column, chosen, thread_count(threads), progress)
-        return out
+        return float(self._mesh.report()["area"])  # type: ignore[arg-type]
 
-    def distances_within(
+    def solver(
         self,
-        radius: float,
-        rows: Places | None = None,
-        *,
         method: str | None = None,
-        tolerance: float | None = None,
-        precision: str | None = None,
-        dtype: npt.DTypeLike = np.float32,
-        threads: int = 0,
-        memory_limit: int = 0,
-        progress: Progress = None,
-    ) -> csr_matrix:
-        """All distances up to a radius, as a ``scipy.sparse.csr_matrix`` of shape (rows, vertex_count).
-
-        A row costs what it reaches, whatever the size of the mesh. A place's distance to itself is a stored zero: what is
-        not stored is farther than the radius. Columns ascend within a row.
-
-        :param radius: finite, >= 0.
-        :param rows: vertices, points or a mask; all vertices if none are given.
-        :param method, tolerance, precision: as for :meth:`distance`.
-        :param memory_limit: bytes that the result may take; 0 means what the machine has left.
-        :raises BrushfireError: code ``too_large`` where the result will not fit.
-        :raises ImportError: where scipy is not installed.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> near = mesh.distances_within(3.5, method="dijkstra")
-        >>> near.nnz, near[0].indices.tolist(), near[0].data.tolist()
-        (8, [0, 1], [0.0, 3.0])
-        """
-        try:
-            from scipy.sparse import csr_matrix
-        except ImportError:
-            raise ImportError("distances_within() returns a scipy matrix: pip install 'brushfire[sparse]'") from None
-        row, row_count = self._optional(rows, "rows")
-        compute = _core.sparse_float32 if _is_float32(dtype) else _core.sparse_float64
-        if memory_limit < 0:
-            raise BrushfireError(f"memory_limit: {memory_limit} is negative")
-        data, indices, starts = compute(
-            self._mesh,
-            number(radius, "radius"),
-            *row,
-            options(method, tolerance, np.inf, precision=precision),
-            thread_count(threads),
-            memory_limit,
-            progress,
-        )
-        # scipy wants one integer type for both: 32 bits where they do.
-        integer = np.int32 if len(data) <= np.iinfo(np.int32).max else np.int64
-        pointers = starts.astype(integer, copy=False)
-        numbers = indices.astype(integer, copy=False)
-        matrix = csr_matrix((data, numbers, pointers), shape=(row_count, self.vertex_count), copy=False)
-        matrix.has_sorted_indices = True
-        matrix.has_canonical_format = True
-        return matrix
-
-    def write_distance_matrix(
-        self,
-        path: str | os.PathLike[str],
-        rows: Places | None = None,
-        columns: Places | None = None,
         *,
-        method: str | None = None,
         tolerance: float | None = None,
-        max_distance: float = np.inf,
+        bound: str | None = None,
         precision: str | None = None,
-        dtype: npt.DTypeLike = np.float32,
-        threads: int = 0,
-        progress: Progress = None,
-    ) -> None:
-        """``distance_matrix()`` into a .npy file, a row at a time, for what is larger than memory.
-
-        Interrupted, it goes on where it stopped when it is called again with the same arguments; until it is complete
-        the rows stand in ``path + ".part"``. Open the result with ``numpy.load(path, mmap_mode="r")``.
-
-        :raises BrushfireError: code ``file_not_writable``, also where the disk has not enough room left.
-
-        >>> import brushfire as bf, numpy as np, tempfile, os
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     mesh.write_distance_matrix(os.path.join(folder, "d.npy"), [1], method="dijkstra")
-        ...     np.load(os.path.join(folder, "d.npy")).tolist()
-        [[3.0, 0.0, 4.0, 7.0]]
-        """
-        row, _ = self._optional(rows, "rows")
-        column, _ = self._optional(columns, "columns")
-        chosen = options(method, tolerance, max_distance, precision=precision)
-        _core.write_matrix(
-            self._mesh, os.fspath(path), _is_float32(dtype), *row, *column, chosen, thread_count(threads), progress
-        )
+    ) -> Solver:
+        """A solver for many calls on this mesh: see :class:`Solver`, which takes the same arguments."""
+        return Solver(self, method, tolerance=tolerance, bound=bound, precision=precision)
 
     def _run(self) -> _core.Solver:
         return _core.Solver(self._mesh)
@@ -363,18 +277,14 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
 
     def _arrays(self, places: Any, what: str) -> PlaceArrays:
         if isinstance(places, At):
-            places = self.nearest(places.xyz)[0]
+            places = self._snapped(places)
         return place_arrays(places, self.vertex_count, what)
-
-    def _optional(self, places: Any, what: str) -> tuple[tuple[Any, Any], int]:
-        """Index and weights, and how many; all vertices for None."""
-        if places is None:
-            return (None, None), self.vertex_count
-        arrays = self._arrays(places, what)
-        return (arrays.index, arrays.weights), len(arrays.index)
 
     def __repr__(self) -> str:
         return f"Mesh({self.vertex_count} vertices, {self.face_count} faces)"
+
+    def _repr_html_(self) -> str:
+        return mesh_table(self)
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         if self._mesh.has_positions:
@@ -388,22 +298,84 @@ class Mesh(Distances, Curves, Fields, Regions, Pictures):
         return self
 
 
-class Solver(Distances):
-    """Distances again and again on one mesh: the workspace is made once, a radius-limited call costs what it reaches.
+class Solver(Distances, Curves, Fields):
+    """Everything that reads a field, again and again on one mesh: what has to be built for that is built once.
+
+    :param mesh: of which; ``solver.mesh`` from then on.
+    :param method, tolerance, bound, precision: as for :meth:`Mesh.distance`: what calls take that say none of them. With
+        a method its workspace is built at once, else by the first call.
+
+    Distances, paths, logarithmic maps, curved isolines and sparse rows share the workspace. What is limited to a radius
+    or to targets then costs what it reaches, however large the mesh is: :meth:`distances_within`, :meth:`path`,
+    :meth:`paths`, and :meth:`log_map` with ``sparse=True``; what gives an array of all vertices costs that array.
 
     Safe to share between threads, which then wait for each other; give every thread a solver of its own where they
     should not.
 
     >>> import brushfire as bf
     >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-    >>> solver = mesh.solver()
-    >>> [solver.distance(v, method="dijkstra").max().item() for v in range(4)]
+    >>> solver = mesh.solver("dijkstra")
+    >>> [solver.distance(v).max().item() for v in range(4)]
     [5.0, 7.0, 5.0, 7.0]
+    >>> solver.path(1, 3).length, solver.log_map(0, 3.5, sparse=True).vertices.tolist()
+    (5.0, [0, 1])
     """
 
-    def __init__(self, mesh: Mesh) -> None:
+    def __init__(
+        self,
+        mesh: Mesh,
+        method: str | None = None,
+        *,
+        tolerance: float | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
+    ) -> None:
         self.mesh = mesh
+        self._mesh = mesh._mesh
         self._solver = _core.Solver(mesh._mesh)
+        self._defaults = (method, tolerance, bound, precision)
+        chosen = options(method, tolerance, np.inf, bound, precision)
+        if "method" in chosen:
+            self._solver.set_up(chosen)
+
+    def distances_within(
+        self,
+        radius: float,
+        rows: Places,
+        *,
+        method: str | None = None,
+        tolerance: float | None = None,
+        precision: str | None = None,
+        dtype: npt.DTypeLike = np.float32,
+        progress: Progress = None,
+    ) -> csr_matrix:
+        """Rows of :meth:`Mesh.distances_within`, computed one after the other: for few of them at a time.
+
+        :param radius, rows, method, tolerance, precision, dtype, progress: as there; many rows are faster there.
+
+        >>> import brushfire as bf
+        >>> solver = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]]).solver()
+        >>> solver.distances_within(3.5, 1, method="dijkstra").toarray().tolist()
+        [[3.0, 0.0, 0.0, 0.0]]
+        """
+        row = self._arrays(rows, "rows")
+        chosen = options(*self._or_defaults(method, tolerance, None, precision, limit=np.inf))
+        wanted = float_type(dtype)
+        limit = number(radius, "radius")
+        with shown(progress, "rows") as report:
+            data, indices, starts = self._solver_rows(limit, row, chosen, report)
+        return sparse_matrix(data.astype(wanted, copy=False), indices, starts, self._mesh.vertex_count)
+
+    def _solver_rows(self, radius: float, row: PlaceArrays, chosen: Options, report: Any) -> Any:
+        return _core.sparse_rows(self._solver, radius, row.index, row.weights, chosen, report)
+
+    def _or_defaults(
+        self, method: Any, tolerance: Any, bound: Any, precision: Any, *, limit: Any
+    ) -> tuple[Any, Any, Any, Any, Any]:
+        if method is None and tolerance is None and bound is None:
+            method, tolerance, bound, usual = self._defaults
+            precision = usual if precision is None else precision
+        return method, tolerance, limit, bound, precision
 
     def _run(self) -> _core.Solver:
         return self._solver
@@ -414,20 +386,10 @@ class Solver(Distances):
     def __repr__(self) -> str:
         return f"Solver({self.mesh!r})"
 
-    def __reduce__(self) -> tuple[type[Solver], tuple[Mesh]]:
-        return type(self), (self.mesh,)
+    def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
+        return _solver, (self.mesh, *self._defaults)
 
 
-def _is_float32(dtype: npt.DTypeLike) -> bool:
-    wanted = np.dtype(dtype)
-    if wanted not in (np.dtype(np.float32), np.dtype(np.float64)):
-        raise BrushfireError(f"dtype: float32 or float64 are possible, not {wanted}")
-    return bool(wanted == np.float32)
-
-
-def _check_out(out: Any, shape: tuple[int, int]) -> None:
-    if not isinstance(out, np.ndarray):
-        raise TypeError(f"out: a numpy array is needed, not {type(out).__name__}")
-    _is_float32(out.dtype)
-    if out.shape != shape or not out.flags.c_contiguous or not out.flags.writeable:
-        raise BrushfireError(f"out: a writable C-contiguous array of shape {shape} is needed, not {out.shape}")
+def _solver(mesh: Mesh, method: Any, tolerance: Any, bound: Any, precision: Any) -> Solver:
+    """One that was pickled."""
+    return Solver(mesh, method, tolerance=tolerance, bound=bound, precision=precision)

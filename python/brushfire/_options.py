@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
-from brushfire._arrays import number
-from brushfire._errors import BrushfireError
+from brushfire._arrays import number, whole
+from brushfire._errors import BrushfireError, BrushfireTypeError
 
 Options = dict[str, "str | float"]
 
 TOLERANT = "windows"
 
 
-def thread_count(threads: int) -> int:
+_MOST_THREADS = 4096
+
+
+def thread_count(threads: Any) -> int:
     """A number of threads, checked."""
-    if not 0 <= threads <= 4096:
-        raise BrushfireError(f"threads: a number from 0 (one per processor) to 4096 is needed, not {threads}")
-    return threads
+    return whole(threads, "threads", _MOST_THREADS)
 
 
 def options(
@@ -34,6 +35,6 @@ def options(
         if value is None:
             continue
         if not isinstance(value, str):
-            raise TypeError(f"{name}: a string is needed, not {value!r}")
+            raise BrushfireTypeError(f"{name}: a string is needed, not {value!r}")
         chosen[name] = value
     return chosen

@@ -13,17 +13,18 @@ import numpy.typing as npt
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats
 from brushfire._curves import OnMesh, Path
-from brushfire._distance import Progress
-from brushfire._errors import BrushfireError
+from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._fields import Fields, Isoline, _values
+from brushfire._options import thread_count
 from brushfire._places import Places
+from brushfire._progress import Progress, shown
 
 _SCALE_TEXTS = ("colormap", "unit")
 _SCALE_NUMBERS = ("low", "high")
 _TEXTS = ("up", "view", "font")
 _SWITCHES = ("perspective", "bands", "colour_bar", "wireframe", "silhouettes", "transparent")
 _NUMBERS = ("azimuth", "elevation", "zoom", "line_width", "path_width", "dot_size")
-_COUNTS = ("width", "height", "samples", "threads")
+_COUNTS = ("width", "height", "samples")
 _MOST = np.iinfo(np.int32).max
 
 Pixels = npt.NDArray[np.uint8]
@@ -35,6 +36,9 @@ class Panel:
 
     mesh: OnMesh
     _shown: dict[str, Any]
+
+    def __repr__(self) -> str:
+        return f"Panel({self.mesh!r})"
 
 
 class Pictures(OnMesh):
@@ -155,8 +159,10 @@ class Pictures(OnMesh):
         (1, 3, 2)
         """
         count = _arrays.whole(directions, "directions", _MOST)
-        team = _arrays.whole(threads, "threads", _MOST)
-        return _core.ambient_occlusion(self._mesh, count, _arrays.number(reach, "reach"), team, progress)
+        team = thread_count(threads)
+        farthest = _arrays.number(reach, "reach")
+        with shown(progress, "ambient occlusion") as report:
+            return _core.ambient_occlusion(self._mesh, count, farthest, team, report)
 
 
 def render(panels: Panel | Iterable[Panel], *, file: str | os.PathLike[str] | None = None, **look: Any) -> Pixels:
@@ -273,14 +279,14 @@ def _shown(panels: Panel | Iterable[Panel]) -> list[Panel]:
     shown = [panels] if isinstance(panels, Panel) else list(panels)
     for panel in shown:
         if not isinstance(panel, Panel):
-            raise TypeError(f"panels: what Mesh.panel() makes is needed, not {type(panel).__name__}")
+            raise BrushfireTypeError(f"panels: what Mesh.panel() makes is needed, not {type(panel).__name__}")
     return shown
 
 
 def _line(path: Path | Isoline) -> tuple[Floats, bool]:
     line = path.line if isinstance(path, Isoline) else path
     if not isinstance(line, Path):
-        raise TypeError(f"paths: Paths and Isolines are needed, not {type(line).__name__}")
+        raise BrushfireTypeError(f"paths: Paths and Isolines are needed, not {type(line).__name__}")
     return np.ascontiguousarray(line.positions), line.closed
 
 
@@ -293,7 +299,7 @@ def _openness(openness: npt.ArrayLike) -> npt.NDArray[np.float32]:
 
 def _text(value: Any, what: str) -> str:
     if not isinstance(value, str):
-        raise TypeError(f"{what}: a text is needed, not {value!r}")
+        raise BrushfireTypeError(f"{what}: a text is needed, not {value!r}")
     return value
 
 
@@ -317,10 +323,12 @@ def _look(look: Mapping[str, Any]) -> dict[str, Any]:
             given[name] = bool(value)
         elif name in _NUMBERS:
             given[name] = _arrays.number(value, name)
+        elif name == "threads":
+            given[name] = thread_count(value)
         elif name in _COUNTS:
             given[name] = _arrays.whole(value, name, _MOST)
         elif name != "scales":
-            raise TypeError(f"render: {name}={value!r} is not known")
+            raise BrushfireTypeError(f"render: {name}={value!r} is not known")
     if scale and "scales" in look:
         raise BrushfireError(f"render: {next(iter(scale))} goes into one of the scales where there are some")
     given["scales"] = [_scale(s) for s in look.get("scales", [scale])]
@@ -329,7 +337,7 @@ def _look(look: Mapping[str, Any]) -> dict[str, Any]:
 
 def _scale(scale: Any) -> dict[str, Any]:
     if not isinstance(scale, Mapping):
-        raise TypeError(f"scales: dicts are needed, not {scale!r}")
+        raise BrushfireTypeError(f"scales: dicts are needed, not {scale!r}")
     given: dict[str, Any] = {}
     for name, value in scale.items():
         if name in _SCALE_TEXTS and isinstance(value, str):
@@ -337,13 +345,13 @@ def _scale(scale: Any) -> dict[str, Any]:
         elif name in _SCALE_NUMBERS:
             given[name] = _arrays.number(value, name)
         else:
-            raise TypeError(f"render: {name}={value!r} is not known")
+            raise BrushfireTypeError(f"render: {name}={value!r} is not known")
     return given
 
 
 def _write(file: str | os.PathLike[str], writers: Mapping[str, Any]) -> None:
     """By what writes its extension."""
-    name = os.fspath(file)
+    name = _arrays.path_text(file, "file")
     for extension, encode in writers.items():
         if name.lower().endswith(extension):
             break

@@ -9,12 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, Ints, offsets, whole
+from brushfire._arrays import Floats, Ints, Labels, offsets, whole
 from brushfire._curves import OnMesh, Path
-from brushfire._distance import Labels, Progress
 from brushfire._errors import BrushfireError
 from brushfire._options import options
 from brushfire._places import Places, Points
+from brushfire._progress import Progress, shown
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -40,6 +40,9 @@ class Voronoi:
     area: Floats
     borders: list[Border]
 
+    def __repr__(self) -> str:
+        return f"Voronoi({len(self.area)} cells, {len(self.borders)} borders)"
+
 
 @dataclass(frozen=True)
 class Samples:
@@ -55,6 +58,9 @@ class Samples:
     distance: Floats
     nearest: Labels
     covering_radius: float
+
+    def __repr__(self) -> str:
+        return f"Samples({len(self.vertices)} vertices, covering radius {self.covering_radius:.6g})"
 
 
 @dataclass(frozen=True)
@@ -72,6 +78,9 @@ class Cut:
     cut_face: Labels
     _original: Mesh
     _cut: _core.CutMesh
+
+    def __repr__(self) -> str:
+        return f"Cut({self._original!r} into {self.mesh!r})"
 
     def to_original(self, values: npt.ArrayLike) -> Floats:
         """Values per vertex here to values per vertex of the original: the least of the copies'.
@@ -141,14 +150,10 @@ class Regions(OnMesh):
         ([0, 1, 1, 0], 4.0, (0, 1))
         """
         start = self._arrays(sources, "sources")
-        distance, source, area, borders = _core.voronoi(
-            self._mesh,
-            start.index,
-            start.weights,
-            offsets(offset, len(start.index)),
-            options(method, tolerance, max_distance),
-            progress,
-        )
+        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, max_distance)
+        with shown(progress, "voronoi") as report:
+            found = _core.voronoi(self._mesh, start.index, start.weights, given, chosen, report)
+        distance, source, area, borders = found
         return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders])
 
     def farthest_points(
@@ -184,7 +189,8 @@ class Regions(OnMesh):
             index = arrays.index
         taken = whole(count, "count", np.iinfo(np.int32).max)
         chosen = options(method, tolerance, max_distance)
-        return Samples(*_core.farthest_points(self._mesh, taken, index, chosen, progress))
+        with shown(progress, "farthest points") as report:
+            return Samples(*_core.farthest_points(self._mesh, taken, index, chosen, report))
 
     def cut(self, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), edges: npt.ArrayLike = ()) -> Cut:
         """The mesh with barriers cut out, through which no distance and no path goes.

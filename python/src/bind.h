@@ -31,6 +31,7 @@ void bind_curves(nb::module_& m);
 void bind_fields(nb::module_& m);
 void bind_regions(nb::module_& m);
 void bind_figure(nb::module_& m);
+void bind_files(nb::module_& m);
 
 // Arrays as the Python files hand them over: converted already, C order, exactly these types.
 template <class T>
@@ -63,6 +64,8 @@ struct PlaceArrays {
 };
 std::vector<Place> places_from(const PlaceArrays& arrays);
 std::vector<SurfacePoint> points_from(const Mesh& mesh, const PlaceArrays& arrays);
+// The same for what is only arrived at: a vertex in no face is nowhere, and nothing reaches it.
+std::vector<SurfacePoint> targets_from(const Mesh& mesh, const PlaceArrays& arrays);
 // Throws Error(InvalidArgument) unless there is exactly one.
 SurfacePoint single_point_from(const Mesh& mesh, const PlaceArrays& arrays);
 // Throws Error(InvalidArgument) unless there is one offset per source.

@@ -1,6 +1,7 @@
 // Nearest points, shortest and shortened paths, straightest geodesics, logarithmic map.
 #include "bind.h"
 #include "interrupt.h"
+#include "solver.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/nearest_point.h>
@@ -15,11 +16,10 @@ namespace {
 
 nb::tuple nearest(const NearestPointFinder& finder, const Triples<double>& xyz) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  std::vector<NearestPoint> found;
-  {
-    const nb::gil_scoped_release release;
-    found = finder(std::span(reinterpret_cast<const Vec3*>(xyz.data()), xyz.shape(0)));
-  }
+  constexpr std::size_t kBrief = 1000;
+  const std::vector<NearestPoint> found = listening(xyz.shape(0) < kBrief, [&] {
+    return finder(std::span(reinterpret_cast<const Vec3*>(xyz.data()), xyz.shape(0)));
+  });
   std::vector<SurfacePoint> points;
   std::vector<double> distances;
   for (const NearestPoint& n : found) {
@@ -33,11 +33,14 @@ nb::tuple nearest(const NearestPointFinder& finder, const Triples<double>& xyz) 
 using OptionalWeights = std::optional<Triples<double>>;
 
 // No points and +inf where there is no path. `tighten`: pulled straight where it bends at waypoints.
-nb::tuple path(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed,
+nb::tuple path(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed,
                bool tighten) {
+  const Mesh& mesh = solver.mesh();
   Computation computation{nb::none()};
   return path_to_numpy(computation.run(false, [&] {
-    SurfacePath found = PathFinder(mesh).through(points_from(mesh, {index, weights}), closed, computation.cancel());
+    const std::vector<SurfacePoint> places = targets_from(mesh, {index, weights});
+    SurfacePath found =
+        solver.with([&](DistanceSolver& s) { return path_through(s, places, closed, computation.cancel()); });
     if (tighten && !found.points.empty()) found = shorten(mesh, found.points, closed);
     return found;
   }));
@@ -45,12 +48,7 @@ nb::tuple path(const Mesh& mesh, const Vector<std::int64_t>& index, const Option
 
 nb::tuple shortened(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed) {
   const std::vector<SurfacePoint> points = points_from(mesh, {index, weights});
-  SurfacePath path;
-  {
-    const nb::gil_scoped_release release;
-    path = shorten(mesh, points, closed);
-  }
-  return path_to_numpy(path);
+  return path_to_numpy(listening(false, [&] { return shorten(mesh, points, closed); }));
 }
 
 double length(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed) {
@@ -58,18 +56,20 @@ double length(const Mesh& mesh, const Vector<std::int64_t>& index, const Optiona
 }
 
 // From the nearest source to every target, off one field: (source, paths).
-nb::tuple paths(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+nb::tuple paths(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
                 const Vector<double>& offsets, const Vector<std::int64_t>& target_index,
                 const OptionalWeights& target_weights) {
+  const Mesh& mesh = solver.mesh();
   Computation computation{nb::none()};
-  DistanceField field;
+  SparseField field;
   const std::vector<SurfacePath> found = computation.run(false, [&] {
     DistanceOptions options;
     options.method = Method::Exact;
     options.keep_paths = true;
-    options.targets = points_from(mesh, {target_index, target_weights});
+    options.targets = targets_from(mesh, {target_index, target_weights});
     options.cancel = computation.cancel();
-    field = distance(mesh, sources_from(mesh, {index, weights}, offsets), options);
+    const std::vector<Source> sources = sources_from(mesh, {index, weights}, offsets);
+    solver.with([&](DistanceSolver& s) { s.distance_sparse(sources, options, field); });
     std::vector<SurfacePath> all;
     for (const SurfacePoint& target : options.targets) all.push_back(path_to(*field.windows, target));
     return all;
@@ -80,8 +80,9 @@ nb::tuple paths(const Mesh& mesh, const Vector<std::int64_t>& index, const Optio
 }
 
 // Along edges, from the nearest source's vertex.
-nb::tuple edge_path(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+nb::tuple edge_path(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
                     const Vector<double>& offsets, std::int64_t target) {
+  const Mesh& mesh = solver.mesh();
   if (target < 0 || target >= std::int64_t{mesh.vertex_count()}) {
     throw Error(ErrorCode::IndexOutOfRange, "vertex " + std::to_string(target) + " does not exist: the mesh has " +
                                                 std::to_string(mesh.vertex_count()) + " vertices");
@@ -91,7 +92,8 @@ nb::tuple edge_path(const Mesh& mesh, const Vector<std::int64_t>& index, const O
     DistanceOptions options;
     options.method = Method::Dijkstra;
     options.cancel = computation.cancel();
-    const DistanceField field = distance(mesh, sources_from(mesh, {index, weights}, offsets), options);
+    const std::vector<Source> sources = sources_from(mesh, {index, weights}, offsets);
+    const DistanceField field = solver.with([&](DistanceSolver& s) { return s.distance(sources, options); });
     return edge_path_to(mesh, field, static_cast<Index>(target));
   }));
 }
@@ -125,13 +127,16 @@ nb::tuple angle_at(const Mesh& mesh, const Vector<std::int64_t>& index, const Op
   return nb::make_tuple(angle_of(mesh, at, {d[0], d[1], d[2]}), total_angle(mesh, at));
 }
 
-// (radius, angle, total angle).
-nb::tuple logarithmic(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+// Of the vertices that are reached: (vertex, radius, angle, total angle).
+nb::tuple logarithmic(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
                       double max_radius) {
-  const SurfacePoint source = single_point_from(mesh, {index, weights});
+  const SurfacePoint source = single_point_from(solver.mesh(), {index, weights});
   Computation computation{nb::none()};
-  LogMap map = computation.run(false, [&] { return log_map(mesh, source, max_radius, computation.cancel()); });
-  return nb::make_tuple(to_numpy(std::move(map.radius)), to_numpy(std::move(map.angle)), map.total_angle);
+  SparseLogMap map = computation.run(false, [&] {
+    return solver.with([&](DistanceSolver& s) { return log_map(s, source, max_radius, computation.cancel()); });
+  });
+  return nb::make_tuple(to_numpy_signed(std::move(map.vertex)), to_numpy(std::move(map.radius)),
+                        to_numpy(std::move(map.angle)), map.total_angle);
 }
 
 }  // namespace
@@ -140,22 +145,22 @@ void bind_curves(nb::module_& m) {
   nb::class_<NearestPointFinder>(m, "NearestPointFinder")
       .def(nb::init<const Mesh&>(), nb::arg("mesh"), nb::call_guard<nb::gil_scoped_release>())
       .def("nearest", nearest, nb::arg("xyz").noconvert());
-  m.def("path", path, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+  m.def("path", path, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"), nb::arg("tighten"));
   m.def("shorten", shortened, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"));
   m.def("length_of", length, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"));
-  m.def("paths", paths, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+  m.def("paths", paths, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert(),
         nb::arg("target_weights").noconvert().none());
-  m.def("edge_path", edge_path, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+  m.def("edge_path", edge_path, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("offsets").noconvert(), nb::arg("target"));
   m.def("angle_of", angle_at, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("direction").noconvert());
   m.def("trace", trace, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("angle"), nb::arg("direction").noconvert().none(), nb::arg("length"));
-  m.def("log_map", logarithmic, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+  m.def("log_map", logarithmic, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("max_radius"));
 }
 

@@ -1,30 +1,11 @@
 // _core.Solver: one distance field after the other on one mesh.
 #include "options.h"
+#include "solver.h"
 
 #include <brushfire/core/error.h>
 
-#include <memory>
-#include <mutex>
-
 namespace brushfire::python {
 namespace {
-
-// Calls from several threads wait for each other.
-class Solver {
- public:
-  explicit Solver(const Mesh& mesh) : solver_(mesh) {}
-
-  const Mesh& mesh() const { return solver_.mesh(); }
-
-  DistanceField distance(std::span<const Source> sources, const DistanceOptions& options) {
-    const std::lock_guard lock(mutex_);
-    return solver_.distance(sources, options);
-  }
-
- private:
-  DistanceSolver solver_;
-  std::mutex mutex_;
-};
 
 // (distance, source, error bound): of the targets where there are any, of all vertices otherwise. The bound is None for
 // methods that have none.
@@ -38,8 +19,8 @@ nb::tuple solve(Solver& solver, const Vector<std::int64_t>& index, const std::op
   DistanceField field;
   field = computation.run(mesh.face_count() < kBriefFaces, [&] {
     sources = sources_from(mesh, {index, weights}, offsets);
-    if (target_index) options.targets = points_from(mesh, {*target_index, target_weights});
-    return solver.distance(sources, options);
+    if (target_index) options.targets = targets_from(mesh, {*target_index, target_weights});
+    return solver.with([&](DistanceSolver& s) { return s.distance(sources, options); });
   });
   if (target_index) {
     return nb::make_tuple(to_numpy(std::move(field.target_distance)), to_numpy_signed(std::move(field.target_source)),
@@ -48,6 +29,14 @@ nb::tuple solve(Solver& solver, const Vector<std::int64_t>& index, const std::op
   nb::object bound = nb::none();
   if (!field.error_bound.empty()) bound = nb::cast(to_numpy(std::move(field.error_bound)));
   return nb::make_tuple(to_numpy(std::move(field.distance)), to_numpy_signed(std::move(field.source)), bound);
+}
+
+// Builds what the first run with these options would build.
+void set_up(Solver& solver, const nb::dict& given) {
+  Computation computation{nb::none()};
+  const DistanceOptions options = options_from(given, computation);
+  const nb::gil_scoped_release release;
+  solver.with([&](DistanceSolver& s) { s.set_up(options); });
 }
 
 nb::tuple method_names() {
@@ -90,6 +79,7 @@ DistanceOptions options_from(const nb::dict& given, Computation& computation) {
 void bind_distance(nb::module_& m) {
   nb::class_<Solver>(m, "Solver")
       .def(nb::init<const Mesh&>(), nb::arg("mesh"))
+      .def("set_up", set_up, nb::arg("options"))
       .def("solve", solve, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
            nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert().none(),
            nb::arg("target_weights").noconvert().none(), nb::arg("options"), nb::arg("progress").none());

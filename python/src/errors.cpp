@@ -5,6 +5,7 @@
 #include <brushfire/core/error.h>
 
 #include <exception>
+#include <typeinfo>
 
 namespace brushfire::python {
 namespace {
@@ -17,6 +18,10 @@ void translate(const std::exception_ptr& pointer, void*) {
     const std::string code(name_of(e.code()));
     const nb::object error = nb::module_::import_("brushfire._errors").attr("error_of")(code, e.what());
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error.ptr())), error.ptr());
+  } catch (const std::bad_cast&) {
+    // The Python files check what they pass on; should one have slipped through, it is told as what it is.
+    const nb::object type = nb::module_::import_("brushfire._errors").attr("BrushfireTypeError");
+    PyErr_SetString(type.ptr(), "an option is of another type than the call takes");
   }
 }
 
@@ -62,6 +67,15 @@ std::vector<SurfacePoint> points_from(const Mesh& mesh, const PlaceArrays& array
   for (const Place& place : places_from(arrays)) {
     const SurfacePoint* p = std::get_if<SurfacePoint>(&place);
     points.push_back(p ? *p : vertex_point(mesh, std::get<Index>(place)));
+  }
+  return points;
+}
+
+std::vector<SurfacePoint> targets_from(const Mesh& mesh, const PlaceArrays& arrays) {
+  std::vector<SurfacePoint> points;
+  for (const Place& place : places_from(arrays)) {
+    const SurfacePoint* p = std::get_if<SurfacePoint>(&place);
+    points.push_back(p ? *p : target_point(mesh, std::get<Index>(place)));
   }
   return points;
 }

@@ -1,5 +1,6 @@
 // What is made of a field: isolines, gradients, the way down, comparison with another field.
 #include "options.h"
+#include "solver.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/queries/compare.h>
@@ -22,23 +23,22 @@ nb::list to_list(std::span<const Isoline> lines) {
 }
 
 nb::list linear(const Mesh& mesh, const Vector<double>& values, const Vector<double>& levels) {
-  std::vector<Isoline> lines;
-  {
-    const nb::gil_scoped_release release;
-    lines = isolines(mesh, span_of(values), span_of(levels));
-  }
-  return to_list(lines);
+  // Copies: nobody may change them while they are looked at twice.
+  const std::vector<double> field(values.data(), values.data() + values.shape(0));
+  const std::vector<double> wanted(levels.data(), levels.data() + levels.shape(0));
+  return to_list(listening(false, [&] { return isolines(mesh, field, wanted); }));
 }
 
 // Levels that follow from the field, which is known only here: every `every` units, or `count` of them, or those given.
-nb::list curved(const Mesh& mesh, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
+nb::list curved(Solver& solver, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
                 const Vector<double>& offsets, const nb::dict& given, const std::optional<Vector<double>>& levels,
                 std::optional<double> every, Index count, double chord_error, nb::object progress) {
   Computation computation(std::move(progress));
   DistanceOptions options = options_from(given, computation);
   options.keep_windows = true;
   return to_list(computation.run(false, [&] {
-    const DistanceField field = distance(mesh, sources_from(mesh, {index, weights}, offsets), options);
+    const std::vector<Source> sources = sources_from(solver.mesh(), {index, weights}, offsets);
+    const DistanceField field = solver.with([&](DistanceSolver& s) { return s.distance(sources, options); });
     if (!field.windows) {
       throw Error(ErrorCode::InvalidArgument, "curved isolines need method exact or windows");
     }
@@ -53,11 +53,7 @@ nb::list curved(const Mesh& mesh, const Vector<std::int64_t>& index, const std::
 }
 
 Result<double> gradients(const Mesh& mesh, const Vector<double>& values) {
-  std::vector<Vec3> found;
-  {
-    const nb::gil_scoped_release release;
-    found = face_gradients(mesh, span_of(values));
-  }
+  const std::vector<Vec3> found = listening(false, [&] { return face_gradients(mesh, span_of(values)); });
   std::vector<double> flat;
   flat.reserve(3 * found.size());
   for (const Vec3& g : found) flat.insert(flat.end(), {g.x, g.y, g.z});
@@ -110,9 +106,10 @@ nb::dict compare(const Vector<double>& field, const Vector<double>& reference,
 
 void bind_fields(nb::module_& m) {
   m.def("isolines", linear, nb::arg("mesh"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());
-  m.def("curved_isolines", curved, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-        nb::arg("offsets").noconvert(), nb::arg("options"), nb::arg("levels").noconvert().none(),
-        nb::arg("every").none(), nb::arg("count"), nb::arg("chord_error"), nb::arg("progress").none());
+  m.def("curved_isolines", curved, nb::arg("solver"), nb::arg("index").noconvert(),
+        nb::arg("weights").noconvert().none(), nb::arg("offsets").noconvert(), nb::arg("options"),
+        nb::arg("levels").noconvert().none(), nb::arg("every").none(), nb::arg("count"), nb::arg("chord_error"),
+        nb::arg("progress").none());
   m.def(
       "levels_every",
       [](const Vector<double>& values, double step) { return to_numpy(levels_every(span_of(values), step)); },

@@ -135,11 +135,7 @@ std::vector<Panel> panels_from(const nb::list& given) {
 Result<std::uint8_t> picture(const nb::list& given, const nb::dict& look) {
   const std::vector<Panel> panels = panels_from(given);
   const RenderOptions options = render_options_from(look);
-  Image image;
-  {
-    const nb::gil_scoped_release release;
-    image = render(panels, options);
-  }
+  Image image = listening(false, [&] { return render(panels, options); });
   const auto height = static_cast<std::size_t>(image.height), width = static_cast<std::size_t>(image.width);
   return to_numpy(std::move(image.rgba), {height, width, 4});
 }
@@ -152,8 +148,7 @@ std::string svg(const nb::list& given, const nb::dict& look) {
     lines.push_back(polylines_from(nb::cast<std::pair<Mesh, nb::dict>>(entry).second, "lines"));
   }
   const RenderOptions options = render_options_from(look);
-  const nb::gil_scoped_release release;
-  return render_svg(panels, lines, options);
+  return listening(false, [&] { return render_svg(panels, lines, options); });
 }
 
 using Pixels = nb::ndarray<const std::uint8_t, nb::shape<-1, -1, 4>, nb::c_contig, nb::device::cpu>;
@@ -168,17 +163,15 @@ nb::bytes to_bytes(const std::vector<std::uint8_t>& bytes) {
   return nb::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-nb::bytes png(const Pixels& rgba) { return to_bytes(encode_png(image_from(rgba))); }
+nb::bytes png(const Pixels& rgba) {
+  const Image image = image_from(rgba);
+  return to_bytes(listening(false, [&] { return encode_png(image); }));
+}
 
 nb::bytes webp(const nb::list& frames, int milliseconds) {
   std::vector<Image> images;
   for (const nb::handle frame : frames) images.push_back(image_from(nb::cast<Pixels>(frame)));
-  std::vector<std::uint8_t> bytes;
-  {
-    const nb::gil_scoped_release release;
-    bytes = encode_webp(images, milliseconds);
-  }
-  return to_bytes(bytes);
+  return to_bytes(listening(false, [&] { return encode_webp(images, milliseconds); }));
 }
 
 // [face_count, 3, 2] float32.

@@ -3,6 +3,7 @@
 
 #include "bind.h"
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/progress.h>
 
 #include <atomic>
@@ -13,6 +14,7 @@
 #include <optional>
 #include <thread>
 #include <type_traits>
+#include <utility>
 
 namespace brushfire::python {
 
@@ -36,6 +38,7 @@ class Computation {
     std::optional<Value> value;
     std::exception_ptr failure;
     const auto body = [&]() noexcept {
+      const CancelScope listen(&cancel_);
       try {
         value.emplace(compute());
       } catch (...) {
@@ -99,5 +102,11 @@ class Computation {
   CancelToken cancel_;
   std::atomic<double> share_{0};
 };
+
+// What takes no progress: compute() without the GIL, stopped by Ctrl-C.
+template <class Compute>
+auto listening(bool brief, Compute&& compute) {
+  return Computation(nb::none()).run(brief, std::forward<Compute>(compute));
+}
 
 }  // namespace brushfire::python

@@ -1,12 +1,15 @@
 // Distance matrices: into numpy's memory, as CSR arrays, into a file.
 #include "options.h"
+#include "solver.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/core/memory.h>
 #include <brushfire/queries/distance_matrix.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
+#include <utility>
 
 namespace brushfire::python {
 namespace {
@@ -62,6 +65,41 @@ nb::tuple sparse(const Mesh& mesh, double radius, const OptionalIndex& row_index
                         to_numpy(std::move(starts)));
 }
 
+// The same rows one after the other with one solver, whose workspace is there already: (distance, vertex, row starts).
+nb::tuple sparse_rows(Solver& solver, double radius, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+                      const nb::dict& given, nb::object progress) {
+  if (!std::isfinite(radius) || radius < 0) {
+    throw Error(ErrorCode::InvalidArgument, "radius " + std::to_string(radius) + " is not a finite number >= 0");
+  }
+  const Mesh& mesh = solver.mesh();
+  Computation computation(std::move(progress));
+  DistanceOptions options = options_from(given, computation);
+  options.max_distance = radius;
+  const Progress report = std::exchange(options.progress, {});
+  std::vector<double> values;
+  std::vector<Index> vertices;
+  std::vector<std::int64_t> starts{0};
+  computation.run(false, [&] {
+    const std::vector<Place> rows = places_from({index, weights});
+    SparseField field;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Index* vertex = std::get_if<Index>(&rows[i]);
+      // A vertex in no face is a legal place, from which nothing is reached.
+      if (!vertex || *vertex >= mesh.vertex_count() || !mesh.corners(*vertex).empty()) {
+        const Source source{vertex ? vertex_point(mesh, *vertex) : std::get<SurfacePoint>(rows[i])};
+        solver.with([&](DistanceSolver& s) { s.distance_sparse(std::span(&source, 1), options, field); });
+        values.insert(values.end(), field.distance.begin(), field.distance.end());
+        vertices.insert(vertices.end(), field.vertex.begin(), field.vertex.end());
+      }
+      starts.push_back(static_cast<std::int64_t>(values.size()));
+      if (options.cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
+      if (report) report(static_cast<double>(i + 1) / static_cast<double>(rows.size()));
+    }
+    return true;
+  });
+  return nb::make_tuple(to_numpy(std::move(values)), to_numpy_signed(std::move(vertices)), to_numpy(std::move(starts)));
+}
+
 void write(const Mesh& mesh, const std::string& path, bool float32, const OptionalIndex& row_index,
            const OptionalWeights& row_weights, const OptionalIndex& column_index, const OptionalWeights& column_weights,
            const nb::dict& given, unsigned threads, nb::object progress) {
@@ -94,6 +132,8 @@ void bind_matrix(nb::module_& m) {
           nb::arg("radius"), nb::arg("row_index").none(), nb::arg("row_weights").none(), nb::arg("options"),
           nb::arg("threads"), nb::arg("memory_limit"), nb::arg("progress").none());
   }
+  m.def("sparse_rows", sparse_rows, nb::arg("solver"), nb::arg("radius"), nb::arg("index").noconvert(),
+        nb::arg("weights").noconvert().none(), nb::arg("options"), nb::arg("progress").none());
   m.def("write_matrix", write, nb::arg("mesh"), nb::arg("path"), nb::arg("float32"), nb::arg("row_index").none(),
         nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
         nb::arg("options"), nb::arg("threads"), nb::arg("progress").none());

@@ -1,5 +1,7 @@
-// _core.Mesh: construction from arrays, views of its arrays, its report; files.
+// _core.Mesh: construction from arrays, copies of its arrays, its report; files.
 #include "bind.h"
+#include "interrupt.h"
+#include "options.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_mesh.h>
@@ -8,6 +10,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <span>
 
@@ -29,27 +32,35 @@ void check_vertex_count(std::size_t count) {
 Mesh make_mesh(const Triples<double>& v, const Triples<std::uint32_t>& f) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   check_vertex_count(v.shape(0));
-  const nb::gil_scoped_release release;
-  return Mesh({reinterpret_cast<const Vec3*>(v.data()), v.shape(0)}, faces_of(f));
+  return listening(f.shape(0) < kBriefFaces,
+                   [&] { return Mesh({reinterpret_cast<const Vec3*>(v.data()), v.shape(0)}, faces_of(f)); });
 }
 
 Mesh make_from_lengths(std::size_t vertex_count, const Triples<std::uint32_t>& f, const Triples<double>& l) {
   check_vertex_count(vertex_count);
-  const nb::gil_scoped_release release;
-  return Mesh::from_lengths(static_cast<Index>(vertex_count), faces_of(f),
-                            {reinterpret_cast<const std::array<double, 3>*>(l.data()), l.shape(0)});
+  return listening(f.shape(0) < kBriefFaces, [&] {
+    return Mesh::from_lengths(static_cast<Index>(vertex_count), faces_of(f),
+                              {reinterpret_cast<const std::array<double, 3>*>(l.data()), l.shape(0)});
+  });
 }
 
-// Views: they keep the mesh alive, which never changes.
-nb::ndarray<nb::numpy, const double> vertices_view(nb::handle_t<Mesh> self) {
-  const Mesh& mesh = nb::cast<const Mesh&>(self);
-  const std::span<const Vec3> p = mesh.positions();
-  return {reinterpret_cast<const double*>(p.data()), {p.size(), 3}, self};
+// A numpy array that may be read only, of a copy: others ignore that flag (docs/decisions/python-arrays.md), and no
+// mesh may change under its solvers.
+template <class T, class Row>
+nb::ndarray<nb::numpy, const T> copied(std::span<const Row> rows) {
+  static_assert(sizeof(Row) == 3 * sizeof(T));
+  auto* owned = new std::vector<Row>(rows.begin(), rows.end());
+  const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<Row>*>(p); });
+  return {reinterpret_cast<const T*>(owned->data()), {owned->size(), 3}, owner};
 }
 
-nb::ndarray<nb::numpy, const std::int32_t> faces_view(nb::handle_t<Mesh> self) {
-  const Mesh& mesh = nb::cast<const Mesh&>(self);
-  return {mesh.faces().data(), {mesh.faces().size(), 3}, self};
+nb::ndarray<nb::numpy, const double> vertices_of(const Mesh& mesh) { return copied<double>(mesh.positions()); }
+nb::ndarray<nb::numpy, const std::int32_t> numbers_of(const Mesh& mesh) { return copied<std::int32_t>(mesh.faces()); }
+
+// The diagonal of the box around all vertices; 0 where there are none.
+double size_of(const Mesh& mesh) {
+  const auto [low, high] = mesh.bounds();
+  return mesh.positions().empty() ? 0 : norm(high - low);
 }
 
 // In the units of the input.
@@ -60,12 +71,7 @@ Result<double> lengths_of(const Mesh& mesh) {
 }
 
 nb::dict report_of(const Mesh& mesh) {
-  const MeshReport* report = nullptr;
-  {
-    const nb::gil_scoped_release release;
-    report = &mesh.report();
-  }
-  const MeshReport& r = *report;
+  const MeshReport& r = *listening(mesh.face_count() < kBriefFaces, [&] { return &mesh.report(); });
   nb::dict d;
   d["vertices"] = r.vertices;
   d["faces"] = r.faces;
@@ -105,15 +111,20 @@ Result<double> positions_of(const Mesh& mesh, const Vector<std::int64_t>& index,
   return to_numpy(std::move(xyz), {places.size(), 3});
 }
 
-nb::tuple read(const std::string& path) {
-  LoadedMesh loaded;
-  {
-    const nb::gil_scoped_release release;
-    loaded = read_mesh(path);
-  }
+nb::tuple to_tuple(LoadedMesh&& loaded) {
   check_vertex_count(loaded.mesh.vertex_count());
   return nb::make_tuple(loaded.mesh, loaded.format, nb::tuple(nb::cast(loaded.remarks)),
                         to_numpy_signed(std::move(loaded.face_origin)), to_numpy_signed(std::move(loaded.vertex_map)));
+}
+
+nb::tuple read(const std::string& path) {
+  return to_tuple(listening(false, [&] { return read_mesh(path); }));
+}
+
+// `name` stands in messages; its extension decides where the content does not.
+nb::tuple read_bytes(const nb::bytes& content, const std::string& name) {
+  const std::span bytes(static_cast<const std::byte*>(content.data()), content.size());
+  return to_tuple(listening(false, [&] { return read_mesh(bytes, name); }));
 }
 
 }  // namespace
@@ -123,8 +134,9 @@ void bind_mesh(nb::module_& m) {
       .def_prop_ro("vertex_count", &Mesh::vertex_count)
       .def_prop_ro("face_count", &Mesh::face_count)
       .def_prop_ro("has_positions", &Mesh::has_positions)
-      .def_prop_ro("vertices", vertices_view)
-      .def_prop_ro("faces", faces_view)
+      .def_prop_ro("vertices", vertices_of, nb::rv_policy::reference)
+      .def_prop_ro("faces", numbers_of, nb::rv_policy::reference)
+      .def_prop_ro("size", size_of)
       .def("lengths", lengths_of)
       .def("report", report_of)
       .def("positions", positions_of, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none());
@@ -132,6 +144,7 @@ void bind_mesh(nb::module_& m) {
   m.def("make_from_lengths", make_from_lengths, nb::arg("vertex_count"), nb::arg("faces").noconvert(),
         nb::arg("lengths").noconvert());
   m.def("read", read, nb::arg("path"));
+  m.def("read_bytes", read_bytes, nb::arg("content"), nb::arg("name"));
 }
 
 }  // namespace brushfire::python

@@ -13,4 +13,5 @@ NB_MODULE(_core, m) {
   brushfire::python::bind_fields(m);
   brushfire::python::bind_regions(m);
   brushfire::python::bind_figure(m);
+  brushfire::python::bind_files(m);
 }

@@ -62,8 +62,7 @@ CutMesh make_cut(const Mesh& mesh, const Vector<std::int64_t>& vertices, const V
   barriers.faces = indices_from(faces, "face", mesh.face_count());
   const std::vector<Index> ends = indices_from(edge_ends, "vertex", mesh.vertex_count());
   for (std::size_t k = 0; k + 1 < ends.size(); k += 2) barriers.edges.push_back({ends[k], ends[k + 1]});
-  const nb::gil_scoped_release release;
-  return cut(mesh, barriers);
+  return listening(mesh.face_count() < kBriefFaces, [&] { return cut(mesh, barriers); });
 }
 
 Result<double> values_to_original(const CutMesh& cut_mesh, const Vector<double>& values) {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import brushfire as bf
 from conftest import grid
 
 pytest.importorskip("scipy")
@@ -174,3 +175,138 @@ class TestPygeodesic:
         assert our_best.dtype == best.dtype
         assert np.allclose(ours, expected, rtol=1e-10)
         assert (our_best == best).mean() > 0.98  # equally near sources: ours names the first
+
+
+# Two pieces and a vertex in no face.
+APART_V = np.vstack([V, V + 100, [[500, 500, 500]]])
+APART_F = np.vstack([F32, F32 + N]).astype(np.int32)
+ALONE = 2 * N
+
+
+class TestWhatIsApart:
+    @pytest.mark.parametrize(
+        ("sources", "targets"),
+        [
+            (int32(ALONE), None),
+            (int32(ALONE, 0), None),
+            (int32(), None),
+            (int32(), int32(1, 2)),
+            (int32(0), int32(3, N, ALONE)),
+            (int32(0), int32()),
+            (None, int32(ALONE)),
+        ],
+        ids=str,
+    )
+    def test_gdist_reads_infinity_where_the_original_does(self, sources, targets):
+        ours = our_gdist.compute_gdist(APART_V, APART_F, sources, targets)
+        gdist = pytest.importorskip("gdist", reason="the original gdist is not installed")
+        theirs = gdist.compute_gdist(APART_V, APART_F, sources, targets)
+        assert ours.shape == theirs.shape
+        assert np.allclose(ours, theirs, rtol=1e-10)
+
+    @pytest.mark.parametrize("limit", [{}, {"max_distance": np.inf}, {"max_distance": 1e100}], ids=str)
+    def test_gdist_without_a_limit_stores_infinity_for_what_no_way_joins(self, limit):
+        matrix = our_gdist.local_gdist_matrix(APART_V, APART_F, **limit)
+        full = bf.Mesh(APART_V, APART_F).distance_matrix(method="exact", dtype=float)
+        np.fill_diagonal(full, 0)
+        assert np.array_equal(matrix.toarray(), full.T)
+        assert matrix.nnz == len(full) * (len(full) - 1)
+        assert matrix.has_sorted_indices
+
+    def test_gdist_with_a_limit_stores_what_is_within(self):
+        matrix = our_gdist.local_gdist_matrix(APART_V, APART_F, max_distance=3.0)
+        assert np.isfinite(matrix.data).all()
+        assert 0 < matrix.data.max() <= 3
+
+    @pytest.mark.parametrize("limit", [{}, {"max_distance": 4.0}], ids=str)
+    def test_gdist_among_points(self, limit):
+        points = int32(0, 3, 3, 100, N, ALONE)
+        ours = our_gdist.distance_matrix_of_selected_points(APART_V, APART_F, points, **limit).toarray()
+        gdist = pytest.importorskip("gdist", reason="the original gdist is not installed")
+        theirs = gdist.distance_matrix_of_selected_points(APART_V, APART_F, int32(0, 3, 100, N, ALONE)).toarray()
+        theirs[np.isfinite(theirs) & (theirs > limit.get("max_distance", np.inf))] = 0
+        assert np.allclose(ours, theirs, rtol=1e-10)
+
+    def test_pygeodesic_has_no_path_there(self):
+        algorithm = our_pygeodesic.PyGeodesicAlgorithmExact(APART_V, APART_F)
+        for target in (N, ALONE):
+            distance, path = algorithm.geodesicDistance(0, target)
+            assert distance == np.inf
+            assert path.shape == (0, 3)
+        distances, best = algorithm.geodesicDistances([ALONE, N, 0], [0, ALONE, N + 1, 0])
+        assert distances.tolist()[:2] == [0, np.inf]
+        assert best.tolist() == [2, -1, 1, 2]
+        assert algorithm.geodesicDistances([ALONE])[1].tolist() == [-1] * (2 * N + 1)
+
+
+class TestPygeodesicArguments:
+    def test_what_is_left_out_is_vertex_0_and_no_limit(self):
+        algorithm = our_pygeodesic.PyGeodesicAlgorithmExact(V, F.astype(float))
+        d, best = algorithm.geodesicDistances()
+        assert np.array_equal(d, algorithm.geodesicDistances([0])[0])
+        assert not best.any()
+        near, best = algorithm.geodesicDistances(np.array([0.0]), max_distance=4.0)
+        assert np.array_equal(np.isfinite(near), d <= 4)
+        assert np.array_equal(best, np.where(d <= 4, 0, -1))
+        assert np.array_equal(algorithm.geodesicDistances([0], [5, 190], 4.0)[0], near[[5, 190]])
+
+    def test_paths_lie_in_one_piece_of_memory(self):
+        path = our_pygeodesic.PyGeodesicAlgorithmExact(V, F).geodesicDistance(0, N - 1)[1]
+        assert path.flags.c_contiguous
+        assert path.flags.writeable
+
+    def test_the_package_has_a_version(self):
+        from brushfire.compat import pygeodesic
+
+        assert pygeodesic.__version__ == bf.__version__
+
+    def test_faces_that_are_not_whole_are_refused(self):
+        with pytest.raises((TypeError, bf.BrushfireError)):
+            our_pygeodesic.PyGeodesicAlgorithmExact(V, F + 0.5)
+
+
+class TestIglBefore26:
+    expected = staticmethod(lambda **places: our_igl.exact_geodesic(V, F, **places))
+
+    def test_the_order_of_before_is_recognised(self):
+        vs, vt, fs, ft = [7], [3, 50], [9], [0, 77]
+        both = self.expected(VS=vs, VT=vt)
+        for call in (
+            lambda: our_igl.exact_geodesic(V, F, vs, vt),
+            lambda: our_igl.exact_geodesic(V, F, vs=vs, vt=vt),
+            lambda: our_igl.exact_geodesic(V, F, vs, vt=vt),
+        ):
+            assert np.array_equal(call(), both)
+        everything = self.expected(VS=vs, FS=fs, VT=vt, FT=ft)
+        for call in (
+            lambda: our_igl.exact_geodesic(V, F, vs, vt, fs=fs, ft=ft),
+            lambda: our_igl.exact_geodesic(V, F, vs, vt, fs, ft=ft),
+            lambda: our_igl.exact_geodesic(V, F, vs, fs, vt, ft),
+            lambda: our_igl.exact_geodesic(V, F, vs, fs, VT=vt, FT=ft),
+        ):
+            assert np.array_equal(call(), everything)
+
+    def test_what_cannot_be_meant_is_refused_by_name(self):
+        for call in (
+            lambda: our_igl.exact_geodesic(V, F, vs=[0], VT=[1]),
+            lambda: our_igl.exact_geodesic(V, F, [0], VS=[1]),
+            lambda: our_igl.exact_geodesic(V, F, [0], [1], [2], [3], [4]),
+            lambda: our_igl.exact_geodesic(V, F, sources=[0]),
+        ):
+            with pytest.raises(TypeError, match="exact_geodesic"):
+                call()
+
+
+def test_potpourri3d_reads_arrays_that_may_be_written_to(tmp_path):
+    bf.Mesh(V, F).save(tmp_path / "mesh.obj")
+    vertices, faces = our_pp3d.read_mesh(tmp_path / "mesh.obj")
+    assert vertices.flags.writeable
+    assert faces.flags.writeable
+    assert faces.dtype == np.int64
+    vertices += 1
+    faces += 0
+
+
+def test_the_help_of_every_adapter_says_what_differs():
+    for module in (our_gdist, our_igl, our_pp3d, our_pygeodesic):
+        assert "ifferent" in module.__doc__, module.__name__

@@ -67,9 +67,26 @@ def test_meshes_from_wrong_arrays_raise_or_are_meshes():
 
 
 def wrong_places():
-    yield from ([], None, "0", b"0", {}, object(), 0.0, [0.5], 1 + 2j, True, [True, False], [[0]], [[0, 1], [2, 3]])
+    yield from (
+        [],
+        None,
+        "0",
+        b"0",
+        {},
+        object(),
+        0.5,
+        [0.5],
+        [0.0, 1.0, 2.0],
+        [1e300],
+        float("inf"),
+        1 + 2j,
+        True,
+        [True, False],
+        [[0]],
+        [[0, 1], [2, 3]],
+    )
     yield from (-1, 16, 2**31, 2**32, 2**33, 2**63, 2**64, 10**30, [0, -1], [0, 16], np.array([2**64 - 1], np.uint64))
-    yield from (np.zeros((2, 3)), np.array([0.0]), np.array([None]), np.ones(15, dtype=bool), np.zeros(16, dtype=bool))
+    yield from (np.zeros((2, 3)), np.array([0.25]), np.array([None]), np.ones(15, dtype=bool), np.zeros(16, dtype=bool))
     yield from (bf.Point(-1, (1, 0, 0)), bf.Point(18, (1, 0, 0)), bf.Point(0, (0, 0, 0)), bf.Point(0, (1, 1, 1)))
     yield from (
         bf.Point(0, (2, -1, 0)),
@@ -150,7 +167,7 @@ def test_wrong_options_raise(arguments):
         {"threads": 1.5},
         {"dtype": int},
         {"dtype": "nonsense"},
-        {"dtype": np.float16},
+        {"dtype": np.complex64},
     ],
     ids=str,
 )

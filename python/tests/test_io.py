@@ -1,8 +1,9 @@
-"""Files, and the mesh objects of other libraries (those that are installed; look-alikes for all)."""
+"""Meshes from files, bytes and open files."""
 
 from __future__ import annotations
 
-from types import SimpleNamespace
+import gzip
+import io
 
 import numpy as np
 import pytest
@@ -47,56 +48,39 @@ def test_files_that_cannot_be_read_say_why(tmp_path):
     assert error.value.code == "file_not_readable"
 
 
-def test_from_any_knows_objects_by_their_attributes(tmp_path):
-    vtk = np.column_stack([np.full(len(F), 3), F]).ravel()
-    gifti = SimpleNamespace(agg_data=lambda intent: {"pointset": V, "triangle": F}[intent])
+def test_bytes_and_open_files_are_read_as_what_they_are_said_to_be(tmp_path):
+    path = write_obj(tmp_path / "bumps.obj")
+    content = path.read_bytes()
     for source in (
-        (V, F),
-        bf.Mesh(V, F),
-        write_obj(tmp_path / "m.obj"),
-        SimpleNamespace(vertices=V, faces=F),
-        SimpleNamespace(vertices=V, triangles=F),
-        SimpleNamespace(coordinates=V, faces=F),
-        SimpleNamespace(points=V, faces=vtk),
-        SimpleNamespace(points=V, cells_dict={"triangle": F, "vertex": np.zeros((1, 1), int)}),
-        gifti,
+        content,
+        bytearray(content),
+        memoryview(content),
+        io.BytesIO(content),
+        io.StringIO(content.decode()),
     ):
-        assert same(bf.from_any(source))
+        assert same(bf.read(source, format="obj"))
+    with open(path, "rb") as binary, open(path) as text:
+        assert same(bf.read(binary))  # by its name
+        assert same(bf.from_any(text, format="obj"))
+    with gzip.open(tmp_path / "bumps.obj.gz", "wb") as file:
+        file.write(content)
+    with gzip.open(tmp_path / "bumps.obj.gz") as file:
+        assert same(bf.read(file, format=".obj"))
+    renamed = tmp_path / "bumps.dat"
+    renamed.write_bytes(content)
+    assert same(bf.read(renamed, format="obj"))
+    assert bf.read(content, format="obj", return_info=True)[1].format == "OBJ"
 
 
-def test_from_any_refuses_what_holds_no_triangles():
-    for source in (None, 3, object(), (V, F, F), SimpleNamespace(points=V)):
-        with pytest.raises(TypeError):
-            bf.from_any(source)
-    for source in (
-        SimpleNamespace(points=V, faces=np.array([4, 0, 1, 2, 3])),
-        SimpleNamespace(points=V, cells_dict={"quad": np.zeros((1, 4), int)}),
-    ):
-        with pytest.raises(bf.BrushfireError, match="triang"):
-            bf.from_any(source)
-
-
-def test_from_trimesh():
-    trimesh = pytest.importorskip("trimesh")
-    assert same(bf.from_any(trimesh.Trimesh(V, F, process=False)))
-
-
-def test_from_meshio():
-    meshio = pytest.importorskip("meshio")
-    assert same(bf.from_any(meshio.Mesh(V, [("triangle", F)])))
-
-
-def test_from_pyvista():
-    pyvista = pytest.importorskip("pyvista")
-    assert same(bf.from_any(pyvista.PolyData(V, np.column_stack([np.full(len(F), 3), F]).ravel())))
-
-
-def test_from_nibabel():
-    nibabel = pytest.importorskip("nibabel")
-    arrays = [
-        nibabel.gifti.GiftiDataArray(V.astype(np.float32), intent="NIFTI_INTENT_POINTSET"),
-        nibabel.gifti.GiftiDataArray(F.astype(np.int32), intent="NIFTI_INTENT_TRIANGLE"),
-    ]
-    mesh = bf.from_any(nibabel.gifti.GiftiImage(darrays=arrays))
-    assert np.array_equal(mesh.vertices, V.astype(np.float32))
-    assert np.array_equal(mesh.faces, F)
+def test_bytes_that_are_no_mesh_say_why():
+    for source, arguments in ((b"", {}), (b"nonsense", {}), (b"v 0 0\n", {"format": "obj"}), (b"v", {"format": "no"})):
+        with pytest.raises(bf.BrushfireError):
+            bf.read(source, **arguments)
+    with pytest.raises(bf.BrushfireError) as error:
+        bf.read("absent.dat", format="obj")
+    assert error.value.code == "file_not_readable"
+    with pytest.raises(TypeError, match="format"):
+        bf.from_any((V, F), format="obj")
+    for source in (5, 5.5, None, ["a.ply"], (V, F)):
+        with pytest.raises(TypeError, match="source"):
+            bf.read(source)

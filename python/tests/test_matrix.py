@@ -90,3 +90,128 @@ def test_written_to_disk_it_is_the_matrix_and_goes_on_after_an_interruption(bump
     with pytest.raises(bf.BrushfireError) as error:
         bumpy.write_distance_matrix(tmp_path / "no" / "d.npy")
     assert error.value.code == "file_not_writable"
+
+
+def test_symmetric_is_the_mean_or_the_least_of_both_directions(bumpy):
+    squareform = pytest.importorskip("scipy.spatial.distance").squareform
+    for arguments in ({"dtype": float}, {"method": "novotni-klein"}, {"method": "novotni-klein", "dtype": float}):
+        plain = bumpy.distance_matrix(**arguments)
+        assert not np.array_equal(plain, plain.T)
+        for symmetric, expected in (("mean", plain / 2 + plain.T / 2), ("min", np.minimum(plain, plain.T))):
+            matrix = bumpy.distance_matrix(symmetric=symmetric, **arguments)
+            assert np.array_equal(matrix, matrix.T)
+            assert np.array_equal(matrix, expected)
+            assert matrix.dtype == plain.dtype
+            assert len(squareform(matrix)) == bumpy.vertex_count * (bumpy.vertex_count - 1) // 2
+    some = [5, 9, 100]
+    part = bumpy.distance_matrix(some, some, symmetric="mean", dtype=float)
+    assert np.array_equal(part, part.T)
+    for arguments in ({"rows": some}, {"rows": some, "columns": [5, 9, 101]}):
+        with pytest.raises(bf.BrushfireError, match="same places"):
+            bumpy.distance_matrix(**arguments, symmetric="mean")
+    with pytest.raises(bf.BrushfireError, match="'mean' or 'min'"):
+        bumpy.distance_matrix(symmetric=True)
+
+
+def test_symmetric_crosses_the_borders_of_its_blocks(monkeypatch):
+    from brushfire import _matrices
+
+    mesh = bf.Mesh(*grid(9, 0.5))
+    whole = mesh.distance_matrix(symmetric="min", method="novotni-klein")
+    monkeypatch.setattr(_matrices, "_SYMMETRIC_BLOCK", 17)
+    assert np.array_equal(mesh.distance_matrix(symmetric="min", method="novotni-klein"), whole)
+
+
+def test_symmetric_sparse_rows_store_the_same_both_ways(bumpy):
+    plain = bumpy.distances_within(3.0, method="novotni-klein", dtype=float)
+    dense = plain.toarray()
+    stored = np.zeros(dense.shape, dtype=bool)
+    stored[np.repeat(np.arange(len(dense)), np.diff(plain.indptr)), plain.indices] = True
+    apart = np.where(stored, dense, np.inf)
+    for symmetric in ("mean", "min"):
+        near = bumpy.distances_within(3.0, method="novotni-klein", dtype=float, symmetric=symmetric)
+        assert near.nnz == (stored | stored.T).sum() >= plain.nnz
+        assert (near != near.T).nnz == 0
+        assert (np.diff(near.indices)[np.diff(np.repeat(np.arange(len(dense)), np.diff(near.indptr))) == 0] > 0).all()
+        least = np.minimum(apart, apart.T)
+        mean = np.where(stored & stored.T, apart / 2 + apart.T / 2, least)
+        expected = np.where(np.isinf(least), 0, mean if symmetric == "mean" else least)
+        assert np.array_equal(near.toarray(), expected)
+    with pytest.raises(bf.BrushfireError, match="same places"):
+        bumpy.distances_within(3.0, [0, 1], symmetric="mean")
+
+
+def test_half_precision_is_rounded_and_never_silently_out_of_range(bumpy):
+    exact = bumpy.distance_matrix(method="exact")
+    half = bumpy.distance_matrix(method="exact", dtype=np.float16)
+    assert half.dtype == np.float16
+    assert np.array_equal(half, exact.astype(np.float16))
+    islands = bf.Mesh([[0, 0], [1, 0], [0, 1], [5, 5], [6, 5], [5, 6]], [[0, 1, 2], [3, 4, 5]])
+    assert np.isinf(islands.distance_matrix(dtype=np.float16)[0, 3])
+    for scale in (1e5, 1e-9):
+        with pytest.raises(bf.BrushfireError, match="ask for float32"):
+            bf.Mesh(bumpy.vertices * scale, bumpy.faces).distance_matrix(dtype=np.float16)
+    with pytest.raises(bf.BrushfireError, match="3000000 x 3000000 float16") as error:
+        bf.Mesh(np.zeros((3_000_000, 3)), [[0, 1, 2]]).distance_matrix(dtype=np.float16)
+    assert error.value.code == "too_large"
+
+
+class Stored:
+    """What zarr, h5py and others have: written to by slices of rows, no memory of its own."""
+
+    def __init__(self, shape, dtype, chunks):
+        self.data, self.chunks, self.writes = np.full(shape, -1, dtype), chunks, []
+
+    shape = property(lambda self: self.data.shape)
+    dtype = property(lambda self: self.data.dtype)
+
+    def __getitem__(self, where):
+        return self.data[where].copy()
+
+    def __setitem__(self, where, values):
+        self.writes.append(where)
+        self.data[where] = values
+
+
+@pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
+def test_out_may_be_anything_that_is_written_to_by_rows(bumpy, dtype, monkeypatch):
+    from brushfire import _matrices
+
+    n = bumpy.vertex_count
+    full = bumpy.distance_matrix(method="dijkstra", dtype=np.float32 if dtype == np.float16 else dtype)
+    monkeypatch.setattr(_matrices, "_BLOCK_BYTES", 20 * n * 8)
+    out = Stored((n, n), dtype, (10, n))
+    assert bumpy.distance_matrix(method="dijkstra", out=out) is out
+    assert np.array_equal(out.data, full.astype(dtype))
+    assert len(out.writes) > 3
+    assert all(block.start % 10 == 0 for block in out.writes)
+    points = bf.Points([3, 3, 99], [[0.2, 0.3, 0.5]] * 3)
+    out = Stored((3, n), dtype, (1, n))
+    bumpy.distance_matrix(points, method="exact", out=out)
+    assert np.allclose(out.data, bumpy.distance_matrix(points, method="exact", dtype=float), rtol=1e-3)
+    out = Stored((n, n), dtype, (7, n))
+    bumpy.distance_matrix(method="novotni-klein", out=out, symmetric="mean")
+    assert np.array_equal(out.data, out.data.T)
+    with pytest.raises(bf.BrushfireError, match="shape"):
+        bumpy.distance_matrix(out=Stored((n, n - 1), dtype, (1, 1)))
+
+
+def test_out_may_be_a_zarr_array(bumpy, tmp_path):
+    zarr = pytest.importorskip("zarr")
+    n = bumpy.vertex_count
+    out = zarr.create_array(tmp_path / "d.zarr", shape=(n, n), chunks=(16, n), dtype="float32")
+    bumpy.distance_matrix(method="dijkstra", out=out)
+    assert np.array_equal(zarr.open(tmp_path / "d.zarr")[:], bumpy.distance_matrix(method="dijkstra"))
+
+
+def test_out_may_be_a_tensor(bumpy):
+    from test_from_any import Tensor
+
+    n = bumpy.vertex_count
+    out = Tensor(np.zeros((n, n), dtype=np.float32))
+    assert bumpy.distance_matrix(method="dijkstra", out=out) is out
+    assert np.array_equal(out.array, bumpy.distance_matrix(method="dijkstra"))
+    torch = pytest.importorskip("torch")
+    real = torch.zeros((n, n), dtype=torch.float64)
+    bumpy.distance_matrix(method="dijkstra", out=real)
+    assert np.array_equal(real.numpy(), bumpy.distance_matrix(method="dijkstra", dtype=float))

@@ -54,7 +54,7 @@ def test_the_mesh_does_not_change_with_the_arrays_that_it_was_made_of():
     assert np.array_equal(mesh.vertices, V)
 
 
-def test_views_are_read_only_and_outlive_the_mesh():
+def test_arrays_of_a_mesh_are_read_only_and_outlive_it():
     mesh = bf.Mesh(V, F)
     vertices, faces = mesh.vertices, mesh.faces
     assert faces.dtype == np.int32

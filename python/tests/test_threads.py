@@ -12,6 +12,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+import pytest
 
 import brushfire as bf
 from conftest import grid
@@ -61,7 +62,7 @@ def test_other_python_threads_run_meanwhile():
 
 
 PROGRAM = """
-import signal, sys, time
+import os, signal, sys, time
 import numpy as np
 import brushfire as bf
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job starts with the signal ignored
@@ -100,3 +101,19 @@ def test_ctrl_c_stops_a_matrix_within_a_fifth_of_a_second():
 def test_ctrl_c_stops_a_loop_of_single_fields_within_a_fifth_of_a_second():
     call = "[mesh.distance(v, method='dijkstra') for v in range(10000)]"
     assert min(interrupted_after(call) for _ in range(3)) < 0.2
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "r, w = os.pipe(); bf.read(f'/dev/fd/{r}')",
+        "mesh.curved_isolines(0, count=100, chord_error=1e-13)",
+        "d = mesh.distance(0); mesh.isolines(d, count=20000)",
+        "d = mesh.distance(0); [mesh.render(d, width=8000, height=8000) for _ in range(100)]",
+        "[bf.Mesh(mesh.vertices, mesh.faces).report for _ in range(1000)]",
+        "mesh.log_map(0)",
+        "mesh.voronoi(range(0, 490000, 50), method='exact')",
+    ],
+)
+def test_ctrl_c_stops_everything_else_within_three_tenths_of_a_second(call):
+    assert min(interrupted_after(call) for _ in range(3)) < 0.3

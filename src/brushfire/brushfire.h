@@ -1,6 +1,7 @@
 // Everything public, in one include.
 #pragma once
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/core/parallel.h>
 #include <brushfire/core/progress.h>

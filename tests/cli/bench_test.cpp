@@ -38,7 +38,7 @@ TEST_F(BenchVerb, TableHasALineForEveryMethod) {
 }
 
 TEST_F(BenchVerb, JsonTellsTimesMemoryAndErrors) {
-  const Ended ended = run({"--methods", "exact", "-m", "dijkstra", "-m", "windows:1e-2", "-m", "novotni-klein:double",
+  const Ended ended = run({"--methods", "exact", "-m", "dijkstra", "-m", "windows:1e-2", "-m", "novotni-klein:float64",
                            "--sources", "3", "--repeat", "2", "--json"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(number(ended.out, "sources"), 3);
@@ -54,7 +54,7 @@ TEST_F(BenchVerb, JsonTellsTimesMemoryAndErrors) {
   const std::size_t windows = ended.out.find("\"windows\"");
   EXPECT_EQ(number(ended.out, "tolerance", windows), 0.01);
   EXPECT_LE(number(ended.out, "max_relative_error", windows), number(ended.out, "max_error_bound", windows));
-  EXPECT_NE(ended.out.find("\"precision\": \"double\""), std::string::npos);
+  EXPECT_NE(ended.out.find("\"precision\": \"float64\""), std::string::npos);
 }
 
 TEST_F(BenchVerb, ThreadsShareOutTheSourcesAndFindTheSame) {
@@ -70,16 +70,16 @@ TEST_F(BenchVerb, ThreadsShareOutTheSourcesAndFindTheSame) {
 }
 
 TEST_F(BenchVerb, WithoutErrorsNothingIsComparedWithTheExactDistances) {
-  const Ended ended = run({"-m", "dijkstra", "--no-error", "--repeat", "1", "--json", "--source", "1.4,0,0"});
+  const Ended ended = run({"-m", "dijkstra", "--no-error", "--repeat", "1", "--json", "--source", "at:1.4,0,0"});
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_NE(ended.out.find("\"mean_relative_error\": null"), std::string::npos);
 }
 
 TEST_F(BenchVerb, RefusesMalformedOptions) {
   const std::vector<std::vector<std::string>> bad{
-      {"-m", "fast"},       {"-m", "windows:2"},      {"-m", "windows:"},    {"-m", "windows:float"},
-      {"-m", "exact:1e-3"}, {"-m", "dijkstra:float"}, {"--sources", "0"},    {"--sources", "1.5"},
-      {"--repeat", "0"},    {"--threads", "0"},       {"--threads", "many"}, {"--sources", "2", "--source", "1"},
+      {"-m", "fast"},       {"-m", "windows:2"},        {"-m", "windows:"},    {"-m", "windows:float32"},
+      {"-m", "exact:1e-3"}, {"-m", "dijkstra:float32"}, {"--sources", "0"},    {"--sources", "1.5"},
+      {"--repeat", "0"},    {"--threads", "0"},         {"--threads", "many"}, {"--sources", "2", "--source", "1"},
       {"--source", "9999"}, {"--source", "north"}};
   for (const std::vector<std::string>& options : bad) {
     const Ended ended = run(options);

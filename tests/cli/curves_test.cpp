@@ -29,7 +29,7 @@ TEST_F(Curves, PathPrintsItsLength) {
 }
 
 TEST_F(Curves, PathBetweenPositionsIsWritten) {
-  const Ended ended = run({"path", "--from", "0.25,0.1,3", "--to", "0.25,0.9,0", "-o", path("p.obj")});
+  const Ended ended = run({"path", "--from", "at:0.25,0.1,3", "--to", "at:0.25,0.9,0", "-o", path("p.obj")});
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_NE(content("p.obj").find("v 0.25 0.1 0\n"), std::string::npos);
   EXPECT_NE(content("p.obj").find("\nl 1 2"), std::string::npos);

@@ -21,7 +21,7 @@ class MatrixVerb : public InFolder {
 };
 
 TEST_F(MatrixVerb, WritesTheDenseMatrixOfChosenRowsAndColumns) {
-  write("columns.txt", "3 # a corner\n1.5,2,7\nf:0:0,1,0\n");
+  write("columns.txt", "3 # a corner\nat:1.5,2,7\nf:0:0,1,0\n");
   const Ended ended = run({"--rows", "1,4", "--cols", path("columns.txt"), "--dtype", "float64", "-o", path("d.npy")});
   EXPECT_EQ(ended.code, 0) << ended.err;
   const NpyArray d = read_npy(path("d.npy"));

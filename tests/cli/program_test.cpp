@@ -147,13 +147,15 @@ TEST_F(Program, DistanceJsonHasStableKeys) {
   const Ended ended =
       run_program({"distance", path("square.off"), "--source", "0", "--target", "2", "--json", "-m", "dijkstra"});
   EXPECT_EQ(ended.code, 0);
-  EXPECT_EQ(
-      keys_of(ended.out),
-      (std::vector<std::string>{"schema",       "brushfire",       "file",        "method",        "precision",
-                                "tolerance",    "bound",           "vertices",    "faces",         "sources",
-                                "radius",       "reached",         "unreachable", "beyond_radius", "max_error_bound",
-                                "max_distance", "farthest_vertex", "updates",     "read_s",        "set_up_s",
-                                "solve_s",      "targets",         "output"}));
+  EXPECT_EQ(keys_of(ended.out), (std::vector<std::string>{"schema",       "brushfire",       "file",
+                                                          "method",       "precision",       "tolerance",
+                                                          "bound",        "vertices",        "faces",
+                                                          "sources",      "radius",          "reached",
+                                                          "unreachable",  "beyond_radius",   "max_error_bound",
+                                                          "max_distance", "farthest_vertex", "updates",
+                                                          "read_s",       "set_up_s",        "solve_s",
+                                                          "targets",      "snapped",         "max_snap_distance",
+                                                          "output"}));
 }
 
 // The number of a key of the outermost object; NaN where it is none.
@@ -259,7 +261,8 @@ TEST_F(Program, ReadsStandardInput) {
 }
 
 TEST_F(Program, PositionsAreSnappedToTheSurface) {
-  const Ended ended = run_program({"distance", path("square.off"), "-s", "-1,-1,5", "-t", "3,0,0", "-m", "dijkstra"});
+  const Ended ended =
+      run_program({"distance", path("square.off"), "-s", "at:-1,-1,5", "-t", "at:3,0,0", "-m", "dijkstra"});
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(ended.out, "1\n");
 }
@@ -344,7 +347,7 @@ TEST_F(Program, CompareTellsTheErrorsAgainstTheReference) {
 TEST_F(Program, ComparedMethodsAgreeOnAConvexPlane) {
   run_program({"shape", "paper-square", "-o", path("plane.ply")});
   run_program({"distance", path("plane.ply"), "-s", "0", "-m", "exact", "-o", path("exact.npy")});
-  run_program({"distance", path("plane.ply"), "-s", "0", "-m", "novotni-klein", "--precision", "double", "-o",
+  run_program({"distance", path("plane.ply"), "-s", "0", "-m", "novotni-klein", "--precision", "float64", "-o",
                path("fast.ply")});
   const Ended ended = run_program({"compare", path("fast.ply"), path("exact.npy"), "--json"});
   std::smatch match;
@@ -376,14 +379,14 @@ TEST_F(Program, UsageErrorsEndWithTwoAndOneLine) {
                "brushfire: The following argument was not expected: --colour (see brushfire info --help)");
   expect_error({"distance", mesh}, 2, "brushfire: where from? give --source or --sources");
   expect_error({"distance", mesh, "--source"}, 2,
-               "brushfire: --source: 1 required WHERE missing (see brushfire distance --help)");
+               "brushfire: --source: 1 required PLACE missing (see brushfire distance --help)");
   expect_error({"distance", mesh, "--source", "nose"}, 2,
                "brushfire: 'nose' is no place on a mesh: a vertex is a whole number from 0 up; write a vertex (17), a "
-               "face and weights (f:120:.2,.3,.5) or a position (x,y,z)");
+               "face and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2)");
   expect_error(
       {"distance", mesh, "--source", "-1"}, 2,
       "brushfire: '-1' is no place on a mesh: a vertex is a whole number from 0 up; write a vertex (17), a face "
-      "and weights (f:120:.2,.3,.5) or a position (x,y,z)");
+      "and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2)");
   expect_error({"distance", mesh, "--source", "4"}, 2, "brushfire: '4': there is no such vertex, the mesh has 4");
   expect_error({"distance", mesh, "--source", "99999999999999999999"}, 2,
                "brushfire: '99999999999999999999': there is no such vertex, the mesh has 4");
@@ -392,7 +395,7 @@ TEST_F(Program, UsageErrorsEndWithTwoAndOneLine) {
   expect_error({"distance", mesh, "--source", "0", "--target", "1@2"}, 2, "brushfire: '1@2': a target has no offset");
   expect_error({"distance", mesh, "--source", "0", "--radius", "-1"}, 2, "brushfire: --radius -1 is not a number >= 0");
   expect_error({"distance", mesh, "--source", "0", "--precision", "half"}, 2,
-               "brushfire: --precision: 'half' is none of float, double (see brushfire distance --help)");
+               "brushfire: --precision: 'half' is none of float32, float64 (see brushfire distance --help)");
   expect_error({"completion", "fish"}, 2,
                "brushfire: shell: 'fish' is none of bash, zsh (see brushfire completion --help)");
   write("empty.txt", "# nothing\n");
@@ -413,7 +416,7 @@ TEST_F(Program, UnusableInputEndsWithThree) {
   EXPECT_EQ(said(unknown.err).rfind("brushfire: notes.txt: neither name nor content tell the format", 0), 0u);
   EXPECT_EQ(lines_of(unknown.err).size(), 1u);
   expect_error({"distance", path("square.off"), "--sources", path("missing.txt")}, 3,
-               "brushfire: missing.txt: cannot be opened");
+               "brushfire: missing.txt: no such file");
 }
 
 TEST_F(Program, ClosedOrFullStandardOutputIsAnError) {
@@ -468,7 +471,7 @@ TEST_F(Program, CompletionKnowsVerbsOptionsAndMethods) {
   for (const char* shell : {"bash", "zsh"}) {
     const Ended ended = run_program({"completion", shell});
     EXPECT_EQ(ended.code, 0);
-    for (const char* word : {"info", "distance", "completion", "--source", "--json", "dijkstra", "float double"}) {
+    for (const char* word : {"info", "distance", "completion", "--source", "--json", "dijkstra", "float32 float64"}) {
       EXPECT_NE(ended.out.find(word), std::string::npos) << shell << " " << word;
     }
   }

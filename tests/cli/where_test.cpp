@@ -43,12 +43,24 @@ TEST(Where, FaceAndWeights) {
   EXPECT_EQ(place.weights, (std::array<double, 3>{.2, .3, .5}));
 }
 
-TEST(Where, ThreeNumbersAreAPosition) {
-  EXPECT_EQ(std::get<Vec3>(parse_where("1.5, -2e-3,+4").place), (Vec3{1.5, -2e-3, 4}));
+TEST(Where, ThreeNumbersAfterAtAreAPosition) {
+  EXPECT_EQ(std::get<Vec3>(parse_where("at:1.5, -2e-3,+4").place), (Vec3{1.5, -2e-3, 4}));
+  EXPECT_EQ(std::get<Vec3>(parse_where("at:1,2,3").place), (Vec3{1, 2, 3}));
+}
+
+TEST(Where, ThreeNumbersAloneAreThreeVerticesAndNeverAPosition) {
+  EXPECT_EQ(split_places({"1,2,3", "7", " 4 , 5@0.5"}), (std::vector<std::string>{"1", "2", "3", "7", "4 ", " 5@0.5"}));
+  EXPECT_EQ(split_places({"f:1:.5,.5,0", "at:1,2,3"}), (std::vector<std::string>{"f:1:.5,.5,0", "at:1,2,3"}));
+  EXPECT_EQ(split_places({"", "1,"}), (std::vector<std::string>{"", "1", ""}));
+  for (const char* text : {"1.5,0,-2", "1,2,-3", "1,2,3.0"}) {
+    const std::vector<std::string> places = split_places({text});
+    ASSERT_EQ(places.size(), 1u) << text;
+    EXPECT_NE(refusal(places[0]).find("a position begins with at:"), std::string::npos) << text;
+  }
 }
 
 TEST(Where, WhatFollowsTheAtSignIsTheOffset) {
-  for (const char* text : {"17@-0.5", "f:0:1,0,0@-0.5", "0,0,0 @ -0.5"}) {
+  for (const char* text : {"17@-0.5", "f:0:1,0,0@-0.5", "at:0,0,0 @ -0.5"}) {
     const Where where = parse_where(text);
     EXPECT_TRUE(where.has_offset) << text;
     EXPECT_EQ(where.offset, -0.5) << text;
@@ -56,15 +68,16 @@ TEST(Where, WhatFollowsTheAtSignIsTheOffset) {
 }
 
 TEST(Where, AnythingElseIsRefusedWithItsTextAndTheReason) {
-  for (const char* text :
-       {"",        " ",       "@1",   "-1", "1.5", "seven", "17@",        "17@x",    "17@inf",      "17@1@2", "1,2",
-        "1,2,3,4", "1,2,nan", "1,,3", "f:", "f:1", "f:1:",  "f:-1:1,0,0", "f:1:1,0", "f:1:1,0,0,0", "0x10"}) {
+  for (const char* text : {"",        " ",      "@1",  "-1",    "1.5",        "seven",   "17@",         "17@x",
+                           "17@inf",  "17@1@2", "1,2", "1,2,3", "at:1,2",     "at:",     "at:1,2,3,4",  "at:1,2,nan",
+                           "at:1,,3", "f:",     "f:1", "f:1:",  "f:-1:1,0,0", "f:1:1,0", "f:1:1,0,0,0", "0x10"}) {
     const std::string message = refusal(text);
     EXPECT_NE(message.find("write a vertex (17)"), std::string::npos) << message;
   }
-  EXPECT_EQ(refusal("1,2"),
-            "'1,2' is no place on a mesh: a position is three numbers; write a vertex (17), a face and "
-            "weights (f:120:.2,.3,.5) or a position (x,y,z)");
+  EXPECT_EQ(
+      refusal("1,2,3"),
+      "'1,2,3' is no place on a mesh: one place is needed here, and several numbers are several vertices; write a "
+      "vertex (17), a face and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2)");
 }
 
 TEST(Where, AVertexThatTheMeshHasNotIsOutOfRangeHoweverLarge) {
@@ -90,18 +103,19 @@ TEST(Where, ResolvesToTheVertexTheFaceAndTheSnappedPosition) {
     asked = p;
     return SurfacePoint{1, {0, 1, 0}};
   };
-  EXPECT_EQ(resolve(parse_where("1,2,3"), mesh, snap).face, 1u);
+  EXPECT_EQ(resolve(parse_where("at:1,2,3"), mesh, snap).face, 1u);
   EXPECT_EQ(asked, (Vec3{1, 2, 3}));
 }
 
-TEST(Where, AFileHasOnePlacePerLineAndComments) {
+TEST(Where, AFileHasOnePlaceOrAListPerLineAndComments) {
   const std::string path = testing::TempDir() + "brushfire_places.txt";
-  std::ofstream(path) << "# landmarks\n3\r\n\n  1,2,3@0.5  # the nose\nf:0:1,0,0";
+  std::ofstream(path) << "# landmarks\n3\r\n\n  at:1,2,3@0.5  # the nose\nf:0:1,0,0\n8, 9\r\n";
   const std::vector<Where> places = read_where_file(path);
-  ASSERT_EQ(places.size(), 3u);
+  ASSERT_EQ(places.size(), 5u);
   EXPECT_EQ(std::get<VertexPlace>(places[0].place).index, 3u);
   EXPECT_EQ(places[1].offset, 0.5);
   EXPECT_EQ(places[2].text, "f:0:1,0,0");
+  EXPECT_EQ(std::get<VertexPlace>(places[4].place).index, 9u);
 }
 
 TEST(Where, AFileErrorNamesFileAndLine) {

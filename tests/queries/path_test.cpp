@@ -145,5 +145,30 @@ TEST(Path, AlongEdgesIsADijkstraPathOfTheFieldsLength) {
   EXPECT_THROW(edge_path_to(mesh, other, 0), Error);
 }
 
+TEST(Path, OffASparseFieldIsThatOffAFullOne) {
+  const Mesh mesh = shapes::folded_sphere(4).mesh();
+  DistanceSolver solver(mesh);
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_paths = true;
+  for (const double radius : {0.15, 0.5, kInfinity}) {
+    options.max_distance = radius;
+    const Source source{{300, {0.2, 0.3, 0.5}}};
+    const SparseField sparse = solver.distance_sparse(std::span(&source, 1), options);
+    const DistanceField full = solver.distance(std::span(&source, 1), options);
+    ASSERT_GT(sparse.vertex.size(), 3U) << radius;
+    for (const Index v : sparse.vertex) {
+      const SurfacePath a = path_to(*sparse.windows, vertex_point(mesh, v));
+      const SurfacePath b = path_to(*full.windows, vertex_point(mesh, v));
+      ASSERT_EQ(a.length, b.length) << v;
+      ASSERT_EQ(a.points.size(), b.points.size()) << v;
+    }
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const double value = sparse.windows->value(vertex_point(mesh, v)).distance;
+      ASSERT_EQ(value, full.windows->value(vertex_point(mesh, v)).distance) << v;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace brushfire

@@ -1,12 +1,14 @@
 // Straightest geodesics and the logarithmic map.
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
+#include <brushfire/queries/path.h>
 #include <brushfire/queries/straightest.h>
 
 #include "support/path_checker.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -192,6 +194,79 @@ TEST(LogMap, OfAPlaneIsItsPolarCoordinates) {
     EXPECT_NEAR(map.radius[v], norm(d), 1e-14);
     if (v != 40) {
       EXPECT_NEAR(std::remainder(map.angle[v] - zero - std::atan2(d.y, d.x), 2 * kPi), 0, 1e-12);
+    }
+  }
+}
+
+// One solver, discs of many sizes around points of every kind, a field and a path in between.
+TEST(LogMap, OfADiscIsToTheBitWhatAFreshSolverGives) {
+  const Mesh mesh = shapes::folded_sphere(5).mesh();
+  DistanceSolver solver(mesh);
+  const std::vector<SurfacePoint> centres{
+      vertex_point(mesh, 7), {411, {0.2, 0.5, 0.3}}, {9000, {0.5, 0, 0.5}}, vertex_point(mesh, 7)};
+  for (const double radius : {0.05, 0.4, kInfinity, 0.1}) {
+    for (const SurfacePoint& centre : centres) {
+      const SparseLogMap disc = log_map(solver, centre, radius);
+      const LogMap whole = log_map(mesh, centre, radius);
+      const auto reached =
+          std::count_if(whole.radius.begin(), whole.radius.end(), [](double d) { return d < kInfinity; });
+      ASSERT_EQ(disc.vertex.size(), static_cast<std::size_t>(reached)) << radius;
+      EXPECT_EQ(disc.total_angle, whole.total_angle);
+      for (std::size_t i = 0; i < disc.vertex.size(); ++i) {
+        ASSERT_EQ(disc.radius[i], whole.radius[disc.vertex[i]]);
+        ASSERT_EQ(disc.angle[i], whole.angle[disc.vertex[i]]);
+      }
+      const Source source{centre};
+      solver.distance(std::span(&source, 1));
+      path_between(solver, centre, vertex_point(mesh, 99));
+    }
+  }
+}
+
+// Every angle against the path itself: its first step, as a direction in space.
+void expect_angles_of_paths(const Mesh& mesh, const SurfacePoint& source, const std::string& name) {
+  const LogMap map = log_map(mesh, source);
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_paths = true;
+  const Source origin{source};
+  const DistanceField field = distance(mesh, std::span(&origin, 1), options);
+  const Vec3 here = place(mesh, source);
+  int compared = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (!(field.distance[v] < kInfinity) || field.distance[v] == 0) continue;
+    const SurfacePath path = path_to(*field.windows, vertex_point(mesh, v));
+    const double expected = angle_of(mesh, source, place(mesh, path.points[1]) - here);
+    ASSERT_NEAR(std::remainder(map.angle[v] - expected, map.total_angle), 0, 1e-9) << name << ", vertex " << v;
+    ++compared;
+  }
+  EXPECT_GT(compared, 10) << name;
+}
+
+// Some faces the other way round: angles still count as the source's face runs.
+Mesh with_turned_faces(const Shape& shape, std::uint64_t seed) {
+  std::vector<Face> faces = shape.faces;
+  std::mt19937_64 random(seed);
+  for (Face& f : faces) {
+    if (random() % 3 == 0) std::swap(f[1], f[2]);
+  }
+  return Mesh(shape.positions, faces);
+}
+
+TEST(LogMap, AnglesAreThoseOfTheShortestPaths) {
+  std::mt19937_64 random(11);
+  const std::vector<std::pair<std::string, Shape>> kinds{{"plane", shapes::plane(9, 7)},
+                                                         {"sphere", shapes::icosphere(3)},
+                                                         {"folded", shapes::folded_sphere(4)},
+                                                         {"deep folds", shapes::folded_sphere(4, 9, 0.5)},
+                                                         {"cube", shapes::cube(3)},
+                                                         {"cone", shapes::cone(8, 16)}};
+  for (const auto& [name, shape] : kinds) {
+    for (const Mesh& mesh : {shape.mesh(), with_turned_faces(shape, 5)}) {
+      for (int k = 0; k < 2; ++k) {
+        expect_angles_of_paths(mesh, vertex_point(mesh, static_cast<Index>(random() % mesh.vertex_count())), name);
+        expect_angles_of_paths(mesh, {static_cast<Index>(random() % mesh.face_count()), {0.2, 0.3, 0.5}}, name);
+      }
     }
   }
 }

@@ -21,7 +21,7 @@ inline DistanceField run(detail::Engine& engine, const Mesh& mesh, const std::ve
   field.source.assign(mesh.vertex_count(), kNoIndex);
   field.target_distance.assign(targets.size(), kInfinity);
   field.target_source.assign(targets.size(), kNoIndex);
-  engine.solve({located, targets, options.max_distance / mesh.unit(), &options, touched}, field);
+  engine.solve({located, targets, options.max_distance / mesh.unit(), &options, touched, {}, options.cancel}, field);
   return field;
 }
 

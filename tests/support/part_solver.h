@@ -34,7 +34,8 @@ class PartSolver {
     field.source.assign(mesh_.vertex_count(), kNoIndex);
     field.target_distance.assign(targets_.size(), kInfinity);
     field.target_source.assign(targets_.size(), kNoIndex);
-    engine_->solve({sources_, targets_, options.max_distance / mesh_.unit(), &options, touched}, field);
+    engine_->solve({sources_, targets_, options.max_distance / mesh_.unit(), &options, touched, {}, options.cancel},
+                   field);
     for (double& d : field.distance) d *= mesh_.unit();
     for (double& d : field.target_distance) d *= mesh_.unit();
   }

@@ -23,11 +23,11 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   brushfire bench bunny.ply
-  brushfire bench bunny.ply --method windows:1e-4 --method novotni-klein:double
+  brushfire bench bunny.ply --method windows:1e-4 --method novotni-klein:float64
   brushfire bench bunny.ply --sources 8 --threads 2 --json
   brushfire bench large.ply --method novotni-klein --repeat 9 --no-error
 
-A method may be followed by :double (its arithmetic) or by a tolerance (windows:1e-4). Every repetition builds the mesh
+A method may be followed by :float64 (its arithmetic) or by a tolerance (windows:1e-4). Every repetition builds the mesh
 from its arrays, with all that the method needs (set-up), and then solves for each source (solve, per source); what is
 printed is the median. Times are processor time; with --threads above 1 they are by the clock on the wall: threads share
 out the sources, and where there are more of them than sources, they work on one field together. Memory is the most that
@@ -37,7 +37,7 @@ against the exact distances.)";
 struct Arguments {
   std::string file;
   std::vector<std::string> methods, sources;
-  std::optional<double> source_count, repeat, threads;
+  std::optional<double> source_count, repeat, threads, snap_within;
   bool no_error = false;
 };
 
@@ -55,10 +55,10 @@ struct Result {
   double proven = kInfinity;  // the largest of the fields' own bounds
 };
 
-// Methods that compute in float or double as asked.
+// Methods that compute in the precision that is asked for.
 bool has_precision(Method method) { return method == Method::NovotniKlein || method == Method::KimmelSethian; }
 
-// "windows:1e-4", "novotni-klein:double", "exact".
+// "windows:1e-4", "novotni-klein:float64", "exact".
 DistanceOptions method_of(const std::string& text) {
   DistanceOptions options;
   const std::size_t colon = text.find(':');
@@ -67,8 +67,8 @@ DistanceOptions method_of(const std::string& text) {
   if (colon == std::string::npos) return options;
   const std::string detail = text.substr(colon + 1);
   const bool marches = has_precision(options.method);
-  if (marches && (detail == "float" || detail == "double")) {
-    options.precision = detail == "float" ? Precision::Float : Precision::Double;
+  if (marches && (detail == "float32" || detail == "float64")) {
+    options.precision = detail == "float32" ? Precision::Float : Precision::Double;
   } else if (options.method == Method::Windows) {
     const char* end = detail.data() + detail.size();
     const auto [stop, status] = std::from_chars(detail.data(), end, options.tolerance);
@@ -78,7 +78,7 @@ DistanceOptions method_of(const std::string& text) {
     }
   } else {
     refuse("'" + text +
-           "': " + (marches ? "after the colon goes float or double" : "this method has nothing to choose"));
+           "': " + (marches ? "after the colon goes float32 or float64" : "this method has nothing to choose"));
   }
   return options;
 }
@@ -96,6 +96,7 @@ Plan plan_of(const Arguments& a) {
   plan.source_count = static_cast<std::size_t>(whole_number(a.source_count, 1, 1, kMany, "--sources"));
   plan.repetitions = static_cast<std::size_t>(whole_number(a.repeat, 5, 1, kMany, "--repeat"));
   plan.threads = static_cast<unsigned>(whole_number(a.threads, 1, 1, kMostThreads, "--threads"));
+  check_snap_within(a.snap_within);
   if (a.source_count && !a.sources.empty()) refuse("--sources N chooses vertices, --source names places: give one");
   for (const std::string& text : a.methods) plan.methods.push_back(method_of(text));
   if (!a.methods.empty()) return plan;
@@ -104,10 +105,9 @@ Plan plan_of(const Arguments& a) {
 }
 
 // The places named, or vertices that have faces, evenly spread over their numbers, from the first one on.
-std::vector<SurfacePoint> sources_of(const Arguments& a, const Plan& plan, const Mesh& mesh) {
+std::vector<SurfacePoint> sources_of(const Arguments& a, const Plan& plan, const Mesh& mesh, PlaceFinder& places) {
   std::vector<SurfacePoint> points;
-  const Snap snap = snapper(mesh);
-  for (const std::string& text : a.sources) points.push_back(resolve(parse_where(text), mesh, snap));
+  for (const std::string& text : split_places(a.sources)) points.push_back(places.source(parse_where(text)));
   if (!points.empty()) return points;
   std::vector<Index> candidates;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -255,7 +255,7 @@ std::string in_words(const Arguments& a, const Plan& plan, const Mesh& mesh, std
   return text;
 }
 
-std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::size_t sources,
+std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::size_t sources, const PlaceFinder& places,
                  const std::vector<Result>& results) {
   std::vector<Record> methods;
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -269,8 +269,8 @@ std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::si
         .add("method", std::string(brushfire::name_of(options.method)))
         .add("tolerance", options.method == Method::Windows ? Record::Value(options.tolerance) : nullptr)
         .add("precision", !has_precision(options.method)          ? Record::Value(nullptr)
-                          : options.precision == Precision::Float ? Record::Value(std::string("float"))
-                                                                  : Record::Value(std::string("double")))
+                          : options.precision == Precision::Float ? Record::Value(std::string("float32"))
+                                                                  : Record::Value(std::string("float64")))
         .add("set_up_s", r.set_up_s)
         .add("solve_s", r.solve_s)
         .add("vertices_per_s", vertices_per_second(r))
@@ -290,13 +290,16 @@ std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::si
       .add("repetitions", static_cast<std::int64_t>(plan.repetitions))
       .add("clock", std::string(plan.threads == 1 ? "processor" : "wall"))
       .add("methods", std::move(methods));
+  places.add_to(record);
   return record.json();
 }
 
 int bench(const Arguments& a, const Talk& talk) {
   const Plan plan = plan_of(a);
   const Mesh mesh = read_mesh(a.file).mesh;
-  const std::vector<SurfacePoint> sources = sources_of(a, plan, mesh);
+  PlaceFinder places(mesh, a.snap_within);
+  const std::vector<SurfacePoint> sources = sources_of(a, plan, mesh, places);
+  places.tell(talk);
   const Progress progress = talk.progress("bench");
   const Bench bench(mesh, sources, plan, !a.no_error);
   std::vector<Result> results;
@@ -306,7 +309,7 @@ int bench(const Arguments& a, const Talk& talk) {
     results.push_back(bench.run(options));
   }
   talk.end_progress();
-  write_stdout(talk.json ? json(a, plan, mesh, sources.size(), results)
+  write_stdout(talk.json ? json(a, plan, mesh, sources.size(), places, results)
                          : in_words(a, plan, mesh, sources.size(), results));
   return kOk;
 }
@@ -318,10 +321,11 @@ void add_bench(CommandLine& command_line) {
   command_line.add("bench", "What the methods cost on a mesh, and how far off they are", [&](Verb& verb) {
     verb.argument("FILE", arguments->file, "The mesh; - reads standard input");
     verb.option("-m,--method,--methods", arguments->methods, "NAME", "What to measure (all); may be repeated");
-    verb.option("-s,--source", arguments->sources, "WHERE", "Solve from here; may be repeated");
+    verb.option("-s,--source", arguments->sources, "PLACE", "Solve from here; may be repeated");
     verb.option("--sources", arguments->source_count, "N", "Solve from each of N vertices, spread over the mesh (1)");
     verb.option("--repeat", arguments->repeat, "N", "Repetitions (5)");
     verb.option("--threads", arguments->threads, "N", "Threads that share out the sources, or a field (1)");
+    add_snap_within(verb, arguments->snap_within);
     verb.flag("--no-error", arguments->no_error, "Do not compute the exact distances to compare with");
     verb.talks();
     verb.examples(kExamples);

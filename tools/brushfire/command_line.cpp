@@ -3,6 +3,7 @@
 
 #include "interrupt.h"
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/version.h>
 
@@ -34,7 +35,7 @@ int exit_code(ErrorCode code) {
     case ErrorCode::UnknownFormat:
       return kBadInput;
     case ErrorCode::Cancelled:
-      return kInterrupted;
+      return interrupted_exit_code();
     case ErrorCode::FileNotWritable:
     case ErrorCode::TooLarge:
     case ErrorCode::Internal:
@@ -48,6 +49,11 @@ int fail(int code, std::string message) {
   std::replace_if(message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, ' ');
   std::fprintf(stderr, "brushfire: %s\n", message.c_str());
   return code;
+}
+
+// A script whose variable is empty means something else than a script that leaves the option away.
+CLI::Validator not_empty() {
+  return CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "an empty value" : ""); }, "");
 }
 
 }  // namespace
@@ -65,23 +71,23 @@ struct CommandLine::Implementation {
 };
 
 void Verb::argument(const char* name, std::string& value, const char* help) {
-  parser_.app->add_option(name, value, help)->required()->type_name("");
+  parser_.app->add_option(name, value, help)->required()->check(not_empty())->type_name("");
 }
 
 void Verb::required_option(const char* names, std::string& value, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, value, help)->required()->type_name(placeholder);
+  parser_.app->add_option(names, value, help)->required()->check(not_empty())->type_name(placeholder);
 }
 
 void Verb::option(const char* names, std::string& value, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, value, help)->type_name(placeholder);
+  parser_.app->add_option(names, value, help)->check(not_empty())->type_name(placeholder);
 }
 
 void Verb::option(const char* names, std::optional<double>& value, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, value, help)->type_name(placeholder);
+  parser_.app->add_option(names, value, help)->check(not_empty())->type_name(placeholder);
 }
 
 void Verb::option(const char* names, std::vector<std::string>& values, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, values, help)->allow_extra_args(false)->type_name(placeholder);
+  parser_.app->add_option(names, values, help)->allow_extra_args(false)->check(not_empty())->type_name(placeholder);
 }
 
 void Verb::choice(const char* names, std::string& value, const std::vector<std::string>& choices, const char* help) {
@@ -133,7 +139,7 @@ CommandLine::CommandLine() : implementation_(std::make_unique<Implementation>())
       "  brushfire distance bunny.ply --source 0 -o bunny-distance.ply\n"
       "\n"
       "Exit codes: 0 done, 1 internal error or output not writable, 2 usage, 3 unusable input file,\n"
-      "4 target unreachable, 130 interrupted.");
+      "4 target unreachable, 130 interrupted (Ctrl-C), 143 terminated.");
 }
 
 CommandLine::~CommandLine() = default;
@@ -163,12 +169,15 @@ int CommandLine::run(int argc, const char* const* argv) {
     for (const auto& verb : implementation_->verbs) {
       if (!verb->app->parsed()) continue;
       cancel_on_interrupt();
+      const CancelScope listen(&cancel_token());
       return verb->body(verb->talk);
     }
     write_stdout(app.help());
     return kOk;
   } catch (const Error& e) {
-    return fail(exit_code(e.code()), e.code() == ErrorCode::Cancelled ? "interrupted" : e.what());
+    if (e.code() != ErrorCode::Cancelled) return fail(exit_code(e.code()), e.what());
+    say_interrupted();
+    return interrupted_exit_code();
   } catch (const Unreachable& e) {
     return fail(kUnreachable, e.what());
   } catch (const std::bad_alloc&) {

@@ -19,7 +19,7 @@ inline constexpr int kInternal = 1;     // a bug, no memory, an output that cann
 inline constexpr int kUsage = 2;        // an argument that is not understood or names something that is not in the mesh
 inline constexpr int kBadInput = 3;     // an input file that cannot be read or is not a mesh
 inline constexpr int kUnreachable = 4;  // a target that no source reaches
-inline constexpr int kInterrupted = 130;
+// Interrupted: 128 and the signal, see interrupt.h: 130 after Ctrl-C, 143 after SIGTERM.
 
 // Thrown by a verb whose answer is that there is no way: what() says to where.
 class Unreachable : public std::runtime_error {

@@ -17,10 +17,11 @@
 namespace brushfire::tool {
 namespace {
 
-constexpr const char* kExamples = R"(Where (for --source and --target):
+constexpr const char* kExamples = R"(Places (for --source and --target):
   17                vertex 17, counted from 0 in the file's order
+  0,5,9             three vertices
   f:120:.2,.3,.5    in face 120, with these weights of its three corners
-  1.5,0,-2          the point of the surface nearest to this position
+  at:1.5,0,-2       the point of the surface nearest to this position
   17@0.5            any of them, with the value 0.5 to start from (sources only)
 
 Examples:
@@ -43,8 +44,8 @@ struct Arguments {
   std::string file, sources_file, output;
   std::vector<std::string> sources, targets;
   Accuracy accuracy;
-  std::string precision = "float";
-  std::optional<double> radius, threads;
+  std::string precision = "float32";
+  std::optional<double> radius, threads, snap_within;
 };
 
 class Stopwatch {
@@ -78,7 +79,7 @@ struct Run {
 
 std::vector<Where> parse_sources(const Arguments& arguments) {
   std::vector<Where> places;
-  for (const std::string& text : arguments.sources) places.push_back(parse_where(text));
+  for (const std::string& text : split_places(arguments.sources)) places.push_back(parse_where(text));
   if (!arguments.sources_file.empty()) {
     for (Where& w : read_where_file(arguments.sources_file)) places.push_back(std::move(w));
   }
@@ -92,7 +93,7 @@ std::vector<Where> parse_sources(const Arguments& arguments) {
 
 std::vector<Where> parse_targets(const Arguments& arguments) {
   std::vector<Where> places;
-  for (const std::string& text : arguments.targets) {
+  for (const std::string& text : split_places(arguments.targets)) {
     places.push_back(parse_where(text));
     if (places.back().has_offset) {
       throw Error(ErrorCode::InvalidArgument, "'" + text + "': a target has no offset");
@@ -105,6 +106,7 @@ void check(const Arguments& arguments, const Talk& talk) {
   if (arguments.radius && !(*arguments.radius >= 0)) {
     throw Error(ErrorCode::InvalidArgument, "--radius " + exact(*arguments.radius) + " is not a number >= 0");
   }
+  check_snap_within(arguments.snap_within);
   check_output(arguments.output);
   if (arguments.output == "-" && (talk.json || !arguments.targets.empty())) {
     throw Error(ErrorCode::InvalidArgument, "only one of -o -, --json and --target can have the standard output");
@@ -113,7 +115,7 @@ void check(const Arguments& arguments, const Talk& talk) {
 
 std::int64_t count(std::uint64_t n) { return static_cast<std::int64_t>(n); }
 
-std::string json(const Arguments& arguments, const Run& run) {
+std::string json(const Arguments& arguments, const Run& run, const PlaceFinder& places) {
   const DistanceField& field = run.field;
   const Index farthest = run.farthest();
   const std::optional<double> tolerance = promised_error(run.options);
@@ -146,7 +148,9 @@ std::string json(const Arguments& arguments, const Run& run) {
         .add("distance", field.target_distance[i])
         .add("source", reached ? count(field.target_source[i]) : -1);
   }
-  record.add("targets", std::move(targets)).add("output", arguments.output);
+  record.add("targets", std::move(targets));
+  places.add_to(record);
+  record.add("output", arguments.output);
   return record.json();
 }
 
@@ -186,14 +190,15 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   run.read_s = reading.seconds();
   stop_if_interrupted();
 
-  const Snap snap = snapper(run.mesh);
-  for (const Where& w : source_places) run.sources.push_back({resolve(w, run.mesh, snap), w.offset});
+  PlaceFinder places(run.mesh, arguments.snap_within);
+  for (const Where& w : source_places) run.sources.push_back({places.source(w), w.offset});
 
-  options.precision = arguments.precision == "float" ? Precision::Float : Precision::Double;
+  options.precision = arguments.precision == "float32" ? Precision::Float : Precision::Double;
   options.max_distance = arguments.radius.value_or(kInfinity);
   options.cancel = &cancel_token();
   options.progress = talk.progress("distance");
-  for (const Where& w : run.target_places) options.targets.push_back(resolve(w, run.mesh, snap));
+  for (const Where& w : run.target_places) options.targets.push_back(places.target(w));
+  places.tell(talk);
 
   const Stopwatch setting_up;
   DistanceSolver solver(run.mesh);
@@ -210,7 +215,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
                 arguments.output == "-" ? "csv" : "");
   }
   if (talk.json) {
-    write_stdout(json(arguments, run));
+    write_stdout(json(arguments, run, places));
   } else if (!run.target_places.empty()) {
     std::string lines;
     for (const double d : run.field.target_distance) lines += exact(d) + "\n";
@@ -232,12 +237,13 @@ void add_distance(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("distance", "Distance of every vertex from the nearest source", [&](Verb& verb) {
     verb.argument("FILE", arguments->file, "The mesh: PLY, OBJ, OFF; - reads standard input");
-    verb.option("-s,--source", arguments->sources, "WHERE", "A source; may be repeated");
+    verb.option("-s,--source", arguments->sources, "PLACE", "A source; may be repeated");
     verb.option("--sources", arguments->sources_file, "LIST", "File of sources, one per line, # comments");
-    verb.option("-t,--target", arguments->targets, "WHERE", "Print the distance of this point; may be repeated");
+    verb.option("-t,--target", arguments->targets, "PLACE", "Print the distance of this point; may be repeated");
     add_accuracy(verb, arguments->accuracy);
-    verb.choice("--precision", arguments->precision, {"float", "double"}, "Arithmetic of the marching methods");
+    verb.choice("--precision", arguments->precision, {"float32", "float64"}, "Arithmetic of the marching methods");
     verb.option("-r,--radius", arguments->radius, "R", "Stop at this distance; what is farther reads inf");
+    add_snap_within(verb, arguments->snap_within);
     verb.option("--threads", arguments->threads, "N", "Threads for this field; 0, the default: one per processor");
     verb.option("-o,--output", arguments->output, "FILE", "Write the field: .ply .vtk .npy .csv ...; - prints CSV");
     verb.talks();

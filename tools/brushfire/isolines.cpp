@@ -32,7 +32,7 @@ and oriented: smaller values on its left. Places are written as for brushfire di
 struct Arguments {
   std::string file, output, levels, scalar_file, method = "exact";
   std::vector<std::string> sources;
-  std::optional<double> every, count, curved;
+  std::optional<double> every, count, curved, snap_within;
 };
 
 void check(const Arguments& a) {
@@ -42,6 +42,7 @@ void check(const Arguments& a) {
   }
   if (a.curved && (!a.scalar_file.empty() || a.method != "exact"))
     refuse("--curved needs a --source and --method exact");
+  check_snap_within(a.snap_within);
   check_lines_output(a.output);
   if (a.output.empty()) refuse("where to? give -o lines.obj, .json, .ply, .vtp, .csv or .svg");
 }
@@ -61,7 +62,13 @@ std::vector<double> numbers(const std::string& text) {
 }
 
 std::vector<double> levels_of(const Arguments& a, std::span<const double> values) {
-  if (a.every) return levels_every(values, *a.every);
+  if (a.every) {
+    try {
+      return levels_every(values, *a.every);
+    } catch (const Error& e) {
+      refuse(std::string("--every: ") + e.what());
+    }
+  }
   if (!a.count) {
     std::vector<double> levels = numbers(a.levels);
     std::sort(levels.begin(), levels.end());
@@ -74,13 +81,13 @@ std::vector<double> levels_of(const Arguments& a, std::span<const double> values
   return levels_between(values, static_cast<Index>(*a.count));
 }
 
-DistanceField solve(const Arguments& a, const Mesh& mesh, const Talk& talk) {
-  const Snap snap = snapper(mesh);
+DistanceField solve(const Arguments& a, const Mesh& mesh, PlaceFinder& places, const Talk& talk) {
   std::vector<Source> sources;
-  for (const std::string& text : a.sources) {
+  for (const std::string& text : split_places(a.sources)) {
     const Where where = parse_where(text);
-    sources.push_back({resolve(where, mesh, snap), where.offset});
+    sources.push_back({places.source(where), where.offset});
   }
+  places.tell(talk);
   DistanceOptions options;
   options.method = method_named(a.method);
   options.keep_windows = a.curved.has_value();
@@ -95,11 +102,12 @@ int isolines_verb(const Arguments& a, const Talk& talk) {
   check(a);
   const Mesh mesh = read_mesh(a.file).mesh;
   stop_if_interrupted();
+  PlaceFinder places(mesh, a.snap_within);
   DistanceField field;
   if (a.sources.empty()) {
     field.distance = values_on_vertices(read_field(a.scalar_file), mesh.vertex_count(), kInfinity);
   } else {
-    field = solve(a, mesh, talk);
+    field = solve(a, mesh, places, talk);
   }
   const std::vector<double> levels = levels_of(a, field.distance);
   const std::vector<Isoline> found =
@@ -119,8 +127,9 @@ int isolines_verb(const Arguments& a, const Talk& talk) {
         .add("levels", static_cast<std::int64_t>(levels.size()))
         .add("lines", static_cast<std::int64_t>(lines.size()))
         .add("closed", closed)
-        .add("length", length)
-        .add("output", a.output);
+        .add("length", length);
+    places.add_to(record);
+    record.add("output", a.output);
     write_stdout(record.json());
   } else {
     talk.say(counted(lines.size(), "curve", "curves") + " at " + counted(levels.size(), "level", "levels") + ", " +
@@ -137,13 +146,14 @@ void add_isolines(CommandLine& command_line) {
   for (const Method m : all_methods()) methods.emplace_back(name_of(m));
   command_line.add("isolines", "Curves of equal distance, ordered and oriented", [&](Verb& verb) {
     verb.argument("FILE", a->file, "The mesh; - reads standard input");
-    verb.option("-s,--source", a->sources, "WHERE", "Distances from here; may be repeated");
+    verb.option("-s,--source", a->sources, "PLACE", "Distances from here; may be repeated");
     verb.option("--scalar", a->scalar_file, "FIELD", "These values instead, one per vertex");
     verb.option("--levels", a->levels, "L,L,...", "At these values");
     verb.option("--every", a->every, "H", "At the multiples of H");
     verb.option("--count", a->count, "N", "At N values that divide the range evenly");
     verb.option("--curved", a->curved, "E", "Exact arcs, as polylines within this chord error");
     verb.choice("-m,--method", a->method, methods, "How to compute");
+    add_snap_within(verb, a->snap_within);
     verb.option("-o,--output", a->output, "FILE", "Write the curves: .obj .json .ply .vtp .csv .svg");
     verb.talks();
     verb.examples(kExamples);

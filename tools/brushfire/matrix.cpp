@@ -6,7 +6,6 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_mesh.h>
-#include <brushfire/mesh/nearest_point.h>
 #include <brushfire/queries/distance_matrix.h>
 
 #include <algorithm>
@@ -20,8 +19,8 @@ namespace {
 
 constexpr const char* kExamples = R"(Rows and columns:
   all               every vertex, in the file's order
-  0,5,9             these vertices
-  FILE              one place per line, as for `brushfire distance --sources`
+  0,5,9             these vertices; at:1.5,0,-2, f:120:.2,.3,.5 and others as for `brushfire distance --source`
+  FILE              one place, or a list of vertices, per line, as for `brushfire distance --sources`
 
 Examples:
   brushfire matrix cortex.gii -o d.npy
@@ -36,36 +35,28 @@ struct Arguments {
   std::string rows = "all", columns = "all";
   Accuracy accuracy;
   std::string type = "float32";
-  std::optional<double> radius, threads;
+  std::optional<double> radius, threads, snap_within;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool is_list_of_vertices(const std::string& text) {
-  return !text.empty() && text.find_first_not_of("0123456789,") == std::string::npos;
+bool is_file(const std::string& text) {
+  return !text.starts_with("f:") && !text.starts_with("at:") &&
+         text.find_first_not_of("0123456789,") != std::string::npos;
 }
 
 std::vector<Where> parse_places(const std::string& text) {
-  if (!is_list_of_vertices(text)) return read_where_file(text);
+  if (is_file(text)) return read_where_file(text);
   std::vector<Where> places;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    places.push_back(parse_where(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
+  for (const std::string& place : split_places({text})) places.push_back(parse_where(place));
   return places;
 }
 
 // The places of a list; nullopt for all vertices.
-std::optional<std::vector<Place>> places_on(const Mesh& mesh, const std::string& text) {
+std::optional<std::vector<Place>> places_on(const Mesh& mesh, PlaceFinder& finder, const std::string& text) {
   if (text == "all") return std::nullopt;
-  std::optional<NearestPointFinder> finder;
-  const auto snap = [&](Vec3 position) {
-    if (!finder) finder.emplace(mesh);
-    return (*finder)(position).point;
-  };
   std::vector<Place> places;
   for (const Where& where : parse_places(text)) {
     if (where.has_offset) throw Error(ErrorCode::InvalidArgument, "'" + where.text + "': a matrix has no offsets");
@@ -74,7 +65,7 @@ std::optional<std::vector<Place>> places_on(const Mesh& mesh, const std::string&
     if (vertex && vertex->index < mesh.vertex_count()) {
       places.push_back(static_cast<Index>(vertex->index));
     } else {
-      places.push_back(resolve(where, mesh, snap));
+      places.push_back(finder.source(where));
     }
   }
   return places;
@@ -92,6 +83,7 @@ unsigned threads_of(const Arguments& arguments) {
 
 void check(const Arguments& arguments) {
   const bool sparse = is_sparse(arguments.output);
+  check_snap_within(arguments.snap_within);
   if (!sparse && !arguments.output.ends_with(".npy")) {
     throw Error(ErrorCode::InvalidArgument, "where to? give -o FILE.npy, .npz or .mtx");
   }
@@ -124,8 +116,10 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
 
   const Mesh mesh = read_mesh(arguments.file).mesh;
   stop_if_interrupted();
-  const std::optional<std::vector<Place>> row_places = places_on(mesh, arguments.rows);
-  const std::optional<std::vector<Place>> column_places = places_on(mesh, arguments.columns);
+  PlaceFinder finder(mesh, arguments.snap_within);
+  const std::optional<std::vector<Place>> row_places = places_on(mesh, finder, arguments.rows);
+  const std::optional<std::vector<Place>> column_places = places_on(mesh, finder, arguments.columns);
+  finder.tell(talk);
   const Places rows = row_places ? Places(*row_places) : std::nullopt;
   const Places columns = column_places ? Places(*column_places) : std::nullopt;
   const std::uint64_t row_count = rows ? rows->size() : mesh.vertex_count();
@@ -146,19 +140,19 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
 
   const std::optional<double> tolerance = promised_error(options.distance);
   if (talk.json) {
-    write_stdout(Record()
-                     .add("file", arguments.file)
-                     .add("method", std::string(name_of(options.distance.method)))
-                     .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
-                     .add("vertices", std::int64_t{mesh.vertex_count()})
-                     .add("rows", static_cast<std::int64_t>(row_count))
-                     .add("columns", static_cast<std::int64_t>(column_count))
-                     .add("entries", static_cast<std::int64_t>(entries))
-                     .add("radius", arguments.radius.value_or(kInfinity))
-                     .add("dtype", arguments.type)
-                     .add("solve_s", solve_s)
-                     .add("output", arguments.output)
-                     .json());
+    Record record;
+    record.add("file", arguments.file)
+        .add("method", std::string(name_of(options.distance.method)))
+        .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
+        .add("vertices", std::int64_t{mesh.vertex_count()})
+        .add("rows", static_cast<std::int64_t>(row_count))
+        .add("columns", static_cast<std::int64_t>(column_count))
+        .add("entries", static_cast<std::int64_t>(entries))
+        .add("radius", arguments.radius.value_or(kInfinity))
+        .add("dtype", arguments.type)
+        .add("solve_s", solve_s);
+    finder.add_to(record);
+    write_stdout(record.add("output", arguments.output).json());
   } else {
     talk.say(arguments.output + ": " + std::to_string(row_count) + " x " + std::to_string(column_count) + ", " +
              counted(entries, "entry", "entries") + ", in " + duration(solve_s));
@@ -179,6 +173,7 @@ void add_matrix(CommandLine& command_line) {
     add_accuracy(verb, arguments->accuracy);
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
     verb.option("--threads", arguments->threads, "N", "How many threads; one per processor if not given");
+    add_snap_within(verb, arguments->snap_within);
     verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy, with --radius also .npz .mtx");
     verb.talks();
     verb.examples(kExamples);

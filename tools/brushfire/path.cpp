@@ -11,6 +11,7 @@
 #include <brushfire/queries/shorten.h>
 
 #include <memory>
+#include <optional>
 
 namespace brushfire::tool {
 namespace {
@@ -30,6 +31,7 @@ no paths. Without -o the length is printed. Places are written as for brushfire 
 struct Arguments {
   std::string file, from, to, output, method = "exact";
   std::vector<std::string> via;
+  std::optional<double> snap_within;
   bool closed = false, tighten = false;
 };
 
@@ -37,6 +39,7 @@ void check(const Arguments& a) {
   if (a.from.empty()) throw Error(ErrorCode::InvalidArgument, "where from? give --from");
   if (a.to.empty() && !a.closed) throw Error(ErrorCode::InvalidArgument, "where to? give --to (or --closed)");
   if (a.closed && !a.to.empty()) throw Error(ErrorCode::InvalidArgument, "a --closed path ends at --from: no --to");
+  check_snap_within(a.snap_within);
   check_lines_output(a.output);
   if (a.method != "exact" && (!a.via.empty() || a.closed || a.tighten)) {
     throw Error(ErrorCode::InvalidArgument, "--via, --closed and --tighten need --method exact");
@@ -51,6 +54,7 @@ std::vector<std::string> places_of(const Arguments& a) {
 }
 
 SurfacePath along_edges(const Mesh& mesh, const SurfacePoint& from, const SurfacePoint& to) {
+  if (from.is_nowhere() || to.is_nowhere()) return {};
   const PointLocation a = locate(mesh, from), b = locate(mesh, to);
   if (a.on != PointLocation::On::Vertex || b.on != PointLocation::On::Vertex) {
     throw Error(ErrorCode::InvalidArgument, "paths along edges (--method dijkstra) run between vertices");
@@ -79,9 +83,10 @@ int path_verb(const Arguments& a, const Talk& talk) {
   }
   const Mesh mesh = read_mesh(a.file).mesh;
   stop_if_interrupted();
-  const Snap snap = snapper(mesh);
+  PlaceFinder finder(mesh, a.snap_within);
   std::vector<SurfacePoint> points;
-  for (const Where& w : places) points.push_back(resolve(w, mesh, snap));
+  for (const Where& w : places) points.push_back(finder.target(w));
+  finder.tell(talk);
 
   const SurfacePath path = find(a, mesh, points);
   if (path.points.empty()) throw Unreachable(places.back().text);
@@ -95,8 +100,9 @@ int path_verb(const Arguments& a, const Talk& talk) {
         .add("method", a.method)
         .add("length", path.length)
         .add("points", static_cast<std::int64_t>(path.points.size()))
-        .add("closed", path.closed)
-        .add("output", a.output);
+        .add("closed", path.closed);
+    finder.add_to(record);
+    record.add("output", a.output);
     write_stdout(record.json());
   } else if (a.output.empty()) {
     write_stdout(exact(path.length) + "\n");
@@ -110,12 +116,13 @@ void add_path(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("path", "Shortest path between points", [&](Verb& verb) {
     verb.argument("FILE", arguments->file, "The mesh; - reads standard input");
-    verb.option("--from", arguments->from, "WHERE", "Where the path begins");
-    verb.option("--to", arguments->to, "WHERE", "Where it ends");
-    verb.option("--via", arguments->via, "WHERE", "A point on the way; may be repeated");
+    verb.option("--from", arguments->from, "PLACE", "Where the path begins");
+    verb.option("--to", arguments->to, "PLACE", "Where it ends");
+    verb.option("--via", arguments->via, "PLACE", "A point on the way; may be repeated");
     verb.flag("--closed", arguments->closed, "Back to --from in the end");
     verb.flag("--tighten", arguments->tighten, "Pull tight: no bends at --via");
     verb.choice("-m,--method", arguments->method, {"exact", "dijkstra"}, "How to compute");
+    add_snap_within(verb, arguments->snap_within);
     verb.option("-o,--output", arguments->output, "FILE", "Write the path: .json .obj .ply .vtp .csv .svg");
     verb.talks();
     verb.examples(kExamples);

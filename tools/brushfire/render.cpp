@@ -4,6 +4,7 @@
 #include "where.h"
 
 #include <brushfire/core/error.h>
+#include <brushfire/core/memory.h>
 #include <brushfire/figure/ambient_occlusion.h>
 #include <brushfire/figure/render.h>
 #include <brushfire/io/read_field.h>
@@ -42,7 +43,7 @@ struct Arguments {
   std::string file, scalar_file, labels_file, output, view, size = "1024x768", range, error_range, unit, title;
   std::string colormap = "viridis", up = "y", font;
   std::vector<std::string> sources, paths, methods, levels;
-  std::optional<double> isolines, azimuth, elevation, zoom, samples, turntable, wave, frame_ms;
+  std::optional<double> isolines, azimuth, elevation, zoom, samples, turntable, wave, frame_ms, snap_within;
   bool bands = false, labels = false, perspective = false, transparent = false, wireframe = false, no_bar = false;
   bool error = false, ambient_occlusion = false;
 };
@@ -132,6 +133,7 @@ void check(const Arguments& a) {
         "--ambient-occlusion needs Embree, which this brushfire was built without: install Embree 3 or 4 (Debian: "
         "libembree-dev) and build again");
   }
+  check_snap_within(a.snap_within);
   if (a.wave && a.turntable) refuse("--wave and --turntable are two animations: give one");
   if (a.wave && a.sources.empty() && a.scalar_file.empty()) refuse("--wave needs a --source or a --scalar");
 }
@@ -155,14 +157,14 @@ std::vector<Index> labels_of(const std::string& file, const Mesh& mesh, Panel& p
 }
 
 // Distances from the sources by one method, and what is drawn with them.
-Panel solved_panel(const Arguments& a, const Mesh& mesh, const std::string& method, const Snap& snap,
+Panel solved_panel(const Arguments& a, const Mesh& mesh, const std::string& method, PlaceFinder& places,
                    const Talk& talk) {
   Panel panel;
   panel.mesh = mesh;
   std::vector<Source> sources;
-  for (const std::string& text : a.sources) {
+  for (const std::string& text : split_places(a.sources)) {
     const Where where = parse_where(text);
-    sources.push_back({resolve(where, mesh, snap), where.offset});
+    sources.push_back({places.source(where), where.offset});
     panel.dots.push_back(position(mesh, sources.back().point));
   }
   DistanceOptions options;
@@ -180,11 +182,12 @@ Panel solved_panel(const Arguments& a, const Mesh& mesh, const std::string& meth
   exact.method = Method::Exact;
   exact.keep_paths = true;
   exact.cancel = &cancel_token();
-  for (const std::string& text : a.paths) exact.targets.push_back(resolve(parse_where(text), mesh, snap));
+  const std::vector<std::string> ends = split_places(a.paths);
+  for (const std::string& text : ends) exact.targets.push_back(places.target(parse_where(text)));
   const DistanceField to_targets = distance(mesh, sources, exact);
-  for (std::size_t i = 0; i < a.paths.size(); ++i) {
+  for (std::size_t i = 0; i < ends.size(); ++i) {
     const SurfacePath path = path_to(*to_targets.windows, exact.targets[i]);
-    if (path.points.empty()) throw Unreachable(a.paths[i]);
+    if (path.points.empty()) throw Unreachable(ends[i]);
     Polyline line;
     for (const SurfacePoint& p : path.points) line.points.push_back(position(mesh, p));
     panel.paths.push_back(std::move(line));
@@ -242,7 +245,7 @@ void add_ambient_occlusion(const Mesh& mesh, const Talk& talk, std::vector<Panel
   for (Panel& panel : panels) panel.openness = openness;
 }
 
-std::vector<Panel> panels_of(const Arguments& a, const Mesh& mesh, const Snap& snap, RenderOptions& options,
+std::vector<Panel> panels_of(const Arguments& a, const Mesh& mesh, PlaceFinder& places, RenderOptions& options,
                              const Talk& talk) {
   std::vector<Panel> panels;
   if (a.sources.empty()) {
@@ -252,10 +255,10 @@ std::vector<Panel> panels_of(const Arguments& a, const Mesh& mesh, const Snap& s
       panel.scalar = values_on_vertices(read_field(a.scalar_file), mesh.vertex_count(), kInfinity);
     if (!a.labels_file.empty()) panel.labels = labels_of(a.labels_file, mesh, panel);
   } else if (a.methods.size() < 2) {
-    panels.push_back(solved_panel(a, mesh, a.methods.empty() ? "" : a.methods.front(), snap, talk));
+    panels.push_back(solved_panel(a, mesh, a.methods.empty() ? "" : a.methods.front(), places, talk));
   } else {
     for (const std::string& m : a.methods) {
-      panels.push_back(solved_panel(a, mesh, m, snap, talk));
+      panels.push_back(solved_panel(a, mesh, m, places, talk));
       panels.back().title = m;
     }
     if (a.error) {
@@ -315,6 +318,11 @@ std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> pa
   const double high = std::max(0.0, extent_of(panels).second);
   const double azimuth = options.camera.azimuth;
   const Progress progress = talk.progress("frames");
+  constexpr std::uint64_t kBytesPerPixel = 4;
+  require_memory(kBytesPerPixel * static_cast<std::uint64_t>(count) * panels.size() *
+                     static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height),
+                 0, "an animation of " + std::to_string(count) + " frames of this size",
+                 "ask for fewer or smaller ones");
   std::vector<Image> frames;
   for (int i = 0; i < count; ++i) {
     stop_if_interrupted();
@@ -338,7 +346,9 @@ int render_verb(const Arguments& a, const Talk& talk) {
   const Output output = output_of(a);
   RenderOptions options = options_of(a);
   const Mesh mesh = read_mesh(a.file).mesh;
-  std::vector<Panel> panels = panels_of(a, mesh, snapper(mesh), options, talk);
+  PlaceFinder places(mesh, a.snap_within);
+  std::vector<Panel> panels = panels_of(a, mesh, places, options, talk);
+  places.tell(talk);
   add_isolines(a, panels);
   switch (output) {
     case Output::Png:
@@ -354,6 +364,7 @@ int render_verb(const Arguments& a, const Talk& talk) {
   if (talk.json) {
     Record record;
     record.add("file", a.file).add("output", a.output).add("panels", static_cast<std::int64_t>(panels.size()));
+    places.add_to(record);
     write_stdout(record.json());
   }
   return kOk;
@@ -365,7 +376,7 @@ void add_render(CommandLine& command_line) {
   const auto a = std::make_shared<Arguments>();
   command_line.add("render", "Picture of a mesh and what was computed on it", [&](Verb& verb) {
     verb.argument("FILE", a->file, "The mesh; - reads standard input");
-    verb.option("-s,--source", a->sources, "WHERE", "Show the distance from here; may be repeated");
+    verb.option("-s,--source", a->sources, "PLACE", "Show the distance from here; may be repeated");
     verb.option("--scalar", a->scalar_file, "FIELD", "Show these values, one per vertex: .npy .csv .txt .gii ...");
     verb.option("--label-file", a->labels_file, "FIELD", "Show these labels, one per vertex");
     verb.flag("--labels", a->labels, "Colour by the nearest source");
@@ -373,7 +384,7 @@ void add_render(CommandLine& command_line) {
     verb.flag("--error", a->error, "One more panel for each method but the last: its error against the last");
     verb.option("--isolines", a->isolines, "N", "This many isolines");
     verb.flag("--bands", a->bands, "Bands of alternating lightness between the isolines");
-    verb.option("--path", a->paths, "WHERE", "Draw the shortest path from the sources to here; may be repeated");
+    verb.option("--path", a->paths, "PLACE", "Draw the shortest path from the sources to here; may be repeated");
     verb.option("--view", a->view, "NAME", "front, back, left, right, top, bottom or iso");
     verb.option("--azimuth", a->azimuth, "DEG", "Degrees around the up axis");
     verb.option("--elevation", a->elevation, "DEG", "Degrees above the horizon");
@@ -396,6 +407,7 @@ void add_render(CommandLine& command_line) {
     verb.option("--turntable", a->turntable, "N", "Animate: once around in N frames");
     verb.option("--wave", a->wave, "N", "Animate: the fire spreading, in N frames");
     verb.option("--frame-ms", a->frame_ms, "MS", "How long a frame of an animation is shown");
+    add_snap_within(verb, a->snap_within);
     verb.option("-o,--output", a->output, "FILE", "The picture: .png .svg .webp");
     verb.talks();
     verb.examples(kExamples);

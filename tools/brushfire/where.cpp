@@ -1,13 +1,14 @@
 // Reading of places.
 #include "where.h"
 
-#include <brushfire/mesh/nearest_point.h>
-
 #include <brushfire/core/error.h>
+#include <brushfire/io/byte_stream.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <cstring>
 #include <optional>
 
 namespace brushfire::tool {
@@ -16,7 +17,7 @@ namespace {
 [[noreturn]] void refuse(std::string_view text, const char* why) {
   throw Error(ErrorCode::InvalidArgument,
               "'" + std::string(text) + "' is no place on a mesh: " + why +
-                  "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (x,y,z)");
+                  "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2)");
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -58,6 +59,12 @@ std::optional<std::array<double, 3>> three_numbers(std::string_view text) {
   return values;
 }
 
+// Numbers of vertices and commas, with @ and what follows it.
+bool is_list(std::string_view text) {
+  if (text.starts_with("f:") || text.starts_with("at:")) return false;
+  return text.find('@') != std::string_view::npos || text.find_first_not_of("0123456789, \t") == std::string_view::npos;
+}
+
 }  // namespace
 
 Where parse_where(std::string_view text) {
@@ -80,10 +87,13 @@ Where parse_where(std::string_view text) {
     const auto weights = three_numbers(place.substr(colon + 1));
     if (!weights) refuse(where.text, "the weights are not three numbers");
     where.place = FacePlace{*face, *weights};
-  } else if (place.find(',') != std::string_view::npos) {
-    const auto xyz = three_numbers(place);
+  } else if (place.starts_with("at:")) {
+    const auto xyz = three_numbers(place.substr(3));
     if (!xyz) refuse(where.text, "a position is three numbers");
     where.place = Vec3{(*xyz)[0], (*xyz)[1], (*xyz)[2]};
+  } else if (place.find(',') != std::string_view::npos) {
+    refuse(where.text, is_list(place) ? "one place is needed here, and several numbers are several vertices"
+                                      : "a position begins with at:");
   } else {
     const std::optional<std::uint64_t> vertex = whole(place);
     if (!vertex) refuse(where.text, "a vertex is a whole number from 0 up");
@@ -92,30 +102,83 @@ Where parse_where(std::string_view text) {
   return where;
 }
 
-std::vector<Where> read_where_file(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw Error(ErrorCode::FileNotReadable, path + ": cannot be opened");
-  std::vector<Where> places;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    const std::string_view content = trimmed(std::string_view(line).substr(0, line.find('#')));
-    if (content.empty()) continue;
-    try {
-      places.push_back(parse_where(content));
-    } catch (const Error& e) {
-      throw Error(e.code(), path + ":" + std::to_string(number) + ": " + e.what());
+std::vector<std::string> split_places(const std::vector<std::string>& texts) {
+  std::vector<std::string> places;
+  for (const std::string& text : texts) {
+    const std::string_view list = trimmed(text);
+    // Other commas stand between numbers that belong together.
+    if (!is_list(list)) {
+      places.emplace_back(list);
+      continue;
+    }
+    for (std::size_t begin = 0; begin <= list.size();) {
+      const std::size_t end = std::min(list.find(',', begin), list.size());
+      places.emplace_back(list.substr(begin, end - begin));
+      begin = end + 1;
     }
   }
-  if (file.bad()) throw Error(ErrorCode::FileNotReadable, path + ": cannot be read");
   return places;
 }
 
-Snap snapper(const Mesh& mesh) {
-  const auto finder = std::make_shared<std::optional<NearestPointFinder>>();
-  return [mesh, finder](Vec3 position) {
-    if (!*finder) finder->emplace(mesh);
-    return (**finder)(position).point;
-  };
+namespace {
+
+// A file or pipe line by line, as it comes: one that never ends is found wrong, or interrupted, in its midst.
+class Lines {
+ public:
+  explicit Lines(const std::string& path) : stream_(path, ByteStream::NamedPipes::Read) {}
+
+  // False at the end. Throws Error(InvalidArgument) where the line is longer than kLongest.
+  bool next(std::string& line) {
+    line.clear();
+    ++number_;
+    while (true) {
+      const char* const begin = block_.data() + at_;
+      const void* newline = std::memchr(begin, '\n', size_ - at_);
+      const std::size_t length =
+          newline != nullptr ? static_cast<std::size_t>(static_cast<const char*>(newline) - begin) : size_ - at_;
+      if (line.size() + length > kLongest) fail("is longer than " + std::to_string(kLongest) + " bytes");
+      line.append(begin, length);
+      at_ += length;
+      if (newline != nullptr) {
+        ++at_;
+        return true;
+      }
+      at_ = 0;
+      size_ = stream_.read(block_.data(), block_.size());
+      if (size_ == 0) return !line.empty();
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ErrorCode::InvalidArgument, stream_.name() + ":" + std::to_string(number_) + ": " + what);
+  }
+
+ private:
+  static constexpr std::size_t kLongest = 65536;
+
+  ByteStream stream_;
+  std::array<char, 65536> block_{};
+  std::size_t at_ = 0, size_ = 0;
+  int number_ = 0;
+};
+
+}  // namespace
+
+std::vector<Where> read_where_file(const std::string& path) {
+  constexpr std::size_t kMost = 10'000'000;
+  Lines lines(path);
+  std::vector<Where> places;
+  for (std::string line; lines.next(line);) {
+    const std::string_view content = trimmed(std::string_view(line).substr(0, line.find('#')));
+    if (content.empty()) continue;
+    if (places.size() == kMost) lines.fail("more than ten million places");
+    try {
+      for (const std::string& place : split_places({std::string(content)})) places.push_back(parse_where(place));
+    } catch (const Error& e) {
+      lines.fail(e.what());
+    }
+  }
+  return places;
 }
 
 SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
@@ -125,7 +188,7 @@ SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
                 "'" + where.text + "': there is no such " + what + ", the mesh has " + std::to_string(count));
   };
   if (const auto* vertex = std::get_if<VertexPlace>(&where.place)) {
-    return vertex_point(mesh, in_range(vertex->index, mesh.vertex_count(), "vertex"));
+    return target_point(mesh, in_range(vertex->index, mesh.vertex_count(), "vertex"));
   }
   if (const auto* in_face = std::get_if<FacePlace>(&where.place)) {
     const SurfacePoint point{in_range(in_face->face, mesh.face_count(), "face"), in_face->weights};
@@ -133,6 +196,66 @@ SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
     return point;
   }
   return snap(std::get<Vec3>(where.place));
+}
+
+SurfacePoint PlaceFinder::target(const Where& where) {
+  return resolve(where, mesh_, [&](Vec3 position) {
+    if (!finder_) finder_.emplace(mesh_);
+    const NearestPoint nearest = (*finder_)(position);
+    if (within_ && nearest.distance > *within_) {
+      throw Error(ErrorCode::InvalidArgument, "'" + where.text + "' is " + readable(nearest.distance) +
+                                                  " from the surface, farther than --snap-within " + exact(*within_));
+    }
+    if (known_.insert(where.text).second) snapped_.push_back({where.text, nearest.distance});
+    return nearest.point;
+  });
+}
+
+SurfacePoint PlaceFinder::source(const Where& where) {
+  const SurfacePoint point = target(where);
+  if (!point.is_nowhere()) return point;
+  throw Error(ErrorCode::InvalidArgument,
+              "'" + where.text + "': this vertex is in no face, nothing can be reached from it");
+}
+
+void PlaceFinder::tell(const Talk& talk) const {
+  // Positions that are read from text and lie on the surface miss it by the rounding of their last digit.
+  constexpr double kRounding = 1e-6;
+  const Box& box = mesh_.bounds();
+  const double size = norm(box.high - box.low);
+  std::size_t moved = 0;
+  const Snapped* farthest = nullptr;
+  for (const Snapped& s : snapped_) {
+    if (!(s.distance > kRounding * size)) continue;
+    ++moved;
+    if (farthest == nullptr || s.distance > farthest->distance) farthest = &s;
+  }
+  if (farthest == nullptr) return;
+  const std::string off =
+      readable(farthest->distance) + " from the surface (the mesh is " + readable(size) + " across)";
+  talk.say(moved == 1 ? "'" + farthest->where + "' is " + off + ": its nearest point was taken"
+                      : std::to_string(moved) + " positions are off the surface, the farthest, '" + farthest->where +
+                            "', " + off + ": their nearest points were taken");
+}
+
+void PlaceFinder::add_to(Record& record) const {
+  std::vector<Record> list;
+  double farthest = 0;
+  for (const Snapped& s : snapped_) {
+    list.emplace_back().add("where", s.where).add("distance", s.distance);
+    farthest = std::max(farthest, s.distance);
+  }
+  record.add("snapped", std::move(list)).add("max_snap_distance", farthest);
+}
+
+void add_snap_within(Verb& verb, std::optional<double>& within) {
+  verb.option("--snap-within", within, "R", "Refuse positions (at:x,y,z) that are farther than this from the surface");
+}
+
+void check_snap_within(const std::optional<double>& within) {
+  if (within && !(*within >= 0)) {
+    throw Error(ErrorCode::InvalidArgument, "--snap-within " + exact(*within) + " is not a number >= 0");
+  }
 }
 
 }  // namespace brushfire::tool

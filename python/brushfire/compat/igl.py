@@ -1,7 +1,7 @@
 """igl.exact_geodesic, with sources and targets at vertices and at the centres of faces.
 
-Different from the original: targets that cannot be reached read +inf (the original gives 0 or ends the process), and an
-index that does not exist is an IndexError.
+Different from the original, on purpose: targets that cannot be reached read +inf (the original gives 0 or ends the
+process), an index that does not exist is an IndexError, and the order of the arguments before libigl 2.6 is understood.
 """
 
 from __future__ import annotations
@@ -25,23 +25,48 @@ def _places(mesh: Mesh, vertices: npt.ArrayLike, faces: npt.ArrayLike, what: str
     return PlaceArrays(np.concatenate([v, f]), weights)
 
 
-def exact_geodesic(
-    V: npt.ArrayLike,
-    F: npt.ArrayLike,
-    VS: npt.ArrayLike = (),
-    FS: npt.ArrayLike = (),
-    VT: npt.ArrayLike = (),
-    FT: npt.ArrayLike = (),
-) -> Floats:
+def exact_geodesic(V: npt.ArrayLike, F: npt.ArrayLike, *places: npt.ArrayLike, **named: npt.ArrayLike) -> Floats:
     """Distances from the nearest source to the target vertices, then to the target faces' centres.
+
+    ``exact_geodesic(V, F, VS, FS, VT, FT)``, any of the last four by name or left out:
 
     :param VS: source vertices. :param FS: source faces. :param VT: target vertices. :param FT: target faces.
     :return: (len(VT) + len(FT),).
 
+    Before libigl 2.6 the order was ``exact_geodesic(v, f, vs, vt, fs, ft)``. It is meant where a name is written small, and
+    where the call has four arrays in order and no more: in the order of today that would be a call without targets. Five
+    or six arrays in order are in that of today.
+
     >>> from brushfire.compat import igl
-    >>> V = [[0, 0, 0], [3, 0, 0], [3, 4, 0], [0, 4, 0]]
-    >>> igl.exact_geodesic(V, [[0, 1, 2], [0, 2, 3]], VS=[1], VT=[3, 2]).tolist()
+    >>> V, F = [[0, 0, 0], [3, 0, 0], [3, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]]
+    >>> igl.exact_geodesic(V, F, VS=[1], VT=[3, 2]).tolist()
+    [5.0, 4.0]
+    >>> igl.exact_geodesic(V, F, [1], [3, 2]).tolist()
     [5.0, 4.0]
     """
+    given = _by_name(places, named)
     mesh = Mesh(V, F)
-    return mesh.distance(_places(mesh, VS, FS, "S"), targets=_places(mesh, VT, FT, "T"), method=METHOD)
+    targets = _places(mesh, given["VT"], given["FT"], "T")
+    return mesh.distance(_places(mesh, given["VS"], given["FS"], "S"), targets=targets, method=METHOD)
+
+
+_TODAY = ("VS", "FS", "VT", "FT")
+_BEFORE = ("vs", "vt", "fs", "ft")
+
+
+def _by_name(places: tuple[npt.ArrayLike, ...], named: dict[str, npt.ArrayLike]) -> dict[str, npt.ArrayLike]:
+    unknown = sorted(set(named) - set(_TODAY) - set(_BEFORE))
+    if unknown:
+        raise TypeError(f"exact_geodesic: there is no argument {unknown[0]!r}: it takes V, F, VS, FS, VT, FT")
+    was = any(name in _BEFORE for name in named) or len(places) == 2 and not named
+    if was and any(name in _TODAY for name in named):
+        raise TypeError("exact_geodesic: names of today (VS, VT, ...) and of before (vs, vt, ...) in one call")
+    order = _BEFORE if was else _TODAY
+    if len(places) > len(order):
+        raise TypeError(f"exact_geodesic: {2 + len(places)} arrays were given, it takes V, F, VS, FS, VT, FT")
+    given: dict[str, npt.ArrayLike] = dict.fromkeys(_TODAY, ())
+    for name, place in [*zip(order, places, strict=False), *named.items()]:
+        if name in order[: len(places)] and name in named:
+            raise TypeError(f"exact_geodesic: {name} was given twice")
+        given[name.upper()] = () if place is None else place
+    return given

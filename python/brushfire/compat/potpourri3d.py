@@ -112,7 +112,7 @@ class MeshFastMarchingDistanceSolver:
         return Point(halfedge // 3, (weights[0], weights[1], weights[2]))
 
 
-def read_mesh(filename: str | os.PathLike[str]) -> tuple[Floats, npt.NDArray[np.int32]]:
-    """Vertices and faces of a file."""
+def read_mesh(filename: str | os.PathLike[str]) -> tuple[Floats, npt.NDArray[np.int64]]:
+    """Vertices and faces of a file, in arrays that may be written to: float64 and int64."""
     mesh = read(filename)
-    return mesh.vertices, mesh.faces
+    return mesh.vertices.copy(), mesh.faces.astype(np.int64)

@@ -1,6 +1,7 @@
 // The thread team: one word says which loop it is, whether it can still be joined, and how many have.
 #include <brushfire/core/parallel.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 
 #include <algorithm>
@@ -37,6 +38,7 @@ struct Loop {
   std::size_t count = 0;
   const ThreadTeam::Body* body = nullptr;
   const CancelToken* cancel = nullptr;
+  const CancelToken* heard = nullptr;  // what the caller listens to
   std::atomic<std::size_t> next{0};
   std::atomic<bool> stop{false};
 };
@@ -49,6 +51,7 @@ struct Failure {
 
 // Takes indices until there are none left. Never throws: returns the exception of the body, if it threw.
 Failure work(Loop& loop, unsigned worker) noexcept {
+  const CancelScope listen(loop.heard);
   while (!loop.stop.load(std::memory_order_relaxed)) {
     if (loop.cancel && loop.cancel->cancelled()) {
       loop.stop.store(true, std::memory_order_relaxed);
@@ -244,7 +247,7 @@ unsigned ThreadTeam::size() const noexcept {
 }
 
 void ThreadTeam::run(std::size_t count, const Body& body, const CancelToken* cancel) {
-  Loop loop{count, &body, cancel};
+  Loop loop{count, &body, cancel, current_cancel_token()};
   State& s = *state_;
   const bool together = count > 1 && size() > 1;
   if (together) {
@@ -272,7 +275,7 @@ ThreadTeam::~ThreadTeam() = default;
 unsigned ThreadTeam::size() const noexcept { return 1; }
 
 void ThreadTeam::run(std::size_t count, const Body& body, const CancelToken* cancel) {
-  Loop loop{count, &body, cancel};
+  Loop loop{count, &body, cancel, current_cancel_token()};
   const Failure failure = work(loop, 0);
   finish(loop, failure);
 }

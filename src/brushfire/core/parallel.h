@@ -38,7 +38,8 @@ class ThreadTeam {
   // come by the time all indices are given out are not waited for.
   //
   // When a body throws, or `cancel` is set, no further index is given out; once the running ones are done the exception
-  // of the lowest index is thrown, or else Error(Cancelled). Everything written in a body is visible afterwards.
+  // of the lowest index is thrown, or else Error(Cancelled). Everything written in a body is visible afterwards. In
+  // every body the thread listens to what the caller listens to (see cancel.h).
   void run(std::size_t count, const Body& body, const CancelToken* cancel = nullptr);
 
  private:

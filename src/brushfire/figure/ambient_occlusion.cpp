@@ -4,6 +4,7 @@
 // on a sphere using Fibonacci and latitude-longitude lattices", 2010.
 #include <brushfire/figure/ambient_occlusion.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 
 #ifdef BRUSHFIRE_HAS_EMBREE
@@ -266,7 +267,7 @@ std::vector<std::array<float, 2>> ambient_occlusion(const Mesh& mesh, const Ambi
           options.progress(static_cast<double>(so_far) / static_cast<double>(blocks));
         }
       },
-      options.cancel);
+      options.cancel != nullptr ? options.cancel : current_cancel_token());
   return result;
 }
 

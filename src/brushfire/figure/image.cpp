@@ -1,6 +1,7 @@
 // Blending, PNG by stb_image_write (compressed by zlib where there is one), WebP by libwebp.
 #include <brushfire/figure/image.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 
 #include <algorithm>
@@ -12,18 +13,32 @@
 #include <zlib.h>
 
 namespace {
-// stb's own compressor is slower and leaves files a fifth larger.
+// stb's own compressor is slower and leaves files a fifth larger. Piece by piece, and nothing where the thread is
+// told to stop: the frames between are those of C, which no exception may pass.
 unsigned char* compress_for_stb(unsigned char* data, int size, int* out_size, int quality) {
-  uLongf length = compressBound(static_cast<uLong>(size));
-  auto* out = static_cast<unsigned char*>(std::malloc(length));
-  if (out == nullptr) return nullptr;
+  z_stream z{};
   constexpr int kBestUsefulLevel = 6;
-  if (compress2(out, &length, data, static_cast<uLong>(size), std::min(quality, kBestUsefulLevel)) != Z_OK) {
-    std::free(out);
-    return nullptr;
+  if (deflateInit(&z, std::min(quality, kBestUsefulLevel)) != Z_OK) return nullptr;
+  const uLong bound = deflateBound(&z, static_cast<uLong>(size));
+  auto* out = static_cast<unsigned char*>(std::malloc(bound));
+  const brushfire::CancelToken* const cancel = brushfire::current_cancel_token();
+  constexpr int kPiece = 1 << 20;  // some ten milliseconds
+  z.next_in = data;
+  z.next_out = out;
+  z.avail_out = static_cast<uInt>(bound);
+  int status = out != nullptr ? Z_OK : Z_MEM_ERROR;
+  for (int left = size; status == Z_OK;) {
+    if (cancel != nullptr && cancel->cancelled()) break;
+    const int piece = std::min(left, kPiece);
+    left -= piece;
+    z.avail_in = static_cast<uInt>(piece);
+    status = deflate(&z, left == 0 ? Z_FINISH : Z_NO_FLUSH);
   }
-  *out_size = static_cast<int>(length);
-  return out;
+  *out_size = static_cast<int>(z.total_out);
+  deflateEnd(&z);
+  if (status == Z_STREAM_END) return out;
+  std::free(out);
+  return nullptr;
 }
 }  // namespace
 #define STBIW_ZLIB_COMPRESS compress_for_stb
@@ -36,6 +51,14 @@ unsigned char* compress_for_stb(unsigned char* data, int size, int* out_size, in
 #ifdef BRUSHFIRE_HAS_WEBP
 #include <webp/encode.h>
 #include <webp/mux.h>
+
+namespace {
+// libwebp asks several times a frame.
+int goes_on(int, const WebPPicture*) {
+  const brushfire::CancelToken* const cancel = brushfire::current_cancel_token();
+  return cancel == nullptr || !cancel->cancelled() ? 1 : 0;
+}
+}  // namespace
 #endif
 
 namespace brushfire {
@@ -62,6 +85,7 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
   constexpr int kChannels = 4;
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, kChannels, image.rgba.data(),
                              kChannels * image.width) == 0) {
+    stop_if_cancelled();
     throw Error(ErrorCode::InvalidArgument, "an image of " + std::to_string(image.width) + " x " +
                                                 std::to_string(image.height) + " pixels cannot be written as PNG");
   }
@@ -89,12 +113,14 @@ std::vector<std::uint8_t> encode_webp(std::span<const Image> frames, int millise
   int time = 0;
   bool good = encoder != nullptr;
   for (const Image& f : frames) {
+    stop_if_cancelled();
     WebPPicture picture;
     good = good && WebPPictureInit(&picture) != 0;
     if (!good) break;
     picture.width = f.width;
     picture.height = f.height;
     picture.use_argb = 1;
+    picture.progress_hook = goes_on;
     good = WebPPictureImportRGBA(&picture, f.rgba.data(), 4 * f.width) != 0 &&
            WebPAnimEncoderAdd(encoder.get(), &picture, time, &config) != 0;
     WebPPictureFree(&picture);
@@ -106,6 +132,7 @@ std::vector<std::uint8_t> encode_webp(std::span<const Image> frames, int millise
          WebPAnimEncoderAssemble(encoder.get(), &data) != 0;
   std::vector<std::uint8_t> bytes(data.bytes, data.bytes + data.size);
   WebPDataClear(&data);
+  if (!good) stop_if_cancelled();
   if (!good) throw Error(ErrorCode::InvalidArgument, "the frames could not be encoded as WebP");
   return bytes;
 #else

@@ -1,4 +1,5 @@
 // From faces to pixels, one band of rows at a time.
+#include <brushfire/core/cancel.h>
 #include <brushfire/figure/detail/panel.h>
 
 #include <brushfire/core/parallel.h>
@@ -47,6 +48,7 @@ class PanelPainter {
   void shade(const Strip& strip, std::vector<Color>& colors) const {
     SurfaceShader shader(surface_);
     for (int row = strip.first_row + samples_; row < strip.first_row + strip.rows - samples_; ++row) {
+      stop_if_cancelled();
       for (int column = 0; column < strip.columns; ++column) {
         const std::size_t i = strip.at(column, row);
         if (strip.face[i] == kNoIndex) continue;
@@ -85,6 +87,7 @@ class PanelPainter {
   void resolve(const Strip& strip, const std::vector<Color>& colors, int first_pixel, int pixels) const {
     const float share = 1.0F / static_cast<float>(samples_ * samples_);
     for (int y = first_pixel; y < first_pixel + pixels; ++y) {
+      stop_if_cancelled();
       for (int x = 0; x < at_.width; ++x) {
         Color sum;
         int covered = 0;
@@ -135,7 +138,9 @@ void paint_panel(const Panel& panel, const RenderOptions& options, ScalarRange r
   const std::vector<Capsule> capsules =
       overlays ? overlay_capsules(panel, options, projection) : std::vector<Capsule>{};
   PanelPainter painter(surface, projection, capsules, at, picture, depth);
-  parallel_for(painter.band_count(), options.threads, [&](unsigned, std::size_t band) { painter.paint_band(band); });
+  parallel_for(
+      painter.band_count(), options.threads, [&](unsigned, std::size_t band) { painter.paint_band(band); },
+      current_cancel_token());
 }
 
 }  // namespace brushfire::detail

@@ -1,6 +1,7 @@
 // Scan conversion with integer edge functions.
 //
 // Based on: Pineda, "A parallel algorithm for polygon rasterization", 1988.
+#include <brushfire/core/cancel.h>
 #include <brushfire/figure/detail/raster.h>
 
 #include <algorithm>
@@ -40,7 +41,9 @@ Strip::Strip(int width, int first, int height)
 
 std::vector<ScreenVertex> project(std::span<const Vec3> positions, const Projection& projection, int samples) {
   std::vector<ScreenVertex> out(positions.size());
+  Poll poll;
   for (std::size_t v = 0; v < positions.size(); ++v) {
+    poll();
     const Projection::Screen s = projection(positions[v]);
     out[v] = {to_grid(s.x * samples), to_grid(s.y * samples), static_cast<float>(s.depth),
               static_cast<float>(s.weight)};
@@ -146,7 +149,9 @@ FaceBands sort_into_bands(std::span<const Face> faces, std::span<const ScreenVer
 
 void draw(std::span<const Face> faces, std::span<const ScreenVertex> vertices, std::span<const Index> listed,
           Strip& strip) {
+  Poll poll(16);  // a face may cover a whole strip
   for (const Index f : listed) {
+    poll();
     const Face& t = faces[f];
     const ScreenTriangle triangle(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
     if (triangle.empty()) continue;

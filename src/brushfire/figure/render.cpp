@@ -1,12 +1,15 @@
 // Validation, panels, frame.
 #include <brushfire/figure/render.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/memory.h>
 #include <brushfire/figure/detail/legend.h>
 #include <brushfire/figure/detail/panel.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 
 namespace brushfire {
@@ -35,6 +38,14 @@ void detail::check_request(std::span<const Panel> panels, const RenderOptions& o
     refuse(std::to_string(panels.size()) + " panels of " + std::to_string(options.width) +
            " pixels are wider than 16384");
   }
+  // The pixels, and what a PNG makes of them on its way to a file.
+  constexpr std::uint64_t kBytesPerPixel = 4 + 4 + 4;
+  require_memory(kBytesPerPixel * panels.size() * static_cast<std::uint64_t>(options.width) *
+                     static_cast<std::uint64_t>(options.height),
+                 0,
+                 "a picture of " + std::to_string(panels.size()) + " x " + std::to_string(options.width) + " x " +
+                     std::to_string(options.height) + " pixels",
+                 "ask for a smaller one");
   if (options.samples < 1 || options.samples > kMostSamples) refuse("samples per pixel lie between 1 and 8");
   if (!std::isfinite(options.camera.azimuth) || !std::isfinite(options.camera.elevation)) {
     refuse("azimuth and elevation are finite angles");
@@ -66,8 +77,12 @@ void detail::check_request(std::span<const Panel> panels, const RenderOptions& o
 namespace {
 
 Image blank(int width, int height, bool transparent) {
-  Image picture(width, height);
-  if (!transparent) std::fill(picture.rgba.begin(), picture.rgba.end(), std::uint8_t{255});
+  Image picture;
+  picture.width = width;
+  picture.height = height;
+  const std::size_t bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  picture.rgba.reserve(bytes);
+  in_pieces(bytes, [&](std::size_t, std::size_t end) { picture.rgba.resize(end, transparent ? 0 : 255); });
   return picture;
 }
 

@@ -1,6 +1,7 @@
 // Writers of curves.
 #include <brushfire/io/write_lines.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/output.h>
 
@@ -296,10 +297,14 @@ void write_lines(const std::string& path, const Mesh& mesh, std::span<const Surf
                                                 std::string(writer.extension) + " files: write json");
   }
   Drawing drawing{mesh, lines, value_name, {}};
+  Poll poll;
   if (mesh.has_positions()) {
     for (const SurfaceLine& line : lines) {
       auto& positions = drawing.positions.emplace_back();
-      for (const SurfacePoint& p : line.points) positions.push_back(position(mesh, p));
+      for (const SurfacePoint& p : line.points) {
+        poll();
+        positions.push_back(position(mesh, p));
+      }
     }
   }
   Output out(path);

@@ -1,6 +1,7 @@
 // Corner lists, opposite rings and vertex links.
 #include <brushfire/mesh/detail/connectivity.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/populate.h>
 
 #include <algorithm>
@@ -71,7 +72,9 @@ UninitializedArray<Index> build_opposite(std::span<const Face> faces, const Vert
   for (Index h = 0; h < opposite.size(); ++h) opposite[h] = h;
   UninitializedArray<EndAndHalfedge> upward;  // the edges from v to higher vertices
   const Index vertex_count = static_cast<Index>(corners.offset.size() - 1);
+  Poll poll;
   for (Index v = 0; v < vertex_count; ++v) {
+    poll();
     // Written always, kept where wanted: there is no telling which end is the higher one.
     upward.resize(2 * static_cast<std::size_t>(corners.offset[v + 1] - corners.offset[v]));
     std::size_t count = 0;
@@ -107,7 +110,9 @@ std::vector<Link> build_links(std::span<const Face> faces, const VertexCorners& 
   std::vector<Link> links(vertex_count, Link::Empty);
   // The faces around v, walked over the edges that contain v. Around a manifold vertex every edge has one or two
   // faces, so a walk that counts all faces before it closes or ends has seen one circle or one arc.
+  Poll poll;
   for (Index v = 0; v < vertex_count; ++v) {
+    poll();
     Index count = 0, boundary = 0, first = kNoIndex, open_end = kNoIndex;
     bool manifold = true;
     for (Index i = corners.offset[v]; i < corners.offset[v + 1]; ++i) {

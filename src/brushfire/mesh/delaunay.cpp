@@ -1,6 +1,7 @@
 // Delaunay triangulations as the dual of Boost.Polygon's Voronoi diagram.
 #include <brushfire/mesh/delaunay.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/core/random.h>
 
@@ -103,7 +104,9 @@ Shape delaunay(std::span<const Vec2> points) {
   boost::polygon::voronoi_diagram<double> diagram;
   boost::polygon::construct_voronoi(grid.points.begin(), grid.points.end(), &diagram);
   std::vector<Index> around;
+  Poll poll;
   for (const auto& vertex : diagram.vertices()) {
+    poll();
     around.clear();
     const auto* edge = vertex.incident_edge();
     do {
@@ -136,7 +139,9 @@ Shape delaunay_square(Index per_side, Index interior, std::uint64_t seed) {
     const double x = margin + (1 - 2 * margin) * (u - std::floor(u)) + random.uniform(-reach, reach);
     return std::clamp(x, 0.5 * margin, 1 - 0.5 * margin);
   };
+  Poll poll;
   for (Index i = 1; i <= interior; ++i) {
+    poll();
     const double x = place(0.5 + i / kPlastic);
     points.push_back({x, place(0.5 + i / (kPlastic * kPlastic))});
   }
@@ -148,7 +153,9 @@ Shape paper_square() { return delaunay_square(20, 524); }
 Shape delaunay_disc(Index points, std::uint64_t seed) {
   Random random(seed);
   std::vector<Vec2> inside;
+  Poll poll;
   while (inside.size() < points) {
+    poll();
     const double x = random.uniform(-1, 1);
     const Vec2 p{x, random.uniform(-1, 1)};
     if (dot(p, p) <= 1) inside.push_back(p);

@@ -1,9 +1,11 @@
 // Mesh: validation, lazily derived arrays, intrinsic geometry.
 #include <brushfire/mesh/mesh.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/core/planar.h>
 #include <brushfire/core/populate.h>
+#include <brushfire/core/text.h>
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/face_geometry.h>
@@ -79,11 +81,13 @@ UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> 
   UninitializedArray<Face> copy(faces.size());
   populate(copy);
   Index highest = 0;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const Face t = faces[f];
-    highest = std::max({highest, t[0], t[1], t[2]});
-    copy[f] = t;
-  }
+  in_pieces(faces.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Face t = faces[f];
+      highest = std::max({highest, t[0], t[1], t[2]});
+      copy[f] = t;
+    }
+  });
   if (!faces.empty() && highest >= vertex_count) throw_index_error(vertex_count, faces);
   return copy;
 }
@@ -93,8 +97,8 @@ UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> 
     const Vec3& p = positions[v];
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
     throw Error(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + " has a coordinate that is not finite: (" +
-                                            std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
-                                            std::to_string(p.z) + ")");
+                                            number_as_text(p.x) + ", " + number_as_text(p.y) + ", " +
+                                            number_as_text(p.z) + ")");
   }
   throw Error(ErrorCode::Internal, "all coordinates are finite");
 }
@@ -108,13 +112,16 @@ UninitializedArray<Vec3> checked_copy(std::span<const Vec3> positions, Box& boun
   populate(copy);
   Box box;
   Vec3 zero;  // stays so: 0 times what is not finite is NaN
-  for (std::size_t v = 0; v < positions.size(); ++v) {
+  const auto take = [&](std::size_t v) {
     const Vec3 p = positions[v];
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
     zero = zero + 0 * p;
     copy[v] = p;
-  }
+  };
+  in_pieces(positions.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) take(v);
+  });
   if (!(zero == Vec3{})) throw_position_error(positions);
   bounds = box;
   return copy;
@@ -169,12 +176,14 @@ Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<cons
   Geometry g;
   g.lengths.resize(3 * faces.size());
   g.double_areas.resize(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const std::array<Vec3, 3> edge = edges_of(positions, faces[f], 1 / unit);
-    const std::array<double, 3> length = lengths_of(edge);
-    std::copy(length.begin(), length.end(), &g.lengths[3 * f]);
-    g.double_areas[f] = double_area_of(edge, length);
-  }
+  in_pieces(faces.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const std::array<Vec3, 3> edge = edges_of(positions, faces[f], 1 / unit);
+      const std::array<double, 3> length = lengths_of(edge);
+      std::copy(length.begin(), length.end(), &g.lengths[3 * f]);
+      g.double_areas[f] = double_area_of(edge, length);
+    }
+  });
   return g;
 }
 
@@ -267,13 +276,13 @@ void Mesh::Data::check_lengths() const {
       l[k] = input_lengths[3 * f + k];
       const bool loop = faces[f][k] == faces[f][(k + 1) % 3];
       if (!std::isfinite(l[k]) || l[k] < 0 || (loop && l[k] != 0)) {
-        throw_length_error(f, "length " + std::to_string(l[k]) + " of edge " + std::to_string(k) +
+        throw_length_error(f, "length " + number_as_text(l[k]) + " of edge " + std::to_string(k) +
                                   (loop ? " between a vertex and itself is not 0" : " is not finite and >= 0"));
       }
       const double other = input_lengths[ring[3 * f + k]];
       if (std::abs(l[k] - other) > kLengthAgreement * std::max(l[k], other)) {
-        throw_length_error(f, "edge " + std::to_string(k) + " has length " + std::to_string(l[k]) + ", but " +
-                                  std::to_string(other) + " in face " + std::to_string(ring[3 * f + k] / 3));
+        throw_length_error(f, "edge " + std::to_string(k) + " has length " + number_as_text(l[k]) + ", but " +
+                                  number_as_text(other) + " in face " + std::to_string(ring[3 * f + k] / 3));
       }
     }
     std::sort(l.begin(), l.end());
@@ -401,14 +410,18 @@ Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> ve
   arrays->bounds = old.bounds;
   arrays->positions.resize(old.positions.size());
   populate(arrays->positions);
-  for (std::size_t i = 0; i < arrays->positions.size(); ++i) arrays->positions[i] = old.positions[vertices[i]];
+  in_pieces(arrays->positions.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) arrays->positions[i] = old.positions[vertices[i]];
+  });
   arrays->faces.resize(old.faces.size());
   populate(arrays->faces);
   arrays->input_lengths.resize(old.input_lengths.size());
-  for (std::size_t f = 0; f < old.faces.size(); ++f) {
-    const Face& t = old.faces[f];
-    arrays->faces[face_rank[f]] = {vertex_rank[t[0]], vertex_rank[t[1]], vertex_rank[t[2]]};
-  }
+  in_pieces(old.faces.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Face& t = old.faces[f];
+      arrays->faces[face_rank[f]] = {vertex_rank[t[0]], vertex_rank[t[1]], vertex_rank[t[2]]};
+    }
+  });
   if (!has_positions()) {
     for (std::size_t f = 0; f < old.faces.size(); ++f) {
       const std::size_t from = 3 * f, to = 3 * std::size_t{face_rank[f]};

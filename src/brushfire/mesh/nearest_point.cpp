@@ -1,7 +1,9 @@
 // Nearest surface point: a packed R-tree over the faces' boxes (Boost.Geometry), then the exact point of each triangle.
 #include <brushfire/mesh/nearest_point.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/text.h>
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -148,12 +150,15 @@ NearestPointFinder::NearestPointFinder(const Mesh& mesh) {
   data->size = unit_for(largest);
   std::vector<TreeItem> items;
   items.reserve(mesh.face_count());
+  Poll poll;
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    poll();
     const auto [a, b, c] = data->corners(f);
     items.emplace_back(TreeBox({std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
                                {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}),
                        f);
   }
+  stop_if_cancelled();
   data->tree = Tree(items.begin(), items.end());
   data_ = std::move(data);
 }
@@ -162,8 +167,8 @@ NearestPoint NearestPointFinder::operator()(Vec3 position) const {
   const Vec3 p = data_->scaled(position);
   const bool near_enough = std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
   if (!near_enough) {
-    throw Error(ErrorCode::InvalidArgument, "position (" + std::to_string(position.x) + ", " +
-                                                std::to_string(position.y) + ", " + std::to_string(position.z) +
+    throw Error(ErrorCode::InvalidArgument, "position (" + number_as_text(position.x) + ", " +
+                                                number_as_text(position.y) + ", " + number_as_text(position.z) +
                                                 ") is not finite, or more than 1e60 times as far out as the mesh");
   }
   const TreePoint at(p.x, p.y, p.z);
@@ -193,7 +198,11 @@ NearestPoint NearestPointFinder::operator()(Vec3 position) const {
 std::vector<NearestPoint> NearestPointFinder::operator()(std::span<const Vec3> positions) const {
   std::vector<NearestPoint> result;
   result.reserve(positions.size());
-  for (const Vec3& p : positions) result.push_back((*this)(p));
+  Poll poll(64);
+  for (const Vec3& p : positions) {
+    poll();
+    result.push_back((*this)(p));
+  }
   return result;
 }
 

@@ -1,35 +1,22 @@
 // Counts what is in a mesh, and says it.
 #include <brushfire/mesh/detail/report.h>
 
+#include <brushfire/core/cancel.h>
+#include <brushfire/mesh/detail/disjoint_sets.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace brushfire {
 namespace {
 
-class DisjointSets {
- public:
-  explicit DisjointSets(Index n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
-  Index find(Index a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  void unite(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
 Index count_components(const Mesh& mesh) {
-  DisjointSets sets(mesh.vertex_count());
+  detail::DisjointSets sets(mesh.vertex_count());
+  Poll poll;
   for (const Face& t : mesh.faces()) {
+    poll();
     sets.unite(t[0], t[1]);
     sets.unite(t[1], t[2]);
   }
@@ -38,11 +25,21 @@ Index count_components(const Mesh& mesh) {
   return count;
 }
 
+// Millions of comparisons take seconds: every some thousand of them look whether to go on.
+template <class T>
+void sort_listening(std::vector<T>& items) {
+  Poll poll(std::size_t{1} << 16);
+  std::sort(items.begin(), items.end(), [&](const T& a, const T& b) {
+    poll();
+    return a < b;
+  });
+}
+
 // Faces that name the same three vertices as one before them, found by sorting.
 Index count_duplicate_faces(const Mesh& mesh) {
   std::vector<Face> sorted(mesh.faces().begin(), mesh.faces().end());
   for (Face& t : sorted) std::sort(t.begin(), t.end());
-  std::sort(sorted.begin(), sorted.end());
+  sort_listening(sorted);
   Index count = 0;
   for (std::size_t f = 1; f < sorted.size(); ++f) count += sorted[f] == sorted[f - 1];
   return count;
@@ -56,7 +53,7 @@ Index count_duplicate_positions(const Mesh& mesh) {
     keys.push_back({std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0),
                     std::bit_cast<std::uint64_t>(p.z + 0.0)});
   }
-  std::sort(keys.begin(), keys.end());
+  sort_listening(keys);
   Index count = 0;
   for (std::size_t v = 1; v < keys.size(); ++v) count += keys[v] == keys[v - 1];
   return count;
@@ -66,8 +63,10 @@ void count_edges(const Mesh& mesh, MeshReport& r) {
   const auto opposite = mesh.opposite();
   const auto lengths = mesh.lengths();
   double sum = 0;
+  Poll poll;
   std::vector<bool> met(mesh.halfedge_count(), false);  // in the ring of an edge that is already counted
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    poll();
     if (met[h] || !mesh.is_face_usable(Mesh::face_of(h))) continue;
     Index faces = 0;
     for (Index g = h; !met[g]; g = opposite[g]) {
@@ -88,8 +87,10 @@ void measure_geometry(const Mesh& mesh, MeshReport& r) {
   const auto lengths = mesh.lengths();
   const auto areas = mesh.double_areas();
   const double unit = mesh.unit();
+  Poll poll;
   double area = 0, shortest = kInfinity, longest = 0, flattest = 1;
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    poll();
     if (!mesh.is_face_usable(f)) {
       ++r.repeated_index_faces;
       continue;

@@ -1,7 +1,9 @@
 // The generators of shapes.h.
 #include <brushfire/mesh/shapes.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/memory.h>
 #include <brushfire/core/random.h>
 #include <brushfire/mesh/subdivide.h>
 
@@ -21,6 +23,15 @@ void check_count(std::uint64_t vertices, std::uint64_t faces) {
     throw Error(ErrorCode::TooLarge, "a shape of " + std::to_string(vertices) + " vertices and " +
                                          std::to_string(faces) + " faces does not fit into 32-bit indices");
   }
+}
+
+// Refuses what does not fit into memory, and takes what it needs at once. (A mesh copies both.)
+void make_room(Shape& s, std::uint64_t vertices, std::uint64_t faces) {
+  require_memory(2 * (vertices * sizeof(Vec3) + faces * sizeof(Face)), 0,
+                 "a shape of " + std::to_string(vertices) + " vertices and " + std::to_string(faces) + " faces",
+                 "ask for fewer vertices");
+  s.positions.reserve(vertices);
+  s.faces.reserve(faces);
 }
 
 // Cosine and sine of (octant + within) eighths of a turn, from + and * alone (the C library's differ between platforms
@@ -63,7 +74,9 @@ void add_quad(std::vector<Face>& faces, Index a, Index b, Index c, Index d) {
 
 // Quads between two rings of n vertices each that start at `lower` and `upper`.
 void join_rings(std::vector<Face>& faces, Index lower, Index upper, Index n) {
+  Poll poll;
   for (Index j = 0; j < n; ++j) {
+    poll();
     const Index next = j + 1 < n ? j + 1 : 0;
     add_quad(faces, lower + j, lower + next, upper + j, upper + next);
   }
@@ -77,11 +90,17 @@ Shape grid(Index columns, Index rows, const Surface& surface) {
   const std::uint64_t width = std::uint64_t{columns} + 1;
   check_count(width * (std::uint64_t{rows} + 1), 2 * std::uint64_t{columns} * rows);
   Shape s;
+  make_room(s, width * (std::uint64_t{rows} + 1), 2 * std::uint64_t{columns} * rows);
+  Poll poll;
   for (Index y = 0; y <= rows; ++y) {
-    for (Index x = 0; x <= columns; ++x) s.positions.push_back(surface(share(x, columns), share(y, rows)));
+    for (Index x = 0; x <= columns; ++x) {
+      poll();
+      s.positions.push_back(surface(share(x, columns), share(y, rows)));
+    }
   }
   for (Index y = 0; y < rows; ++y) {
     for (Index x = 0; x < columns; ++x) {
+      poll();
       const Index a = y * (columns + 1) + x;
       add_quad(s.faces, a, a + 1, a + columns + 1, a + columns + 2);
     }
@@ -160,7 +179,9 @@ Shape cube(Index cells) {
     return first_wall + (k - 1) * 4 * n + around;
   };
   Shape s;
-  s.positions.resize(6 * side + 2);
+  make_room(s, 6 * side + 2, 12 * side);
+  in_pieces(6 * side + 2, [&](std::size_t, std::size_t end) { s.positions.resize(end); });
+  Poll poll;
   // Corners of a cell on each side, as seen from outside: (u, v) to (i, j, k).
   const std::array<std::function<std::array<Index, 3>(Index, Index)>, 6> sides{
       [=](Index u, Index v) { return std::array<Index, 3>{v, u, 0}; },
@@ -178,6 +199,7 @@ Shape cube(Index cells) {
     };
     for (Index v = 0; v < n; ++v) {
       for (Index u = 0; u < n; ++u) {
+        poll();
         add_quad(s.faces, vertex(u, v), vertex(u + 1, v), vertex(u, v + 1), vertex(u + 1, v + 1));
       }
     }
@@ -189,6 +211,8 @@ Shape icosphere(Index levels, double radius) {
   require(levels <= 14, "an icosphere of more than 14 levels does not fit into 32-bit indices");
   const double golden = 0.5 * (1 + std::sqrt(5.0));
   Shape s;
+  const std::uint64_t split = std::uint64_t{1} << 2 * levels;
+  make_room(s, 10 * split + 2, 20 * split);
   for (const double a : {-1.0, 1.0}) {
     for (const double b : {-golden, golden}) {
       s.positions.insert(s.positions.end(), {{0, a, b}, {a, b, 0}, {b, 0, a}});
@@ -207,7 +231,9 @@ Shape icosphere(Index levels, double radius) {
     }
   }
   const auto project = [&] {
-    for (Vec3& q : s.positions) q = (radius / norm(q)) * q;
+    in_pieces(s.positions.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) s.positions[v] = (radius / norm(s.positions[v])) * s.positions[v];
+    });
   };
   project();
   for (Index level = 0; level < levels; ++level) {
@@ -221,10 +247,13 @@ Shape latlong_sphere(Index stacks, Index slices, double radius) {
   require(stacks >= 2 && stacks < kNoIndex / 2 && slices >= 3, "a sphere needs at least 2 stacks and 3 slices");
   check_count((std::uint64_t{stacks} - 1) * slices + 2, 2 * (std::uint64_t{stacks} - 1) * slices);
   Shape s;
+  make_room(s, (std::uint64_t{stacks} - 1) * slices + 2, 2 * (std::uint64_t{stacks} - 1) * slices);
+  Poll poll;
   s.positions.push_back({0, 0, radius});
   for (Index i = 1; i < stacks; ++i) {
     const Vec2 meridian = turn(i, 2 * stacks);
     for (Index j = 0; j < slices; ++j) {
+      poll();
       const Vec2 parallel = turn(j, slices);
       s.positions.push_back(radius * Vec3{meridian.y * parallel.x, meridian.y * parallel.y, meridian.x});
     }
@@ -241,10 +270,13 @@ Shape cone(Index rings, Index segments, double radius, double height) {
   require(rings >= 1 && segments >= 3, "a cone needs at least 1 ring and 3 segments");
   check_count(std::uint64_t{rings} * segments + 1, 2 * std::uint64_t{rings} * segments);
   Shape s;
+  make_room(s, std::uint64_t{rings} * segments + 1, 2 * std::uint64_t{rings} * segments);
+  Poll poll;
   s.positions.push_back({0, 0, height});
   for (Index i = 1; i <= rings; ++i) {
     const double t = share(i, rings);
     for (Index j = 0; j < segments; ++j) {
+      poll();
       const Vec2 c = turn(j, segments);
       s.positions.push_back({radius * t * c.x, radius * t * c.y, height * (1 - t)});
     }
@@ -258,8 +290,11 @@ Shape cylinder(Index rings, Index segments, double radius, double height) {
   require(rings >= 1 && segments >= 3, "a cylinder needs at least 1 ring and 3 segments");
   check_count((std::uint64_t{rings} + 1) * segments, 2 * std::uint64_t{rings} * segments);
   Shape s;
+  make_room(s, (std::uint64_t{rings} + 1) * segments, 2 * std::uint64_t{rings} * segments);
+  Poll poll;
   for (Index i = 0; i <= rings; ++i) {
     for (Index j = 0; j < segments; ++j) {
+      poll();
       const Vec2 c = turn(j, segments);
       s.positions.push_back({radius * c.x, radius * c.y, height * share(i, rings)});
     }
@@ -272,9 +307,12 @@ Shape torus(Index major_segments, Index minor_segments, double major_radius, dou
   require(major_segments >= 3 && minor_segments >= 3, "a torus needs at least 3 segments both ways");
   check_count(std::uint64_t{major_segments} * minor_segments, 2 * std::uint64_t{major_segments} * minor_segments);
   Shape s;
+  make_room(s, std::uint64_t{major_segments} * minor_segments, 2 * std::uint64_t{major_segments} * minor_segments);
+  Poll poll;
   for (Index i = 0; i < major_segments; ++i) {
     const Vec2 a = turn(i, major_segments);
     for (Index j = 0; j < minor_segments; ++j) {
+      poll();
       const Vec2 b = turn(j, minor_segments);
       const double r = major_radius + minor_radius * b.x;
       s.positions.push_back({r * a.x, r * a.y, minor_radius * b.y});
@@ -291,7 +329,11 @@ Shape folded_sphere(Index levels, double folds, double depth, std::uint64_t seed
   constexpr double kNoiseCellsPerRadius = 1.5;
   const ValueNoise noise(seed);
   Shape s = icosphere(levels);
-  for (Vec3& p : s.positions) p = (1 + depth * turn(folds * noise(kNoiseCellsPerRadius * p)).y) * p;
+  Poll poll;
+  for (Vec3& p : s.positions) {
+    poll();
+    p = (1 + depth * turn(folds * noise(kNoiseCellsPerRadius * p)).y) * p;
+  }
   return s;
 }
 
@@ -300,12 +342,16 @@ Shape book(Index pages, Index columns, Index rows) {
   check_count((std::uint64_t{pages} * columns + 1) * (std::uint64_t{rows} + 1),
               2 * std::uint64_t{pages} * columns * rows);
   Shape s;
+  make_room(s, (std::uint64_t{pages} * columns + 1) * (std::uint64_t{rows} + 1),
+            2 * std::uint64_t{pages} * columns * rows);
+  Poll poll;
   for (Index y = 0; y <= rows; ++y) s.positions.push_back({0, 0, share(y, rows)});
   for (Index page = 0; page < pages; ++page) {
     const Vec2 direction = turn(page, pages);
     const Index first = static_cast<Index>(s.positions.size());
     for (Index y = 0; y <= rows; ++y) {
       for (Index x = 1; x <= columns; ++x) {
+        poll();
         const double r = share(x, columns);
         s.positions.push_back({r * direction.x, r * direction.y, share(y, rows)});
       }
@@ -313,6 +359,7 @@ Shape book(Index pages, Index columns, Index rows) {
     const auto vertex = [&](Index x, Index y) { return x == 0 ? y : first + y * columns + x - 1; };
     for (Index y = 0; y < rows; ++y) {
       for (Index x = 0; x < columns; ++x) {
+        poll();
         add_quad(s.faces, vertex(x, y), vertex(x + 1, y), vertex(x, y + 1), vertex(x + 1, y + 1));
       }
     }
@@ -324,12 +371,15 @@ Shape bow_tie(Index fans, Index segments) {
   require(fans > 0 && segments >= 3, "a bow tie needs at least one fan of 3 segments");
   check_count(std::uint64_t{fans} * segments + 1, std::uint64_t{fans} * segments);
   Shape s;
+  make_room(s, std::uint64_t{fans} * segments + 1, std::uint64_t{fans} * segments);
+  Poll poll;
   s.positions.push_back({0, 0, 0});
   for (Index fan = 0; fan < fans; ++fan) {
     const Vec2 axis = turn(fan, fans);
     const Index first = static_cast<Index>(s.positions.size());
     for (Index j = 0; j < segments; ++j) {
       // A flat cone around the axis: its rim is narrow enough for the fans to stay apart.
+      poll();
       const Vec2 rim = turn(j, segments);
       const double side = rim.x / fans;
       s.positions.push_back({axis.x - side * axis.y, axis.y + side * axis.x, rim.y});

@@ -1,6 +1,7 @@
 // One-to-four subdivision.
 #include <brushfire/mesh/subdivide.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/core/random.h>
 
@@ -37,13 +38,16 @@ Shape subdivided(const Mesh& mesh, const SubdivisionOptions& options) {
   s.faces.reserve(4 * std::size_t{mesh.face_count()});
   std::vector<Index> middle(mesh.halfedge_count(), kNoIndex);
   Random random(options.seed);
+  Poll poll;
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    poll();
     if (middle[h] != kNoIndex || !mesh.is_face_usable(Mesh::face_of(h))) continue;
     const Index v = static_cast<Index>(s.positions.size());
     s.positions.push_back(new_vertex(mesh, h, options, random));
     for (Index g = h; middle[g] == kNoIndex; g = mesh.opposite()[g]) middle[g] = v;
   }
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    poll();
     const Face& t = mesh.faces()[f];
     if (!mesh.is_face_usable(f)) {
       s.faces.push_back(t);

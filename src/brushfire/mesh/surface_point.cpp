@@ -3,7 +3,9 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/core/planar.h>
+#include <brushfire/core/text.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -19,14 +21,58 @@ void check(const Mesh& mesh, const SurfacePoint& p) {
   for (const double w : p.weights) {
     if (!(w >= -kWeightError) || !std::isfinite(w)) {
       throw Error(ErrorCode::InvalidArgument,
-                  "weight " + std::to_string(w) + " of a point in face " + std::to_string(p.face) + " is not >= 0");
+                  "weight " + number_as_text(w) + " of a point in face " + std::to_string(p.face) + " is not >= 0");
     }
     sum += w;
   }
   if (!(std::abs(sum - 1) <= kWeightError)) {
     throw Error(ErrorCode::InvalidArgument, "the weights of a point in face " + std::to_string(p.face) + " sum to " +
-                                                std::to_string(sum) + ", not to 1");
+                                                number_as_text(sum) + ", not to 1");
   }
+}
+
+// The lowest halfedge from v to w or back, of a face with three distinct vertices where there is one.
+Index halfedge_between(const Mesh& mesh, Index v, Index w) {
+  Index found = kNoIndex;
+  for (const Index corner : mesh.corners(v)) {
+    const bool usable = mesh.is_face_usable(Mesh::face_of(corner));
+    if (found != kNoIndex && !usable) continue;
+    for (const Index h : {corner, Mesh::previous(corner)}) {
+      if (std::minmax(mesh.from(h), mesh.to(h)) != std::minmax(v, w)) continue;
+      if (usable) return h;
+      found = std::min(found, h);
+    }
+  }
+  return found;
+}
+
+// A face that names a vertex twice has no inside, and its edges are in no ring: its points are points of an edge, named
+// in the face that every name of that edge leads to, or of a vertex.
+void leave_degenerate_face(const Mesh& mesh, PointLocation& at) {
+  const Face& t = mesh.faces()[at.face];
+  const Index heaviest =
+      static_cast<Index>(std::max_element(at.weights.begin(), at.weights.end()) - at.weights.begin());
+  const Index v = t[heaviest];
+  Index w = v;
+  double share = 0;  // of the way from v to w
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (t[k] == v || at.weights[k] == 0) continue;
+    w = t[k];
+    share += at.weights[k];
+  }
+  if (w == v) {
+    at.on = PointLocation::On::Vertex;
+    at.vertex = v;
+    return;
+  }
+  at.on = PointLocation::On::Edge;
+  at.halfedge = halfedge_between(mesh, v, w);
+  at.face = Mesh::face_of(at.halfedge);
+  const bool ahead = mesh.from(at.halfedge) == v;
+  at.weights = {0, 0, 0};
+  at.weights[at.halfedge % 3] = ahead ? 1 - share : share;
+  at.weights[Mesh::next(at.halfedge) % 3] = ahead ? share : 1 - share;
+  at.t = ahead ? share : 1 - share;
 }
 
 }  // namespace
@@ -48,14 +94,11 @@ PointLocation locate(const Mesh& mesh, const SurfacePoint& point, double snap) {
     }
   }
   for (double& w : at.weights) w /= sum;
-  const Face& t = mesh.faces()[at.face];
-  // A face that names a vertex twice has no inside: two corners are one vertex.
-  if (positive == 2 && t[(zero_corner + 1) % 3] == t[(zero_corner + 2) % 3]) {
-    positive = 1;
-  }
-  if (positive == 1) {
+  if (positive > 1 && !mesh.is_face_usable(at.face)) {
+    leave_degenerate_face(mesh, at);
+  } else if (positive == 1) {
     at.on = PointLocation::On::Vertex;
-    at.vertex = t[last_positive];
+    at.vertex = mesh.faces()[at.face][last_positive];
   } else if (positive == 2) {
     at.on = PointLocation::On::Edge;
     at.halfedge = 3 * at.face + (zero_corner + 1) % 3;
@@ -64,19 +107,25 @@ PointLocation locate(const Mesh& mesh, const SurfacePoint& point, double snap) {
   return at;
 }
 
-SurfacePoint vertex_point(const Mesh& mesh, Index v) {
+SurfacePoint target_point(const Mesh& mesh, Index v) {
   if (v >= mesh.vertex_count()) {
     throw Error(ErrorCode::IndexOutOfRange, "vertex " + std::to_string(v) + " does not exist: the mesh has " +
                                                 std::to_string(mesh.vertex_count()) + " vertices");
   }
   // A usable face where there is one: points of degenerate faces know less about their surroundings.
   const Index corner = mesh.first_corner(v);
-  if (corner == kNoIndex) {
+  if (corner == kNoIndex) return {};
+  SurfacePoint p{Mesh::face_of(corner), {0, 0, 0}};
+  p.weights[corner % 3] = 1;
+  return p;
+}
+
+SurfacePoint vertex_point(const Mesh& mesh, Index v) {
+  const SurfacePoint p = target_point(mesh, v);
+  if (p.is_nowhere()) {
     throw Error(ErrorCode::InvalidArgument,
                 "vertex " + std::to_string(v) + " is in no face: nothing can be reached from it");
   }
-  SurfacePoint p{Mesh::face_of(corner), {0, 0, 0}};
-  p.weights[corner % 3] = 1;
   return p;
 }
 

@@ -12,6 +12,9 @@ namespace brushfire {
 struct SurfacePoint {
   Index face = kNoIndex;
   std::array<double, 3> weights{0, 0, 0};
+
+  // What a SurfacePoint says that nothing was said to: no face, no weights. As a target it reads +inf.
+  bool is_nowhere() const { return face == kNoIndex && weights == std::array<double, 3>{0, 0, 0}; }
 };
 
 // Weights at or below kWeightSnap read as 0 (a point that near to a vertex is the vertex: rounding of barycentric
@@ -30,15 +33,21 @@ struct PointLocation {
   std::array<double, 3> weights{0, 0, 0};  // snapped and normalised
 };
 
-// Validates and snaps. Throws Error(IndexOutOfRange) for a face that does not exist, Error(InvalidArgument) for weights
-// that are not finite, below -kWeightError, or do not sum to 1 within 1e-9. Points of a path, whose weights were
-// computed and not measured, are located with a snap of 0: on an edge that is 1e12 times longer than its neighbours, no
-// weight is too small.
+// Validates and snaps. A point of a face that names a vertex twice is one of an edge (or a vertex), and is given a face
+// of that edge with three distinct vertices where there is one: `face` and `weights` may then be others than the
+// point's. Throws Error(IndexOutOfRange) for a face that does not exist, Error(InvalidArgument) for weights that are not
+// finite, below -kWeightError, or do not sum to 1 within 1e-9. Points of a path, whose weights were computed and not
+// measured, are located with a snap of 0: on an edge that is 1e12 times longer than its neighbours, no weight is too
+// small.
 PointLocation locate(const Mesh& mesh, const SurfacePoint& point, double snap = kWeightSnap);
 
 // Vertex v as a point of one of its faces. Throws Error(IndexOutOfRange) where there is no such vertex, and
 // Error(InvalidArgument) where the vertex is in no face: nothing can be reached from there.
 SurfacePoint vertex_point(const Mesh& mesh, Index v);
+
+// Vertex v as a target: nowhere (see SurfacePoint) where it is in no face, which no source reaches. Throws
+// Error(IndexOutOfRange) where there is no such vertex.
+SurfacePoint target_point(const Mesh& mesh, Index v);
 
 // Where the point is, in the mesh's coordinates. The mesh must have positions.
 Vec3 position(const Mesh& mesh, const SurfacePoint& point);

@@ -1,7 +1,10 @@
 // Linear isolines of a finer mesh whose vertices have exact values, then every node moved onto its level.
 #include <brushfire/queries/curved_isolines.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/memory.h>
+#include <brushfire/core/text.h>
 #include <brushfire/mesh/flat_face.h>
 
 #include <algorithm>
@@ -96,7 +99,10 @@ class CurveBuilder {
   Isoline refined(const Isoline& coarse, const Mesh& fine_mesh) {
     level_ = coarse.level;
     std::vector<SurfacePoint> nodes;
-    for (const SurfacePoint& p : coarse.line.points) nodes.push_back(on_level(p));
+    for (const SurfacePoint& p : coarse.line.points) {
+      stop_if_cancelled();
+      nodes.push_back(on_level(p));
+    }
     Isoline out = coarse;
     out.line.points.clear();
     const std::size_t n = nodes.size();
@@ -112,6 +118,7 @@ class CurveBuilder {
       out.line.points.pop_back();
     }
     out.line.length = length_of(mesh_, out.line.points, out.line.closed);
+    finished_ += out.line.points.size();
     return out;
   }
 
@@ -174,6 +181,7 @@ class CurveBuilder {
     const std::array<Vec2, 3> corners = flat_corners(mesh_, a.face);
     const Vec2 chord = flat_difference(corners, a.weights, b.weights);
     const double length = norm(chord);
+    stop_if_cancelled();
     if (depth == kDeepest || !(length * mesh_.unit() > chord_error_)) return;
     Place middle{a.face, between(a.weights, b.weights, 0.5)};
     const double miss = value(middle) - level_;
@@ -233,6 +241,17 @@ class CurveBuilder {
 
   void append(std::vector<SurfacePoint>& points, const SurfacePoint& p) const {
     if (points.empty() || !same(points.back(), p)) points.push_back(p);
+    if (points.size() % kLookAtMemory == 0) check_size(finished_ + points.size());
+  }
+
+  // How many nodes arcs take shows only when they have been followed.
+  void check_size(std::size_t nodes) const {
+    if (nodes < kLookAtMemory) return;
+    constexpr std::size_t kCopies = 2;  // a list that grows is in memory twice
+    require_memory(
+        kCopies * nodes * sizeof(SurfacePoint), memory_,
+        "more than " + std::to_string(nodes) + " nodes within a chord error of " + number_as_text(chord_error_),
+        "ask for a larger chord error");
   }
 
   const WindowField& field_;
@@ -240,6 +259,10 @@ class CurveBuilder {
   const FineMesh& fine_;
   double chord_error_;
   double level_ = 0;
+  std::size_t finished_ = 0;  // nodes of the lines so far
+
+  static constexpr std::size_t kLookAtMemory = std::size_t{1} << 17;
+  const std::uint64_t memory_ = available_memory();
 };
 
 // A level may cross a face if it lies between the corners' values, or beyond them by less than the face is large: the
@@ -264,11 +287,12 @@ bool may_cross(const Mesh& mesh, const WindowField& field, Index f, std::span<co
 
 std::vector<Isoline> curved_isolines(const WindowField& field, std::span<const double> levels, double chord_error) {
   if (!(chord_error > 0)) {
-    throw Error(ErrorCode::InvalidArgument, "chord error " + std::to_string(chord_error) + " is not > 0");
+    throw Error(ErrorCode::InvalidArgument, "chord error " + number_as_text(chord_error) + " is not > 0");
   }
   const Mesh& mesh = field.mesh();
   FineMesh fine(field);
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled();
     if (may_cross(mesh, field, f, levels)) fine.add_face(f);
   }
   const Mesh fine_mesh = fine.mesh();

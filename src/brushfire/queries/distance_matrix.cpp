@@ -1,6 +1,7 @@
 // Rows by solver runs; dense rows are scattered into the caller's memory, sparse rows collected block by block.
 #include <brushfire/queries/distance_matrix.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/core/memory.h>
 #include <brushfire/mesh/locality_order.h>
@@ -94,19 +95,20 @@ void Rows::compute_row(Worker& worker, std::size_t i) {
 
 void Rows::run_sparse(std::span<const std::size_t> numbers, std::size_t block, const Progress& progress,
                       const TakeSparse& take) {
+  const CancelScope listen(options_.cancel);
   std::atomic<std::size_t> done{0};
   const auto body = [&](unsigned worker, std::size_t b) {
     Worker& w = workers_[worker];
     const std::size_t end = std::min(numbers.size(), (b + 1) * block);
     for (std::size_t k = b * block; k < end; ++k) {
-      if (options_.cancel && options_.cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
+      stop_if_cancelled();
       compute_row(w, numbers[k]);
       take(worker, k, w.field);
     }
     const std::size_t finished = done.fetch_add(end - b * block, std::memory_order_relaxed) + end - b * block;
     if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(numbers.size()));
   };
-  team_.run((numbers.size() + block - 1) / block, body, options_.cancel);
+  team_.run((numbers.size() + block - 1) / block, body, current_cancel_token());
 }
 
 std::vector<std::size_t> Rows::numbers_by_place() const {

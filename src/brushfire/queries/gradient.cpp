@@ -1,6 +1,7 @@
 // Gradients per face, steepest descent at points.
 #include <brushfire/queries/gradient.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/flat_face.h>
 
@@ -102,7 +103,9 @@ std::vector<Vec3> face_gradients(const Mesh& mesh, std::span<const double> value
   check_count(mesh, values);
   const double scale = 1 / mesh.unit();
   std::vector<Vec3> gradients(mesh.face_count());
+  Poll poll;
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    poll();
     std::array<double, 3> value;
     if (!corner_values(mesh, values, f, value) || !mesh.is_face_usable(f)) continue;
     const auto [a, b, c] = mesh.faces()[f];

@@ -1,7 +1,10 @@
 // Level sets of the piecewise linear field, traced from face to face.
 #include <brushfire/queries/isolines.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/memory.h>
+#include <brushfire/core/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,13 +24,13 @@ void check(const Mesh& mesh, std::span<const double> values, std::span<const dou
   }
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (std::isnan(values[v]) || values[v] == -kInfinity) {
-      throw Error(ErrorCode::InvalidArgument, "vertex " + std::to_string(v) + " reads " + std::to_string(values[v]) +
+      throw Error(ErrorCode::InvalidArgument, "vertex " + std::to_string(v) + " reads " + number_as_text(values[v]) +
                                                   ": a value is finite or +inf");
     }
   }
   for (const double level : levels) {
     if (!std::isfinite(level)) {
-      throw Error(ErrorCode::InvalidArgument, "level " + std::to_string(level) + " is not finite");
+      throw Error(ErrorCode::InvalidArgument, "level " + number_as_text(level) + " is not finite");
     }
   }
 }
@@ -86,6 +89,7 @@ class Tracer {
     level_rank_ = rank;
     run_ = run;
     for (const Index f : faces) {
+      poll_();
       if (seen_in_[f] == run_) continue;
       seen_in_[f] = run_;
       std::vector<Node> nodes;
@@ -118,6 +122,7 @@ class Tracer {
     while (!crosses(enter) || above(mesh_.from(enter))) ++enter;
     nodes.push_back(node(enter));
     for (Index h = other_crossing(enter);;) {
+      poll_();
       const Index g = across(h);
       const Index next_face = Mesh::face_of(g);
       if (g != h && next_face == f) return true;
@@ -165,26 +170,59 @@ class Tracer {
   std::vector<Index> seen_in_;  // [face_count] the last run that came through the face
   double level_ = 0;
   Index level_rank_ = 0, run_ = 0;
+  Poll poll_;
 };
 
 // [vertex_count] how many of the levels are <= the value; kUnreached for +inf.
 std::vector<Index> ranks(std::span<const double> values, std::span<const double> sorted_levels) {
   std::vector<Index> rank(values.size());
+  Poll poll;
   for (std::size_t v = 0; v < values.size(); ++v) {
+    poll();
     const auto above = std::upper_bound(sorted_levels.begin(), sorted_levels.end(), values[v]);
     rank[v] = values[v] == kInfinity ? kUnreached : static_cast<Index>(above - sorted_levels.begin());
   }
   return rank;
 }
 
+// The levels that cross a face: from `first` up to `end`.
+struct CrossedLevels {
+  Index first = 0, end = 0;
+};
+CrossedLevels crossed_levels(const Face& t, std::span<const Index> rank) {
+  const auto [low, high] = std::minmax({rank[t[0]], rank[t[1]], rank[t[2]]});
+  const bool usable = t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+  return low == high || high == kUnreached || !usable ? CrossedLevels{} : CrossedLevels{low, high};
+}
+
+// Refuses curves that will not fit into memory: every crossing of a face is a point of the result and a place in a
+// list. They are counted where it could be that many.
+void check_size(const Mesh& mesh, std::span<const Index> rank, std::size_t levels) {
+  constexpr std::uint64_t kEach = sizeof(SurfacePoint) + sizeof(Index);
+  const std::uint64_t memory = available_memory();
+  if (mesh.face_count() * std::uint64_t{levels} < memory / kEach) return;
+  std::uint64_t crossings = 0;
+  Poll poll;
+  for (const Face& t : mesh.faces()) {
+    poll();
+    const CrossedLevels crossed = crossed_levels(t, rank);
+    crossings += crossed.end - crossed.first;
+  }
+  require_memory(
+      crossings * kEach, memory,
+      std::to_string(levels) + " levels cross faces " + std::to_string(crossings) + " times: to hold the curves",
+      "ask for fewer levels");
+}
+
 // Per level the faces that it crosses, ascending.
 std::vector<std::vector<Index>> crossed_faces(const Mesh& mesh, std::span<const Index> rank, std::size_t levels) {
   std::vector<std::vector<Index>> crossed(levels);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto [a, b, c] = mesh.faces()[f];
-    const Index low = std::min({rank[a], rank[b], rank[c]}), high = std::max({rank[a], rank[b], rank[c]});
-    if (low == high || high == kUnreached || !mesh.is_face_usable(f)) continue;
-    for (Index level = low; level < high; ++level) crossed[level].push_back(f);
+  Poll poll;
+  const std::span<const Face> faces = mesh.faces();
+  for (Index f = 0; f < faces.size(); ++f) {
+    poll();
+    const auto [first, end] = crossed_levels(faces[f], rank);
+    for (Index level = first; level < end; ++level) crossed[level].push_back(f);
   }
   return crossed;
 }
@@ -207,6 +245,7 @@ std::vector<Isoline> isolines(const Mesh& mesh, std::span<const double> values, 
   std::sort(sorted.begin(), sorted.end());
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   const std::vector<Index> rank = ranks(values, sorted);
+  check_size(mesh, rank, levels.size());
   const std::vector<std::vector<Index>> crossed = crossed_faces(mesh, rank, sorted.size());
   Tracer tracer(mesh, values, rank);
   std::vector<Isoline> result;
@@ -227,7 +266,7 @@ std::vector<Isoline> isolines(const Mesh& mesh, std::span<const double> values, 
 
 std::vector<double> levels_every(std::span<const double> values, double step) {
   if (!(step > 0) || !std::isfinite(step)) {
-    throw Error(ErrorCode::InvalidArgument, "step " + std::to_string(step) + " between levels is not a number > 0");
+    throw Error(ErrorCode::InvalidArgument, "step " + number_as_text(step) + " between levels is not a number > 0");
   }
   const auto [low, high] = finite_range(values);
   std::vector<double> levels;
@@ -235,7 +274,9 @@ std::vector<double> levels_every(std::span<const double> values, double step) {
   constexpr double kMostLevels = 1e6;
   const double first = std::floor(low / step) + 1, last = std::floor(high / step);
   if (!(last - first < kMostLevels)) {
-    throw Error(ErrorCode::TooLarge, "step " + std::to_string(step) + " gives more than a million levels");
+    throw Error(ErrorCode::TooLarge, "a step of " + number_as_text(step) + " between " + number_as_text(low) + " and " +
+                                         number_as_text(high) + " gives " + number_as_text(last - first) +
+                                         " levels: a million is the most");
   }
   for (double k = first; k <= last; ++k) levels.push_back(k * step);
   return levels;

@@ -4,6 +4,7 @@
 // the rows that are in place, each written after its row. A row that was cut off is simply not in the list.
 #include <brushfire/core/error.h>
 #include <brushfire/core/memory.h>
+#include <brushfire/io/detail/temporary_file.h>
 #include <brushfire/queries/detail/rows.h>
 #include <brushfire/queries/distance_matrix.h>
 
@@ -96,9 +97,13 @@ class MatrixFile {
  public:
   MatrixFile(const fs::path& path, std::string header, std::size_t rows, std::size_t row_bytes,
              std::uint64_t fingerprint)
-      : path_(path), part_(path), list_(path), header_(std::move(header)), row_bytes_(row_bytes) {
-    part_ += ".part";
-    list_ += ".part.rows";
+      : path_(detail::followed(path.string())),
+        part_(path_.string() + ".part"),
+        list_(path_.string() + ".part.rows"),
+        header_(std::move(header)),
+        row_bytes_(row_bytes),
+        lock_(list_.string()) {
+    if (lock_.is_taken()) throw_not_writable(path_, "another process is writing this matrix");
     done_.assign(rows, false);
     if (!resume(fingerprint)) begin(fingerprint);
   }
@@ -178,6 +183,7 @@ class MatrixFile {
   std::string header_;
   std::size_t row_bytes_;
   std::vector<bool> done_;
+  detail::FileLock lock_;  // on the list: two processes would write over each other
   std::mutex mutex_;
   std::fstream data_;
   std::ofstream rows_;

@@ -1,7 +1,9 @@
 // Paths read off fields, and between pairs of points.
 #include <brushfire/queries/path.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/text.h>
 #include <brushfire/mesh/flat_face.h>
 #include <brushfire/queries/detail/sleeve.h>
 #include <brushfire/queries/shorten.h>
@@ -36,7 +38,7 @@ void join(const Mesh& mesh, SurfacePath& a, const SurfacePath& b) {
 
 // Rays lead back to where they came from: this is a fault of ours, not of the caller's.
 Error lost(double length) {
-  return Error(ErrorCode::Internal, "the path was lost after a length of " + std::to_string(length) +
+  return Error(ErrorCode::Internal, "the path was lost after a length of " + number_as_text(length) +
                                         ": please report the mesh and the points");
 }
 
@@ -78,6 +80,7 @@ bool is_edge_tight(const DistanceField& field, Index from, Index to, double leng
 SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
   const Mesh& mesh = field.mesh();
   SurfacePath path;
+  if (target.is_nowhere()) return path;
   WindowField::Leg leg = field.last_leg(target);
   if (leg.points.empty()) {
     if (field.value(target).distance < kInfinity) throw lost(0);
@@ -86,7 +89,9 @@ SurfacePath path_to(const WindowField& field, const SurfacePoint& target) {
   path.length = 0;
   path.points.push_back(leg.points.front());
   Index legs = 0;
+  Poll poll(64);
   while (true) {
+    poll();
     path.length += leg.length;
     for (std::size_t i = 1; i < leg.points.size(); ++i) {
       // A leg names a point on an edge once for either face, where it starts or ends there.
@@ -106,7 +111,7 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
                                                 std::string(name_of(field.method)));
   }
   SurfacePath path;
-  if (vertex_point(mesh, target); field.distance[target] == kInfinity) return path;
+  if (target_point(mesh, target).is_nowhere() || field.distance[target] == kInfinity) return path;
   const std::span<const double> lengths = mesh.lengths();
   path.points.push_back(vertex_point(mesh, target));
   path.length = 0;
@@ -138,36 +143,50 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
   return path;
 }
 
-PathFinder::PathFinder(Mesh mesh) : solver_(std::make_unique<DistanceSolver>(std::move(mesh))) {}
-PathFinder::~PathFinder() = default;
-PathFinder::PathFinder(PathFinder&&) noexcept = default;
-PathFinder& PathFinder::operator=(PathFinder&&) noexcept = default;
-
-SurfacePath PathFinder::between(const SurfacePoint& from, const SurfacePoint& to, const CancelToken* cancel) {
+SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
+                         const CancelToken* cancel) {
+  if (from.is_nowhere() || to.is_nowhere()) return {};
   DistanceOptions options;
   options.method = Method::Exact;
   options.keep_paths = true;
   options.targets = {to};
   options.cancel = cancel;
   const Source source{from};
-  return path_to(*solver_->distance(std::span(&source, 1), options).windows, to);
+  return path_to(*solver.distance_sparse(std::span(&source, 1), options).windows, to);
 }
 
-SurfacePath PathFinder::through(std::span<const SurfacePoint> waypoints, bool closed, const CancelToken* cancel) {
+SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed,
+                         const CancelToken* cancel) {
   if (waypoints.empty()) throw Error(ErrorCode::InvalidArgument, "a path needs at least one waypoint");
-  const Mesh& mesh = solver_->mesh();
-  locate(mesh, waypoints.front());  // also where there is nothing to trace
+  const Mesh& mesh = solver.mesh();
+  for (const SurfacePoint& p : waypoints) {
+    if (p.is_nowhere()) return {{}, kInfinity, closed};
+    locate(mesh, p);  // also where there is nothing to trace
+  }
   SurfacePath path;
   path.closed = closed;
   path.length = 0;
   path.points.push_back(waypoints.front());
   for (std::size_t i = 0; i + (closed ? 0 : 1) < waypoints.size(); ++i) {
-    const SurfacePath piece = between(waypoints[i], waypoints[(i + 1) % waypoints.size()], cancel);
+    const SurfacePath piece = path_between(solver, waypoints[i], waypoints[(i + 1) % waypoints.size()], cancel);
     if (piece.points.empty()) return {{}, kInfinity, closed};
     join(mesh, path, piece);
   }
   if (closed && path.points.size() > 1) path.points.pop_back();  // the first point again
   return path;
+}
+
+PathFinder::PathFinder(Mesh mesh) : solver_(std::make_unique<DistanceSolver>(std::move(mesh))) {}
+PathFinder::~PathFinder() = default;
+PathFinder::PathFinder(PathFinder&&) noexcept = default;
+PathFinder& PathFinder::operator=(PathFinder&&) noexcept = default;
+
+SurfacePath PathFinder::between(const SurfacePoint& from, const SurfacePoint& to, const CancelToken* cancel) {
+  return path_between(*solver_, from, to, cancel);
+}
+
+SurfacePath PathFinder::through(std::span<const SurfacePoint> waypoints, bool closed, const CancelToken* cancel) {
+  return path_through(*solver_, waypoints, closed, cancel);
 }
 
 }  // namespace brushfire

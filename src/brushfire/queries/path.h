@@ -20,8 +20,18 @@ SurfacePath path_to(const WindowField& field, const SurfacePoint& target);
 // Throws Error(InvalidArgument) for a field of another method or of another mesh. O(edges of the vertices on it).
 SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index target);
 
-// Shortest paths between points of one mesh; keeps its workspace between calls. Each front stops as soon as it has
-// reached its target, so a short path costs little however large the mesh is.
+// The shortest path from one point to the other, to rounding, none from or to a point that is nowhere (see
+// target_point()); with the workspace of a solver that may serve for other things, too. The front stops as soon as it has reached its target: after the first call a short path costs little
+// however large the mesh is. Throws as distance() does.
+SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
+                         const CancelToken* cancel = nullptr);
+
+// Shortest paths from each waypoint to the next, joined; from the last back to the first where `closed`. It may bend
+// at waypoints (shorten() takes it from there). At least one waypoint; two the same after each other add nothing.
+SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed = false,
+                         const CancelToken* cancel = nullptr);
+
+// The two with a solver of its own.
 class PathFinder {
  public:
   explicit PathFinder(Mesh mesh);
@@ -29,11 +39,7 @@ class PathFinder {
   PathFinder(PathFinder&&) noexcept;
   PathFinder& operator=(PathFinder&&) noexcept;
 
-  // The shortest path from one point to the other, to rounding. Throws as distance() does.
   SurfacePath between(const SurfacePoint& from, const SurfacePoint& to, const CancelToken* cancel = nullptr);
-
-  // Shortest paths from each waypoint to the next, joined; from the last back to the first where `closed`. It may bend
-  // at waypoints (shorten() takes it from there). At least one waypoint; two the same after each other add nothing.
   SurfacePath through(std::span<const SurfacePoint> waypoints, bool closed = false,
                       const CancelToken* cancel = nullptr);
 

@@ -1,6 +1,7 @@
 // Farthest-point sampling with radius-limited runs and a lazy queue.
 #include <brushfire/queries/sampling.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 
 #include <algorithm>
@@ -60,6 +61,7 @@ Samples farthest_points(const Mesh& mesh, Index count, std::span<const Index> fi
   Samples samples;
   samples.distance.assign(mesh.vertex_count(), kInfinity);
   samples.nearest.assign(mesh.vertex_count(), kNoIndex);
+  const CancelScope listen(options.cancel);
   DistanceSolver solver(mesh);
   FarthestQueue farthest(mesh, samples.distance);
   DistanceOptions run = options;

@@ -1,6 +1,7 @@
 // Rounds of "straighten every sleeve, go round vertices on the shorter side".
 #include <brushfire/queries/shorten.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/flat_face.h>
 #include <brushfire/queries/detail/sleeve.h>
@@ -118,6 +119,7 @@ class Shortener {
   std::vector<StraightLeg> straighten(const std::vector<Leg>& legs) const {
     std::vector<StraightLeg> pieces;
     for (const Leg& leg : legs) {
+      stop_if_cancelled();
       for (StraightLeg& p : detail::shortest_in_sleeve(mesh_, leg)) {
         // From a vertex to itself without leaving its faces: nothing.
         if (p.length.high == 0 && p.leg.steps.empty() && same_vertex(p.leg.begin, p.leg.end)) continue;
@@ -229,6 +231,7 @@ class Shortener {
   void reduce(std::vector<Step>& cycle) const {
     bool again = true;
     while (again && !cycle.empty()) {
+      stop_if_cancelled();
       again = false;
       for (std::size_t i = 0; i < cycle.size(); ++i) {
         const std::size_t j = (i + 1) % cycle.size();

@@ -1,6 +1,7 @@
 // Tracing straightest geodesics; the logarithmic map by where shortest paths start.
 #include <brushfire/queries/straightest.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/flat_face.h>
 #include <brushfire/queries/detail/tangent_fan.h>
@@ -254,78 +255,115 @@ Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, doub
 
 namespace {
 
-// The direction in which a path of at least two points leaves its first one.
-double leaving_angle(const Mesh& mesh, const PointLocation& source, const PointLocation& next) {
-  const Index f = common_face(mesh, source, next, source.face);
-  const std::array<Vec2, 3> c = flat_corners(mesh, f);
-  const std::array<double, 3> own = *weights_in(mesh, source, f);
-  const Vec2 d = flat_difference(c, own, *weights_in(mesh, next, f));
-  if (source.on == On::Vertex) {
-    const auto k = static_cast<Index>(std::max_element(own.begin(), own.end()) - own.begin());
-    const Vec2 edge = c[(k + 1) % 3] - c[k];
-    const double inside = std::clamp(std::atan2(cross(edge, d), dot(edge, d)), 0.0, mesh.corner_angle(3 * f + k));
-    return detail::tangent_fan(mesh, source.vertex).around(3 * f + k, inside);
+// The directions in which paths leave one point.
+class LeavingAngles {
+ public:
+  LeavingAngles(const Mesh& mesh, const SurfacePoint& source) : mesh_(mesh), source_(locate(mesh, source)) {
+    if (source_.on == On::Vertex) fan_ = detail::tangent_fan(mesh, source_.vertex);
   }
-  const auto base = [&mesh](Index face) {
-    const std::array<Vec2, 3> corners = flat_corners(mesh, face);
+
+  double total() const { return source_.on == On::Vertex ? fan_.total : 2 * kPi; }
+  bool is_source(Index vertex) const { return source_.on == On::Vertex && vertex == source_.vertex; }
+
+  // Of a path whose second point this is.
+  double towards(const SurfacePoint& point) const {
+    const PointLocation next = locate(mesh_, point);
+    const Index f = common_face(mesh_, source_, next, source_.face);
+    const std::array<Vec2, 3> c = flat_corners(mesh_, f);
+    const std::array<double, 3> own = *weights_in(mesh_, source_, f);
+    const Vec2 d = flat_difference(c, own, *weights_in(mesh_, next, f));
+    if (source_.on == On::Vertex) {
+      const auto k = static_cast<Index>(std::max_element(own.begin(), own.end()) - own.begin());
+      const Vec2 edge = c[(k + 1) % 3] - c[k];
+      const double inside = std::clamp(std::atan2(cross(edge, d), dot(edge, d)), 0.0, mesh_.corner_angle(3 * f + k));
+      return fan_.around(3 * f + k, inside);
+    }
+    return f == source_.face ? wrapped(direction_of(d) - base_direction(), 2 * kPi) : over_own_edge(f, c, d);
+  }
+
+ private:
+  double base_direction() const {
+    const std::array<Vec2, 3> corners = flat_corners(mesh_, source_.face);
     return direction_of(corners[1] - corners[0]);
-  };
-  if (f == source.face) return wrapped(direction_of(d) - base(f), 2 * kPi);
-  // Over the source's own edge: measured from the edge, which both faces have.
-  Index in = mesh.opposite()[source.halfedge];
-  while (Mesh::face_of(in) != f) in = mesh.opposite()[in];
-  const Vec2 in_edge = c[Mesh::next(in) % 3] - c[in % 3];
-  const double above = std::atan2(cross(in_edge, d), dot(in_edge, d));  // into f, in [0, pi]
-  const bool same_start = mesh.from(in) == mesh.from(source.halfedge);
-  const std::array<Vec2, 3> own_corners = flat_corners(mesh, source.face);
-  const Vec2 own_edge = own_corners[Mesh::next(source.halfedge) % 3] - own_corners[source.halfedge % 3];
-  // Below the edge in the source's face's plane, whichever way round the other face lies.
-  const double from_edge = same_start ? -above : above - kPi;
-  return wrapped(direction_of(own_edge) + from_edge - base(source.face), 2 * kPi);
+  }
+
+  // Over the source's own edge into face f: measured from the edge, which both faces have.
+  double over_own_edge(Index f, const std::array<Vec2, 3>& c, Vec2 d) const {
+    Index in = mesh_.opposite()[source_.halfedge];
+    while (Mesh::face_of(in) != f) in = mesh_.opposite()[in];
+    const Vec2 in_edge = c[Mesh::next(in) % 3] - c[in % 3];
+    const double above = std::atan2(cross(in_edge, d), dot(in_edge, d));  // into f, in [0, pi]
+    const bool same_start = mesh_.from(in) == mesh_.from(source_.halfedge);
+    const std::array<Vec2, 3> own_corners = flat_corners(mesh_, source_.face);
+    const Vec2 own_edge = own_corners[Mesh::next(source_.halfedge) % 3] - own_corners[source_.halfedge % 3];
+    // Below the edge in the source's face's plane, whichever way round the other face lies.
+    const double from_edge = same_start ? -above : above - kPi;
+    return wrapped(direction_of(own_edge) + from_edge - base_direction(), 2 * kPi);
+  }
+
+  const Mesh& mesh_;
+  PointLocation source_;
+  detail::TangentFan fan_;
+};
+
+constexpr double kUnknownAngle = std::numeric_limits<double>::quiet_NaN();
+
+// Sets map.angle along the path to entry i: back along the vertices that the path bends at, to one whose angle is known
+// or to the source. `chain` is room to work in.
+void find_angle(const WindowField& field, const LeavingAngles& leaving, SparseLogMap& map, std::size_t i,
+                std::vector<std::size_t>& chain) {
+  chain.clear();
+  double angle = 0;
+  while (true) {
+    chain.push_back(i);
+    const WindowField::Leg leg = field.last_leg(map.vertex[i]);
+    if (leg.vertex == kNoIndex || leaving.is_source(leg.vertex)) {
+      if (leg.points.size() > 1) angle = leaving.towards(leg.points[leg.points.size() - 2]);
+      break;
+    }
+    i = static_cast<std::size_t>(std::lower_bound(map.vertex.begin(), map.vertex.end(), leg.vertex) -
+                                 map.vertex.begin());
+    if (!std::isnan(map.angle[i])) {
+      angle = map.angle[i];
+      break;
+    }
+  }
+  for (const std::size_t k : chain) map.angle[k] = angle;
 }
 
 }  // namespace
 
-LogMap log_map(const Mesh& mesh, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
-  const PointLocation at = locate(mesh, source);
-  LogMap map;
-  map.total_angle = total_angle(mesh, source);
+SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
+  const LeavingAngles leaving(solver.mesh(), source);
   DistanceOptions options;
   options.method = Method::Exact;
   options.max_distance = max_radius;
   options.keep_paths = true;
   options.cancel = cancel;
   const Source origin{source};
-  const DistanceField field = distance(mesh, std::span(&origin, 1), options);
-  map.radius = field.distance;
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
-  map.angle.assign(mesh.vertex_count(), unknown);
-  std::vector<Index> chain;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (map.radius[v] == kInfinity || !std::isnan(map.angle[v])) continue;
-    // Back along the vertices that the path bends at, to one whose angle is known or to the source.
-    chain.clear();
-    double angle = 0;
-    for (Index w = v;;) {
-      chain.push_back(w);
-      const WindowField::Leg leg = field.windows->last_leg(w);
-      if (leg.vertex == kNoIndex) {
-        if (leg.points.size() > 1) angle = leaving_angle(mesh, at, locate(mesh, leg.points[leg.points.size() - 2]));
-        break;
-      }
-      if (at.on == On::Vertex && leg.vertex == at.vertex) {
-        angle = leaving_angle(mesh, at, locate(mesh, leg.points[leg.points.size() - 2]));
-        break;
-      }
-      w = leg.vertex;
-      if (!std::isnan(map.angle[w])) {
-        angle = map.angle[w];
-        break;
-      }
-    }
-    for (const Index w : chain) map.angle[w] = angle;
+  SparseField field = solver.distance_sparse(std::span(&origin, 1), options);
+  SparseLogMap map{std::move(field.vertex), std::move(field.distance), {}, leaving.total()};
+  map.angle.assign(map.vertex.size(), kUnknownAngle);
+  std::vector<std::size_t> chain;
+  const CancelScope listen(cancel);
+  Poll poll(64);
+  for (std::size_t i = 0; i < map.vertex.size(); ++i) {
+    poll();
+    if (leaving.is_source(map.vertex[i])) map.angle[i] = 0;
+    if (std::isnan(map.angle[i])) find_angle(*field.windows, leaving, map, i, chain);
   }
-  if (at.on == On::Vertex) map.angle[at.vertex] = 0;
+  return map;
+}
+
+LogMap log_map(const Mesh& mesh, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
+  DistanceSolver solver(mesh);
+  const SparseLogMap reached = log_map(solver, source, max_radius, cancel);
+  LogMap map{std::vector<double>(mesh.vertex_count(), kInfinity),
+             std::vector<double>(mesh.vertex_count(), kUnknownAngle), reached.total_angle};
+  for (std::size_t i = 0; i < reached.vertex.size(); ++i) {
+    map.radius[reached.vertex[i]] = reached.radius[i];
+    map.angle[reached.vertex[i]] = reached.angle[i];
+  }
   return map;
 }
 

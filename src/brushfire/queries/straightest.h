@@ -54,4 +54,15 @@ struct LogMap {
 LogMap log_map(const Mesh& mesh, const SurfacePoint& source, double max_radius = kInfinity,
                const CancelToken* cancel = nullptr);
 
+// The same of the reached vertices only, which ascend: after the solver's first call a small disc costs little however
+// large the mesh is.
+struct SparseLogMap {
+  std::vector<Index> vertex;   // [reached]
+  std::vector<double> radius;  // [reached]
+  std::vector<double> angle;   // [reached]
+  double total_angle = 0;
+};
+SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double max_radius,
+                     const CancelToken* cancel = nullptr);
+
 }  // namespace brushfire

@@ -1,6 +1,8 @@
 // Voronoi cells from one common field and the sources' own fields along the borders.
 #include <brushfire/queries/voronoi.h>
 
+#include <brushfire/core/cancel.h>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -166,7 +168,9 @@ class Joiner {
     for (const auto& [node, piece, end] : ends_) {
       if (!used_[piece] && !partner(node, piece)) follow(piece, end, borders);
     }
+    Poll poll;
     for (Index i = 0; i < pieces_.size(); ++i) {
+      poll();
       if (!used_[i]) follow(i, 0, borders);
     }
   }
@@ -238,7 +242,11 @@ VoronoiDiagram voronoi(const Mesh& mesh, std::span<const Source> sources, const 
   measure(mesh, sources, run, diagram, faces);
 
   FaceDivider divider(mesh, diagram.area);
-  for (const BorderFace& face : faces) divider.divide(face);
+  Poll poll(256);
+  for (const BorderFace& face : faces) {
+    poll();
+    divider.divide(face);
+  }
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto [a, b, c] = mesh.faces()[f];
     const Index s = diagram.source[a];

@@ -2,6 +2,7 @@
 #include <brushfire/solvers/detail/dijkstra.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/solvers/detail/start.h>
 
 #include <algorithm>
 #include <functional>
@@ -41,12 +42,9 @@ class Dijkstra final : public Engine {
 
   // The corners of every face that holds the source; on an edge that is all faces of the edge.
   void start(const LocatedSource& s, DistanceField& field) {
-    if (s.at.on == PointLocation::On::Vertex) {
-      offer(s.at.vertex, s.offset, s.label, field);
-      return;
+    for (const Seed& seed : seeds_.in_own_faces(mesh_, s.at)) {
+      offer(seed.vertex, s.offset + seed.distance, s.label, field);
     }
-    const std::array<double, 3> d = corner_distances(mesh_, s.at);
-    for (Index k = 0; k < 3; ++k) offer(mesh_.faces()[s.at.face][k], s.offset + d[k], s.label, field);
   }
 
   void march(const Problem& problem, DistanceField& field) {
@@ -57,7 +55,7 @@ class Dijkstra final : public Engine {
       heap_.pop_back();
       if (value != field.distance[v] || label != field.source[v]) continue;
       if (value > problem.max_distance) break;
-      if (++field.updates % kPollInterval == 0 && problem.options->cancel && problem.options->cancel->cancelled()) {
+      if (++field.updates % kPollInterval == 0 && problem.cancel && problem.cancel->cancelled()) {
         throw Error(ErrorCode::Cancelled, "cancelled");
       }
       for (const Index h : mesh_.corners(v)) {
@@ -68,22 +66,27 @@ class Dijkstra final : public Engine {
     }
   }
 
-  // Along the edges to a corner of the target's face, then straight; or straight from a source in the same face.
+  // Along the edges to a corner of a face that holds the target, then straight; or straight from a source in that face.
   void evaluate(const Problem& problem, std::size_t i, DistanceField& field) {
     const PointLocation& at = problem.targets[i];
-    const std::array<double, 3> d = corner_distances(mesh_, at);
-    for (Index k = 0; k < 3; ++k) {
-      const Index v = mesh_.faces()[at.face][k];
-      if (std::pair(field.distance[v] + d[k], field.source[v]) <
-          std::pair(field.target_distance[i], field.target_source[i])) {
-        field.target_distance[i] = field.distance[v] + d[k];
-        field.target_source[i] = field.source[v];
+    const auto offer_target = [&](double value, Index label) {
+      if (std::pair(value, label) < std::pair(field.target_distance[i], field.target_source[i])) {
+        field.target_distance[i] = value;
+        field.target_source[i] = label;
       }
+    };
+    for (const Seed& seed : seeds_.in_own_faces(mesh_, at)) {
+      offer_target(field.distance[seed.vertex] + seed.distance, field.source[seed.vertex]);
+    }
+    for (const LocatedSource& s : problem.sources) {
+      const double d = straight_distance(mesh_, s.at, at);
+      if (d < kInfinity) offer_target(s.offset + d, s.label);
     }
   }
 
   Mesh mesh_;
   std::vector<Index>* touched_ = nullptr;
+  SeedSearch seeds_;
   std::vector<Entry> heap_;  // its memory stays from run to run
 };
 

@@ -1,10 +1,13 @@
 // Validation, dispatch to an engine, and what all engines share after the run: radius, units, counts.
 #include <brushfire/solvers/distance.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/core/populate.h>
+#include <brushfire/core/text.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
+#include <brushfire/solvers/detail/offsets.h>
 #include <brushfire/solvers/fast_marching/fast_marching.h>
 #include <brushfire/solvers/windows/detail/engine.h>
 
@@ -52,70 +55,85 @@ void assign(std::vector<T>& array, std::size_t size, T value) {
   array.assign(size, value);
 }
 
-void locate_sources(const Mesh& mesh, std::span<const Source> sources, std::vector<detail::LocatedSource>& located) {
+using detail::Offsets;
+
+void locate_sources(const Mesh& mesh, std::span<const Source> sources, std::vector<detail::LocatedSource>& located,
+                    Offsets& offsets) {
   if (sources.empty()) throw Error(ErrorCode::InvalidArgument, "no source given: a distance needs at least one");
   located.clear();
   located.reserve(sources.size());
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (!std::isfinite(sources[i].offset)) {
       throw Error(ErrorCode::InvalidArgument,
-                  "offset " + std::to_string(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
+                  "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
     }
-    located.push_back({locate(mesh, sources[i].point), sources[i].offset / mesh.unit(), static_cast<Index>(i)});
+    located.push_back({locate(mesh, sources[i].point), 0, static_cast<Index>(i)});
   }
+  offsets.split(mesh, sources, located);
 }
 
+// Targets that are nowhere are not for engines: they read +inf.
 void locate_targets(const Mesh& mesh, const DistanceOptions& options, std::vector<PointLocation>& located) {
   located.clear();
   located.reserve(options.targets.size());
-  for (const SurfacePoint& t : options.targets) located.push_back(locate(mesh, t));
+  for (const SurfacePoint& t : options.targets) {
+    if (!t.is_nowhere()) located.push_back(locate(mesh, t));
+  }
 }
 
 void check(const DistanceOptions& options) {
   if (!(options.max_distance >= 0)) {
     throw Error(ErrorCode::InvalidArgument,
-                "max_distance " + std::to_string(options.max_distance) + " is not a number >= 0");
+                "max_distance " + number_as_text(options.max_distance) + " is not a number >= 0");
   }
   if (options.method == Method::Windows && !(options.tolerance >= 0 && options.tolerance <= kMaxTolerance)) {
-    throw Error(ErrorCode::InvalidArgument, "tolerance " + std::to_string(options.tolerance) + " is not in [0, " +
-                                                std::to_string(kMaxTolerance) + "]");
+    throw Error(ErrorCode::InvalidArgument, "tolerance " + number_as_text(options.tolerance) + " is not in [0, " +
+                                                number_as_text(kMaxTolerance) + "]");
   }
 }
 
-// A target at a vertex reads what the field reads there, to the bit.
-void finish_targets(double unit, std::span<const PointLocation> targets, const DistanceOptions& options,
-                    DistanceField& field) {
+// A target at a vertex reads what the field reads there, to the bit. Makes room for those that are nowhere.
+void finish_targets(double unit, std::span<const PointLocation> targets, const Offsets& offsets,
+                    const DistanceOptions& options, DistanceField& field) {
   for (std::size_t i = 0; i < field.target_distance.size(); ++i) {
+    double& d = field.target_distance[i];
+    Index& source = field.target_source[i];
     if (targets[i].on == PointLocation::On::Vertex) {
-      field.target_distance[i] = field.distance[targets[i].vertex];
-      field.target_source[i] = field.source[targets[i].vertex];
+      d = field.distance[targets[i].vertex];
+      source = field.source[targets[i].vertex];
     }
-    field.target_distance[i] *= unit;
-    if (field.target_distance[i] > options.max_distance) {
-      field.target_distance[i] = kInfinity;
-      field.target_source[i] = kNoIndex;
+    d = offsets.value(d, source, unit);
+    if (d == kInfinity || d > options.max_distance) {
+      d = kInfinity;
+      source = kNoIndex;
     }
+  }
+  for (std::size_t i = 0; i < options.targets.size() && targets.size() < options.targets.size(); ++i) {
+    if (!options.targets[i].is_nowhere()) continue;
+    const auto place = static_cast<std::ptrdiff_t>(i);
+    field.target_distance.insert(field.target_distance.begin() + place, kInfinity);
+    field.target_source.insert(field.target_source.begin() + place, kNoIndex);
   }
 }
 
 // Applies the radius, goes back to the mesh's units, counts.
-void finish(const Mesh& mesh, std::span<const PointLocation> targets, const DistanceOptions& options,
-            DistanceField& field) {
+void finish(const Mesh& mesh, std::span<const PointLocation> targets, const Offsets& offsets,
+            const DistanceOptions& options, DistanceField& field) {
   const double unit = mesh.unit();
-  finish_targets(unit, targets, options, field);
+  finish_targets(unit, targets, offsets, options, field);
   field.method = options.method;
   field.reached = 0;
   for (std::size_t v = 0; v < field.distance.size(); ++v) {
     double& d = field.distance[v];
     if (d == kInfinity) continue;
-    d *= unit;
-    if (d > options.max_distance) {
+    d = offsets.value(d, field.source[v], unit);
+    if (d == kInfinity || d > options.max_distance) {
       d = kInfinity;
       field.source[v] = kNoIndex;
       if (!field.error_bound.empty()) field.error_bound[v] = kInfinity;
       ++field.beyond_radius;
     } else {
-      if (!field.error_bound.empty()) field.error_bound[v] *= unit;
+      if (!field.error_bound.empty()) field.error_bound[v] = offsets.bound(field.error_bound[v], d, unit);
       ++field.reached;
     }
   }
@@ -123,8 +141,8 @@ void finish(const Mesh& mesh, std::span<const PointLocation> targets, const Dist
 }
 
 // The touched vertices within the radius, ascending, in the mesh's units. `touched` is sorted on the way.
-void collect(double unit, std::span<const PointLocation> targets, const DistanceOptions& options, DistanceField& field,
-             std::vector<Index>& touched, SparseField& result) {
+void collect(double unit, std::span<const PointLocation> targets, const Offsets& offsets,
+             const DistanceOptions& options, DistanceField& field, std::vector<Index>& touched, SparseField& result) {
   constexpr std::size_t kScanShare = 16;  // looking at this many vertices costs about as much as sorting in one
   if (touched.size() > field.distance.size() / kScanShare) {
     touched.clear();
@@ -139,7 +157,7 @@ void collect(double unit, std::span<const PointLocation> targets, const Distance
   result.source.resize(touched.size());
   std::size_t count = 0;
   for (const Index v : touched) {
-    const double d = field.distance[v] * unit;
+    const double d = offsets.value(field.distance[v], field.source[v], unit);
     if (d == kInfinity || d > options.max_distance) continue;
     result.vertex[count] = v;
     result.distance[count] = d;
@@ -148,9 +166,10 @@ void collect(double unit, std::span<const PointLocation> targets, const Distance
   result.vertex.resize(count);
   result.distance.resize(count);
   result.source.resize(count);
-  finish_targets(unit, targets, options, field);
+  finish_targets(unit, targets, offsets, options, field);
   result.target_distance.swap(field.target_distance);
   result.target_source.swap(field.target_source);
+  result.windows = std::move(field.windows);
 }
 
 }  // namespace
@@ -190,9 +209,19 @@ struct DistanceSolver::Workspace {
   DistanceField scratch;                       // of distance_sparse(): +inf and kNoIndex everywhere between calls
   std::vector<Index> touched;                  // what a run has changed in it
   std::vector<detail::LocatedSource> sources;  // of the run
-  std::vector<PointLocation> targets;
+  detail::Offsets offsets;                     // of these
+  std::vector<PointLocation> targets;          // those that are somewhere
 
   detail::Engine& engine(Method method);
+  detail::Problem problem(const DistanceOptions& options, std::vector<Index>* list) const {
+    return {sources,
+            targets,
+            offsets.radius(options.max_distance, mesh.unit()),
+            &options,
+            list,
+            offsets.bases(),
+            current_cancel_token()};
+  }
   void clean(bool everything);
 };
 
@@ -222,7 +251,10 @@ DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
 DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
 const Mesh& DistanceSolver::mesh() const noexcept { return workspace_->mesh; }
 
-void DistanceSolver::set_up(const DistanceOptions& options) { workspace_->engine(options.method).set_up(options); }
+void DistanceSolver::set_up(const DistanceOptions& options) {
+  const CancelScope listen(options.cancel);
+  workspace_->engine(options.method).set_up(options);
+}
 
 DistanceField DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options) {
   DistanceField field;
@@ -232,9 +264,10 @@ DistanceField DistanceSolver::distance(std::span<const Source> sources, const Di
 
 void DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options, DistanceField& field) {
   Workspace& w = *workspace_;
+  const CancelScope listen(options.cancel);
   check(options);
   detail::Engine& engine = w.engine(options.method);  // first: what it derives of the mesh is not found twice
-  locate_sources(w.mesh, sources, w.sources);
+  locate_sources(w.mesh, sources, w.sources, w.offsets);
   locate_targets(w.mesh, options, w.targets);
   field.windows.reset();
   field.error_bound.clear();
@@ -245,15 +278,16 @@ void DistanceSolver::distance(std::span<const Source> sources, const DistanceOpt
   assign(field.source, w.mesh.vertex_count(), kNoIndex);
   field.target_distance.assign(w.targets.size(), kInfinity);
   field.target_source.assign(w.targets.size(), kNoIndex);
-  engine.solve({w.sources, w.targets, options.max_distance / w.mesh.unit(), &options, nullptr}, field);
-  finish(w.mesh, w.targets, options, field);
+  engine.solve(w.problem(options, nullptr), field);
+  finish(w.mesh, w.targets, w.offsets, options, field);
 }
 
 void DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options,
                                      SparseField& field) {
   Workspace& w = *workspace_;
+  const CancelScope listen(options.cancel);
   check(options);
-  locate_sources(w.mesh, sources, w.sources);
+  locate_sources(w.mesh, sources, w.sources, w.offsets);
   locate_targets(w.mesh, options, w.targets);
   detail::Engine& engine = w.engine(options.method);
   const bool listed = engine.lists_touched();
@@ -262,15 +296,15 @@ void DistanceSolver::distance_sparse(std::span<const Source> sources, const Dist
   w.scratch.target_distance.assign(w.targets.size(), kInfinity);
   w.scratch.target_source.assign(w.targets.size(), kNoIndex);
   w.scratch.error_bound.clear();
+  w.scratch.windows.reset();
   try {
-    engine.solve({w.sources, w.targets, options.max_distance / w.mesh.unit(), &options, listed ? &w.touched : nullptr},
-                 w.scratch);
+    engine.solve(w.problem(options, listed ? &w.touched : nullptr), w.scratch);
   } catch (...) {
     w.clean(!listed);
     throw;
   }
   if (!listed) w.touched.resize(w.mesh.vertex_count());  // any of them
-  collect(w.mesh.unit(), w.targets, options, w.scratch, w.touched, field);
+  collect(w.mesh.unit(), w.targets, w.offsets, options, w.scratch, w.touched, field);
   w.clean(!listed);
 }
 

@@ -55,12 +55,13 @@ struct DistanceOptions {
   Bound bound = Bound::Estimate;           // Method::Windows only
   Precision precision = Precision::Float;  // methods that have only one ignore it
   double max_distance = kInfinity;         // vertices farther than this read +inf; >= 0, may be +inf
-  std::vector<SurfacePoint> targets;       // where there are any, the solver may stop once all of them are final
-  bool keep_paths = false;                 // fill DistanceField::windows, for paths to vertices and targets (exact)
-  bool keep_windows = false;               // the same for every surface point: all windows are kept, some kB a vertex
-  unsigned threads = 1;                    // for this one field; 0: one per processor. The result does not depend on it
-  Progress progress;                       // called now and then; may be empty
-  const CancelToken* cancel = nullptr;     // polled now and then; may be null
+  // Where there are any, the solver may stop once all of them are final; those that are nowhere read +inf.
+  std::vector<SurfacePoint> targets;
+  bool keep_paths = false;              // fill DistanceField::windows, for paths to vertices and targets (exact)
+  bool keep_windows = false;            // the same for every surface point: all windows are kept, some kB a vertex
+  unsigned threads = 1;                 // for this one field; 0: one per processor. The result does not depend on it
+  Progress progress;                    // called now and then; may be empty
+  const CancelToken* cancel = nullptr;  // polled now and then; null: what the thread listens to (see cancel.h)
 };
 
 struct DistanceField {
@@ -81,11 +82,12 @@ struct DistanceField {
 
 // A field that says nothing of the vertices that it did not reach. The vertices ascend.
 struct SparseField {
-  std::vector<Index> vertex;            // [reached]
-  std::vector<double> distance;         // [reached], finite
-  std::vector<Index> source;            // [reached]
-  std::vector<double> target_distance;  // [targets]
-  std::vector<Index> target_source;     // [targets]
+  std::vector<Index> vertex;                   // [reached]
+  std::vector<double> distance;                // [reached], finite
+  std::vector<Index> source;                   // [reached]
+  std::vector<double> target_distance;         // [targets]
+  std::vector<Index> target_source;            // [targets]
+  std::shared_ptr<const WindowField> windows;  // as that of DistanceField; it, too, costs what was reached
 };
 
 // Distances from the nearest of the sources (least distance plus offset; equal: the lowest position) to every vertex.
@@ -112,7 +114,8 @@ class DistanceSolver {
   void distance(std::span<const Source> sources, const DistanceOptions& options, DistanceField& field);
 
   // The same numbers, of the reached vertices only: costs what it reaches, whatever the size of the mesh (after the
-  // first call; for methods that keep no list of what they touched, one look at every vertex more).
+  // first call; for methods that keep no list of what they touched, and with keep_windows, one look at every vertex
+  // more).
   SparseField distance_sparse(std::span<const Source> sources, const DistanceOptions& options = {});
   // In place of what `field` held, whose memory is used again: for very many short runs.
   void distance_sparse(std::span<const Source> sources, const DistanceOptions& options, SparseField& field);

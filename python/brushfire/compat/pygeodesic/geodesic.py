@@ -1,7 +1,12 @@
 """pygeodesic.geodesic: exact distances and paths between vertices.
 
-Different from the original: an index that does not exist is an IndexError (the original prints a line and returns
-``(None, None)``), and an unreachable target has the distance +inf, no path, and the best source -1.
+As in the original, no sources given means vertex 0. Different on purpose:
+
+- An index that does not exist is an IndexError (the original prints a line and returns ``(None, None)``), and so is a
+  mesh that is none (the original prints a line, and later calls give ``(None, None)``).
+- An unreachable target has the distance +inf, no path, and the best source -1.
+- What is farther than ``max_distance`` reads +inf and -1; the original keeps some vertices a little beyond.
+- Vertices that are in no face are allowed.
 """
 
 from __future__ import annotations
@@ -14,7 +19,7 @@ import numpy.typing as npt
 from brushfire._arrays import Floats
 from brushfire._errors import BrushfireError
 from brushfire._mesh import Mesh
-from brushfire.compat._exact import METHOD, indices
+from brushfire.compat._exact import GEODESIC_INF, METHOD, in_faces, indices, whole_faces
 
 __all__ = ["PyGeodesicAlgorithmExact", "read_mesh_from_file"]
 
@@ -35,24 +40,44 @@ class PyGeodesicAlgorithmExact:
     """
 
     def __init__(self, points: npt.ArrayLike, faces: npt.ArrayLike) -> None:
-        self._mesh = Mesh(points, faces)
+        self._mesh = Mesh(points, whole_faces(faces))
         self._solver = self._mesh.solver()
 
     def geodesicDistance(self, sourceIndex: int, targetIndex: int) -> tuple[float, Floats]:
         """The distance, and the positions along the path, (k, 3), from the target back to the source."""
         source, target = indices([sourceIndex, targetIndex], self._mesh.vertex_count, "index").tolist()
-        path = self._mesh.path(source, target)
-        return path.length, path.positions[::-1]
+        joined = in_faces(self._mesh)
+        if not (joined[source] and joined[target]):
+            return (0.0, self._mesh.vertices[[source]]) if source == target else (np.inf, np.zeros((0, 3)))
+        path = self._solver.path(source, target)
+        return path.length, np.ascontiguousarray(path.positions[::-1])
 
     def geodesicDistances(
-        self, source_indices: npt.ArrayLike, target_indices: npt.ArrayLike | None = None
+        self,
+        source_indices: npt.ArrayLike | None = None,
+        target_indices: npt.ArrayLike | None = None,
+        max_distance: float = GEODESIC_INF,
     ) -> tuple[Floats, npt.NDArray[np.int32]]:
-        """Distances of the targets (default: all vertices) from their nearest sources, and which these are."""
-        sources = indices(source_indices, self._mesh.vertex_count, "source_indices")
-        if target_indices is None:
-            return self._solver.distance(sources, method=METHOD, return_source=True)
-        targets = indices(target_indices, self._mesh.vertex_count, "target_indices")
-        return self._solver.distance(sources, targets=targets, method=METHOD, return_source=True)
+        """Distances of the targets (default: all vertices) from their nearest sources, and which these are.
+
+        :param source_indices: vertex 0 if none are given.
+        :param max_distance: what is farther reads +inf, and -1 as its source.
+        """
+        count = self._mesh.vertex_count
+        sources = indices([0] if source_indices is None else source_indices, count, "source_indices")
+        targets = None if target_indices is None else indices(target_indices, count, "target_indices")
+        joined = in_faces(self._mesh)
+        kept = np.flatnonzero(joined[sources])
+        distances, best = np.full(count, np.inf), np.full(count, -1, dtype=np.int32)
+        if kept.size:
+            goal = None if targets is None else np.unique(targets[joined[targets]])
+            where = slice(None) if goal is None else goal
+            if goal is None or goal.size:
+                distances[where], source = self._solver.distance(
+                    sources[kept], targets=goal, max_distance=max_distance, method=METHOD, return_source=True
+                )
+                best[where] = np.where(source < 0, -1, kept[source]).astype(np.int32)
+        return (distances, best) if targets is None else (distances[targets], best[targets])
 
 
 def read_mesh_from_file(filename: str | os.PathLike[str]) -> tuple[Floats, npt.NDArray[np.int32]]:

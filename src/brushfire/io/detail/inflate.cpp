@@ -1,6 +1,8 @@
 // zlib's streams, and what to say without them.
 #include <brushfire/io/detail/inflate.h>
 
+#include <brushfire/core/cancel.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -57,10 +59,12 @@ Inflater::~Inflater() { inflateEnd(&stream_->z); }
 
 std::size_t Inflater::read(char* target, std::size_t size) {
   constexpr std::size_t kChunk = std::size_t{1} << 30;  // zlib counts in 32 bits
+  constexpr std::size_t kPiece = std::size_t{1} << 23;  // that comes out in some ten milliseconds
   Stream& s = *stream_;
   std::size_t done = 0;
   while (s.ok && !s.ended && done < size) {
-    const std::size_t in = std::min(s.rest.size(), kChunk), out = std::min(size - done, kChunk);
+    stop_if_cancelled();
+    const std::size_t in = std::min(s.rest.size(), kChunk), out = std::min(size - done, kPiece);
     s.z.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(s.rest.data()));
     s.z.avail_in = static_cast<uInt>(in);
     s.z.next_out = reinterpret_cast<Bytef*>(target + done);

@@ -1,11 +1,12 @@
 // Reading whole files, inflating them, and wording errors.
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/core/memory.h>
+#include <brushfire/io/byte_stream.h>
 #include <brushfire/io/detail/inflate.h>
 #include <brushfire/io/detail/input.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -18,17 +19,6 @@ namespace brushfire::detail {
 namespace fs = std::filesystem;
 
 namespace {
-
-struct FileCloser {
-  void operator()(std::FILE* f) const {
-    if (f != nullptr && f != stdin) std::fclose(f);
-  }
-};
-using File = std::unique_ptr<std::FILE, FileCloser>;
-
-[[noreturn]] void not_readable(const std::string& name, const std::string& cause) {
-  throw Error(ErrorCode::FileNotReadable, printable(name) + ": " + cause);
-}
 
 struct Buffer {
   std::shared_ptr<char[]> data;
@@ -43,52 +33,29 @@ std::shared_ptr<char[]> allocate(std::size_t size, const std::string& name) {
   }
 }
 
-// Reads to the end; `expected` is a hint only, because a file may grow and a pipe has no size.
-Buffer read_all(std::FILE* file, std::size_t expected, const std::string& name) {
-  std::size_t capacity = expected + 1;  // one more, so that the end is seen without growing
-  Buffer buffer{allocate(capacity, name), 0};
-  while (true) {
-    const std::size_t got = std::fread(buffer.data.get() + buffer.size, 1, capacity - buffer.size, file);
+// What comes from a pipe may have no end: more than this share of the memory that was there is not taken for it.
+constexpr std::uint64_t kStreamShare = 4;
+
+// Reads to the end; a file may grow, and a pipe has no size.
+Buffer read_all(ByteStream& stream) {
+  const std::uint64_t most = available_memory() / kStreamShare;
+  std::size_t capacity = static_cast<std::size_t>(stream.file_size()) + 1;  // the end is seen without growing
+  Buffer buffer{allocate(capacity, stream.name()), 0};
+  while (const std::size_t got = stream.read(buffer.data.get() + buffer.size, capacity - buffer.size)) {
     buffer.size += got;
-    if (got == 0) break;
-    if (buffer.size == capacity) {
-      const std::size_t larger = capacity < (std::size_t{1} << 16) ? std::size_t{1} << 16 : capacity + capacity / 2;
-      std::shared_ptr<char[]> grown = allocate(larger, name);
-      std::memcpy(grown.get(), buffer.data.get(), buffer.size);
-      buffer.data = std::move(grown);
-      capacity = larger;
+    if (buffer.size < capacity) continue;
+    if (!stream.is_file() && buffer.size > most) {
+      throw Error(ErrorCode::TooLarge, printable(stream.name()) + ": " + bytes_as_text(buffer.size) +
+                                           " have come and no end: more than " + bytes_as_text(most) +
+                                           ", a quarter of the memory that is available, is not read from a pipe");
     }
+    const std::size_t larger = capacity < (std::size_t{1} << 16) ? std::size_t{1} << 16 : capacity + capacity / 2;
+    std::shared_ptr<char[]> grown = allocate(larger, stream.name());
+    std::memcpy(grown.get(), buffer.data.get(), buffer.size);
+    buffer.data = std::move(grown);
+    capacity = larger;
   }
-  if (std::ferror(file) != 0) not_readable(name, std::string("cannot be read: ") + std::strerror(errno));
   return buffer;
-}
-
-// Paths of the process's own descriptors: the shell's <(command) is one, and someone writes to it.
-bool is_descriptor_path(const std::string& path) {
-  return path.rfind("/dev/fd/", 0) == 0 || path.rfind("/proc/self/fd/", 0) == 0 || path == "/dev/stdin";
-}
-
-void refuse_what_is_no_file(const std::string& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  switch (status.type()) {
-    case fs::file_type::not_found:
-      not_readable(path, "no such file");
-    case fs::file_type::directory:
-      not_readable(path, "is a directory");
-    case fs::file_type::fifo:
-      if (!is_descriptor_path(path)) not_readable(path, "is a named pipe; feed it to standard input and name it -");
-      break;
-    case fs::file_type::character:
-    case fs::file_type::block:
-      not_readable(path, "is a device");
-    case fs::file_type::socket:
-      not_readable(path, "is a socket");
-    case fs::file_type::none:
-      not_readable(path, error.message());
-    default:
-      break;
-  }
 }
 
 std::string escape(std::string_view text) {
@@ -130,22 +97,13 @@ std::string quote(std::string_view text) {
 
 Input Input::from_file(const std::string& path) {
   Input input;
-  Buffer buffer;
-  if (path == "-") {
-    input.name_ = "standard input";
-    buffer = read_all(stdin, 0, input.name_);
-  } else {
-    input.name_ = path;
-    refuse_what_is_no_file(path);
-    File file(std::fopen(path.c_str(), "rb"));
-    if (!file) not_readable(path, std::strerror(errno));
-    std::setvbuf(file.get(), nullptr, _IONBF, 0);  // whole-file reads need no buffer between
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(path, error);
-    buffer = read_all(file.get(), error ? 0 : static_cast<std::size_t>(size), path);
+  ByteStream stream(path);
+  input.name_ = stream.name();
+  if (path != "-") {
     input.folder_ = fs::path(path).parent_path().string();
     input.has_folder_ = true;
   }
+  Buffer buffer = read_all(stream);
   input.bytes_ = {buffer.data.get(), buffer.size};
   input.storage_ = std::move(buffer.data);
   input.inflate_gzip();
@@ -173,13 +131,23 @@ std::string Input::extension() const {
 
 Input Input::companion(const std::string& relative, std::size_t line) const {
   const fs::path path(relative);
-  const bool outside = path.is_absolute() || path.has_root_name() ||
+  const bool outside = path.is_absolute() || path.has_root_name() || relative.find('\0') != std::string::npos ||
                        std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
   if (!has_folder_) fail_line(line, "refers to the file " + quote(relative) + ", which is out of reach from here");
   if (outside || relative.empty() || relative == "-") {
     fail_line(line, "refers to the file " + quote(relative) + ", which is not in its own folder or below");
   }
-  return from_file((fs::path(folder_) / path).string());
+  // Links are followed before the file is opened, and only within the folder.
+  std::error_code error;
+  const fs::path folder = fs::canonical(folder_.empty() ? "." : folder_, error);
+  const fs::path file = fs::canonical(fs::path(folder_) / path, error);
+  if (error) return from_file((fs::path(folder_) / path).string());  // which says what is wrong
+  if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end()) {
+    fail_line(line, "refers to the file " + quote(relative) + ", a symbolic link that leads out of its folder");
+  }
+  Input input = from_file(file.string());
+  input.name_ = (fs::path(folder_) / path).string();
+  return input;
 }
 
 void Input::fail_line(std::size_t line, const std::string& cause) const {
@@ -203,6 +171,7 @@ void Input::inflate_gzip() {
   std::size_t total = 0;
   // Blocks that grow with what has come out, gathered at the end: memory follows the content, not a promise.
   while (true) {
+    stop_if_cancelled();
     const std::size_t size = std::min(std::max(total, std::size_t{1} << 16), limit - total + 1);
     std::shared_ptr<char[]> block = allocate(size, name_);
     const std::size_t got = inflater.read(block.get(), size);

@@ -1,6 +1,7 @@
 // MeshParts: what a reader gathers, and how it becomes a mesh.
 #pragma once
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/types.h>
 #include <brushfire/io/detail/input.h>
 #include <brushfire/io/read_mesh.h>
@@ -37,6 +38,7 @@ class FaceList {
 
  private:
   void note(Index largest, std::size_t place) {
+    poll_();
     if (largest >= largest_) {
       if (largest > largest_ || count_ == 0) {
         largest_face_ = count_;
@@ -48,6 +50,7 @@ class FaceList {
   void append(std::span<const Index> corners);
   void leave_fast_path();
 
+  Poll poll_;
   bool all_triangles_ = true;
   std::size_t count_ = 0;  // of the file, left-out ones included
   std::size_t left_out_ = 0;

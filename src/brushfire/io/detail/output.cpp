@@ -1,93 +1,93 @@
 // Writing beside the target and renaming.
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/input.h>
 #include <brushfire/io/detail/output.h>
+#include <brushfire/io/detail/waiting.h>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <climits>
+#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <random>
-#include <system_error>
+#include <utility>
 
 namespace brushfire::detail {
-
-namespace fs = std::filesystem;
 
 namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 18;
 constexpr std::size_t kLongestNumber = 32;  // "-1.2345678901234567e-308" has 24
-
-std::string random_suffix() {
-  std::random_device device;
-  static constexpr char kLetters[] = "0123456789abcdefghijklmnopqrstuv";
-  std::string suffix;
-  for (std::uint32_t bits = device(), k = 0; k < 6; ++k, bits >>= 5) suffix += kLetters[bits & 31];
-  return suffix;
-}
+constexpr std::size_t kAtOnce = PIPE_BUF;   // what a pipe that can be written to takes without blocking
 
 }  // namespace
 
 Output::Output(const std::string& path) : name_(path == "-" ? "standard output" : path), buffer_(kBufferSize) {
+  stop_if_cancelled();
+  struct stat status{};
   if (path == "-") {
+    if (std::fflush(stdout) != 0) fail(std::string("cannot be written: ") + std::strerror(errno));
+    descriptor_ = STDOUT_FILENO;
     is_stdout_ = true;
-    file_ = stdout;
+    waits_ = fstat(descriptor_, &status) == 0 && !S_ISREG(status.st_mode);
     return;
   }
-  std::error_code error;
-  fs::path target(path);
-  if (fs::is_symlink(target, error)) {
-    const fs::path resolved = fs::weakly_canonical(target, error);
-    if (!error) target = resolved;
-  }
-  target_ = target.string();
-  const fs::file_status status = fs::status(target, error);
-  if (status.type() == fs::file_type::directory) fail("is a directory");
-  const bool is_special = fs::exists(status) && status.type() != fs::file_type::regular;
-  if (is_special) {
-    file_ = std::fopen(target_.c_str(), "wb");
-    if (file_ == nullptr) fail(std::strerror(errno));
+  if (path.find('\0') != std::string::npos) fail("a name with a zero byte in it is no file's");
+  const bool exists = stat(path.c_str(), &status) == 0;
+  if (!exists && errno == ELOOP) fail(std::strerror(errno));
+  if (exists && S_ISDIR(status.st_mode)) fail("is a directory");
+  target_ = exists && !S_ISREG(status.st_mode) ? path : followed(path);
+  if (exists && !S_ISREG(status.st_mode)) {
+    open_pipe_or_device();
     return;
   }
-  for (int attempt = 0; attempt < 16 && file_ == nullptr; ++attempt) {
-    temporary_ = target_ + ".part-" + random_suffix();
-    file_ = std::fopen(temporary_.c_str(), "wbx");
-    if (file_ == nullptr && errno != EEXIST) break;
+  temporary_ = TemporaryFile(target_);
+  if (!temporary_.is_open()) fail(std::string("cannot be created: ") + std::strerror(errno));
+  descriptor_ = temporary_.descriptor();
+  // Permission to write lets the file be replaced; what it lets others do stays as it was.
+  if (exists) static_cast<void>(!fchmod(descriptor_, status.st_mode & 07777));
+}
+
+// A pipe has no reader at first, and is not waited for in a call that nothing ends.
+void Output::open_pipe_or_device() {
+  waits_ = true;
+  while ((descriptor_ = open(target_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)) < 0) {
+    if (errno != ENXIO && errno != EINTR) fail(std::strerror(errno));
+    wait_a_little();
   }
-  if (file_ == nullptr) {
-    const int cause = errno;
-    temporary_.clear();
-    fail(std::string("cannot be created: ") + std::strerror(cause));
-  }
-  std::setvbuf(file_, nullptr, _IONBF, 0);
-  if (fs::exists(status)) fs::permissions(temporary_, status.permissions(), error);
 }
 
 Output::~Output() {
-  if (file_ != nullptr && !is_stdout_) std::fclose(file_);
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  if (descriptor_ >= 0 && !is_stdout_ && !temporary_.is_open()) close(descriptor_);
 }
 
 void Output::fail(const std::string& cause) {
   throw Error(ErrorCode::FileNotWritable, printable(name_) + ": " + cause);
 }
 
-void Output::flush() {
-  if (used_ != 0 && std::fwrite(buffer_.data(), 1, used_, file_) != used_) {
-    fail(std::string("cannot be written: ") + std::strerror(errno));
+void Output::send(const char* data, std::size_t size) {
+  while (size != 0) {
+    stop_if_cancelled();
+    if (waits_) wait_until_writable(descriptor_);
+    const ssize_t sent = ::write(descriptor_, data, std::min(size, waits_ ? kAtOnce : kLongestCall));
+    if (sent < 0 && errno != EINTR && errno != EAGAIN) fail(std::string("cannot be written: ") + std::strerror(errno));
+    if (sent <= 0) continue;
+    data += sent;
+    size -= static_cast<std::size_t>(sent);
   }
-  used_ = 0;
 }
+
+void Output::flush() { send(buffer_.data(), std::exchange(used_, 0)); }
 
 void Output::bytes(const void* data, std::size_t size) {
   if (size == 0) return;
   if (size > buffer_.size() - used_) flush();
-  if (size > buffer_.size()) {
-    if (std::fwrite(data, 1, size, file_) != size) fail(std::string("cannot be written: ") + std::strerror(errno));
-    return;
-  }
+  if (size > buffer_.size()) return send(static_cast<const char*>(data), size);
   std::memcpy(buffer_.data() + used_, data, size);
   used_ += size;
 }
@@ -114,18 +114,13 @@ void Output::number(std::int64_t value) {
 
 void Output::commit() {
   flush();
-  if (is_stdout_) {
-    if (std::fflush(stdout) != 0) fail(std::string("cannot be written: ") + std::strerror(errno));
-    return;
+  if (is_stdout_) return;
+  if (temporary_.is_open()) {
+    descriptor_ = -1;
+    if (!temporary_.rename_to(target_)) fail(std::string("cannot be renamed into place: ") + std::strerror(errno));
+  } else if (close(std::exchange(descriptor_, -1)) != 0) {
+    fail(std::string("cannot be written: ") + std::strerror(errno));
   }
-  const int closed = std::fclose(file_);
-  file_ = nullptr;
-  if (closed != 0) fail(std::string("cannot be written: ") + std::strerror(errno));
-  if (temporary_.empty()) return;
-  std::error_code error;
-  fs::rename(temporary_, target_, error);
-  if (error) fail("cannot be renamed into place: " + error.message());
-  temporary_.clear();
 }
 
 }  // namespace brushfire::detail

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <brushfire/io/detail/binary.h>
+#include <brushfire/io/detail/temporary_file.h>
 
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,8 +15,9 @@
 namespace brushfire::detail {
 
 // Collects bytes in a buffer and writes them to a temporary beside the target, which commit() renames; without commit()
-// the temporary goes away. "-" is standard output; devices and pipes are written to directly. Everything that fails is
-// Error(FileNotWritable).
+// the temporary goes away. "-" is standard output; devices and pipes are written to directly, links are followed.
+// Everything that fails is Error(FileNotWritable). Listens to the thread's CancelScope, also while a pipe is waited
+// for.
 class Output {
  public:
   explicit Output(const std::string& path);
@@ -50,11 +51,15 @@ class Output {
  private:
   void bytes(const void* data, std::size_t size);
   void flush();
+  void send(const char* data, std::size_t size);
+  void open_pipe_or_device();
   [[noreturn]] void fail(const std::string& cause);
 
-  std::string name_, target_, temporary_;
-  std::FILE* file_ = nullptr;
+  std::string name_, target_;
+  TemporaryFile temporary_;  // where the target is a file
+  int descriptor_ = -1;
   bool is_stdout_ = false;
+  bool waits_ = false;  // for who reads a pipe
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };

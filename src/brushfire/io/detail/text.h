@@ -1,6 +1,7 @@
 // TextCursor: words and numbers out of text, with the line for messages.
 #pragma once
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/types.h>
 #include <brushfire/io/detail/input.h>
 
@@ -38,8 +39,7 @@ class TextCursor {
   bool to_word() {
     while (!to_word_on_line()) {
       if (at_ == end_) return false;
-      ++at_;
-      ++line_;
+      end_line();
     }
     return true;
   }
@@ -53,8 +53,7 @@ class TextCursor {
   bool next_line() {
     skip_to_end_of_line();
     if (at_ == end_) return false;
-    ++at_;
-    ++line_;
+    end_line();
     return true;
   }
 
@@ -206,10 +205,17 @@ class TextCursor {
   }
 
  private:
+  void end_line() {
+    poll_();
+    ++at_;
+    ++line_;
+  }
+
   const Input* input_;
   const char* at_;
   const char* end_;
   std::size_t line_;
+  Poll poll_;
   char comment_;
 };
 

@@ -23,11 +23,14 @@ struct Problem {
   std::span<const LocatedSource> sources;    // not empty
   std::span<const PointLocation> targets;    // may be empty
   double max_distance = kInfinity;           // in mesh.unit()
-  const DistanceOptions* options = nullptr;  // for everything else: precision, progress, cancel
+  const DistanceOptions* options = nullptr;  // for everything else: precision, progress
   // Where set, the run must cost what it reaches: nothing may be done for all vertices. The engine appends every vertex
   // whose entry in the field it changed, once each, in any order and also when it throws; error_bound stays empty.
   // Only given to an engine that lists_touched().
   std::vector<Index>* touched = nullptr;
+  // What is added to values afterwards, by source, in the mesh's units; empty: 0. For what outlives the run.
+  std::span<const double> bases{};
+  const CancelToken* cancel = nullptr;  // the caller's, else what the calling thread listens to
   // Where set, this is a run on a single mesh: see sheets.h.
   std::shared_ptr<const SheetView> view = nullptr;
 };

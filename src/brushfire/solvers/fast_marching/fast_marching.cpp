@@ -142,7 +142,7 @@ class Marcher {
         final_ = front;
         break;
       }
-      work(problem.options->cancel);
+      work(problem.cancel);
       check_cancel(problem);
     }
   }
@@ -176,7 +176,7 @@ class Marcher {
   }
 
   void check_cancel(const Problem& problem) const {
-    if (problem.options->cancel && problem.options->cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
+    if (problem.cancel && problem.cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
     if (problem.options->progress) {
       problem.options->progress(static_cast<double>(state_.touched()) / static_cast<double>(state_.front_at.size()));
     }

@@ -2,6 +2,7 @@
 // are found on the way, and adds what comes of that to the vertices around.
 #include <brushfire/solvers/fast_marching/ring_blocks.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/planar.h>
 #include <brushfire/core/populate.h>
 #include <brushfire/solvers/fast_marching/bend.h>
@@ -75,6 +76,7 @@ class RingBuilder {
   void fill() {
     PlainFans<T> fans;
     for (Index first = 0; first < fans_.none; first = begun_) {
+      poll_();
       begun_ = std::min(first + kFans, fans_.none);
       lanes_.make_room(begun_);
       Fan::fill(fans_, first, begun_ - first, lanes_.first_block(first), lanes_.first_links(first), fans);
@@ -88,7 +90,10 @@ class RingBuilder {
       if (obtuse_.size() >= kUnfoldAtOnce) unfold_obtuse_corners();
     }
     unfold_obtuse_corners();
-    for (const Late& t : late_) lanes_.add_unfolded(t.at, t.corner);
+    for (const Late& t : late_) {
+      poll_();
+      lanes_.add_unfolded(t.at, t.corner);
+    }
   }
 
   // So few that what they need is still in a cache.
@@ -103,6 +108,7 @@ class RingBuilder {
   friend class UnfoldedCorners<T>;
   void prefetch(Index v) const { lanes_.prefetch_ring(v); }
   BRUSHFIRE_INLINE void add_unfolded(Index v, const Corner& corner) {
+    poll_();
     if (((corner.a ^ v) | (corner.b ^ v)) >> part_shift_ != 0) at_border_.push_back(v);
     if (v < begun_) {
       lanes_.add_unfolded(v, corner);
@@ -135,6 +141,7 @@ class RingBuilder {
 
   // Any vertex: boundaries, more faces than lanes, faces that are mirrored, doubled or degenerate, lengths only.
   void fill_any(Index v) {
+    poll_();
     double deficit = 2 * kPi, around = 0;
     lanes_.begin_empty(v);
     loose_.clear();
@@ -235,6 +242,7 @@ class RingBuilder {
   void bend_fronts() {
     constexpr Index kAhead = 12;
     for (Index v = 0; v < fans_.none; ++v) {
+      poll_();
       if (v + kAhead < fans_.none) detail::prefetch(&rings_.blocks[v + kAhead]);
       const Patch around = plain_sides_[v] > 0 ? plain_sum(v) : any_sum(v);
       rings_.heads[v].bend = static_cast<T>(front_bend(patches_[v], around));
@@ -301,6 +309,7 @@ class RingBuilder {
 
   // The corner at h is a target from the two other vertices of its face.
   void mark_unsplit(Index h) {
+    poll_();
     const Index target = mesh_.from(h), next = mesh_.to(h);
     const Index previous = mesh_.from(Mesh::previous(h));
     mark_unsplit({next, target, previous});
@@ -352,6 +361,7 @@ class RingBuilder {
   const Mesh& mesh_;
   Variant variant_;
   std::span<const Face> faces_;
+  Poll poll_{256};  // a step may be a vertex of many faces
   FanMesh fans_;
   int part_shift_;
   double sum_of_lengths_ = 0;

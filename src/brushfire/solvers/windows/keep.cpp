@@ -14,14 +14,21 @@ void Results::keep() {
   auto data = std::make_shared<WindowFieldData>();
   data->mesh = mesh;
   data->sources.assign(run_.problem->sources.begin(), run_.problem->sources.end());
+  data->bases.assign(run_.problem->bases.begin(), run_.problem->bases.end());
   data->shift = run_.shift;
   PointRecord unknown;
   if (run_.radius < kInfinity) unknown.value = std::numeric_limits<double>::quiet_NaN();
-  data->vertices.assign(mesh.vertex_count(), unknown);
+  constexpr Index kMany =
+      4;  // of as many vertices one was touched: looking for its record costs more than room for all
+  if (run_.problem->touched && run_.problem->touched->size() < mesh.vertex_count() / kMany) {
+    data->vertices.resize_few(mesh.vertex_count(), run_.problem->touched->size(), unknown);
+  } else {
+    data->vertices.resize(mesh.vertex_count(), unknown);
+  }
   for (const Part& part : parts_) {
     part.for_each_touched([&](Index v) {
       if (run_.values[v].lower > run_.radius || !is_first_copy(v)) return;
-      data->vertices[run_.structure.outer_vertex(v)] = {run_.values[v].lower, label_of(v), outer(run_.rays[v])};
+      data->vertices.set(run_.structure.outer_vertex(v), {run_.values[v].lower, label_of(v), outer(run_.rays[v])});
     });
   }
   data->targets.assign(run_.problem->targets.begin(), run_.problem->targets.end());

@@ -152,7 +152,7 @@ void Part::work(std::int64_t last, Workbench& bench) {
 }
 
 void Part::poll() const {
-  const CancelToken* cancel = run_->problem->options->cancel;
+  const CancelToken* cancel = run_->problem->cancel;
   if (cancel && cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
 }
 

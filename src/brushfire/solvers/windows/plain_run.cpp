@@ -24,8 +24,9 @@ std::shared_ptr<const WindowField> window_field_of(const PlainRun& run) {
   data->view = run.problem->view;
   PointRecord unknown;
   if (!run.whole) unknown.value = std::numeric_limits<double>::quiet_NaN();
-  data->vertices.assign(run.mesh.vertex_count(), unknown);
-  for (const PlainRun::Record& r : run.vertices) data->vertices[r.vertex] = record_of(r);
+  data->bases.assign(run.problem->bases.begin(), run.problem->bases.end());
+  data->vertices.resize(run.mesh.vertex_count(), unknown);
+  for (const PlainRun::Record& r : run.vertices) data->vertices.set(r.vertex, record_of(r));
   data->targets.assign(run.problem->targets.begin(), run.problem->targets.end());
   for (const PlainRun::Record& r : run.targets) data->target.push_back(record_of(r));
   data->all_points = run.problem->options->keep_windows;

@@ -168,7 +168,7 @@ class WindowEngine final : public NumberedEngine {
     for (const Shares::Due& d : due_) updates_ += parts_[d.part].count_updates();
     field_->updates = updates_;
     const DistanceOptions& options = *run_.problem->options;
-    if (updates_ / kOften != before / kOften && options.cancel && options.cancel->cancelled()) {
+    if (updates_ / kOften != before / kOften && run_.problem->cancel && run_.problem->cancel->cancelled()) {
       throw Error(ErrorCode::Cancelled, "cancelled");
     }
     if (updates_ / kSeldom != before / kSeldom && options.progress) options.progress(share_done());

@@ -1,6 +1,7 @@
 // Face records, angle sums, which vertices bend paths, and the cutting into parts.
 #include <brushfire/solvers/windows/detail/structure.h>
 
+#include <brushfire/core/cancel.h>
 #include <brushfire/core/populate.h>
 #include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
@@ -287,7 +288,9 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
   faces.resize(mesh.face_count());
   bend.assign(n, Bend::None);
   std::vector<Around> around(n);
+  Poll poll;
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    poll();
     outer.prefetch_after(f);
     WindowFace& face = faces[f];
     const FaceShape shape = outer.shape(f);

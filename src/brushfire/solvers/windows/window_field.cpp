@@ -139,7 +139,7 @@ WindowField::Leg last_leg_of(const detail::WindowFieldData& data, const Found& f
   if (ray.halfedge == kNoIndex) leg = leg_without_ray(data, found, vertex);
   if (ray.halfedge != kNoIndex) leg = detail::trace_leg(data, found.at, ray, found.record.value);
   if (leg.points.empty()) {
-    const std::function<Real(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
+    const std::function<double(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
     const PointLocation at = locate(data.mesh, {found.at.face, found.at.weights});
     leg = detail::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value, ray.root,
                             ray.halfedge, ray.source});
@@ -180,9 +180,11 @@ WindowField::WindowField(std::shared_ptr<const detail::WindowFieldData> data) : 
 const Mesh& WindowField::mesh() const noexcept { return data_->view ? data_->view->sheets->mesh() : data_->mesh; }
 
 WindowField::Value WindowField::value(const SurfacePoint& point) const {
+  if (point.is_nowhere()) return {};
   const PointRecord record = Look(*data_).point(located(*data_, point)).record;
   if (!(record.value < kInfinity)) return {};
-  return {data_->mesh.unit() * (record.value - data_->shift), record.label};
+  const double base = data_->bases.empty() ? 0 : data_->bases[record.label];
+  return {base + data_->mesh.unit() * (record.value - data_->shift), record.label};
 }
 
 WindowField::Leg WindowField::last_leg(Index vertex) const {
@@ -194,6 +196,7 @@ WindowField::Leg WindowField::last_leg(Index vertex) const {
 }
 
 WindowField::Leg WindowField::last_leg(const SurfacePoint& point) const {
+  if (point.is_nowhere()) return {};
   const PointLocation at = located(*data_, point);
   if (at.on == PointLocation::On::Vertex) return last_leg(at.vertex);
   Leg leg = in_callers_numbers(*data_, last_leg_of(*data_, Look(*data_).point(at), kNoIndex));

@@ -23,16 +23,16 @@ class LinkShadow {
   struct Arc {
     Index halfedge;  // of the corner
     Index from, to;  // nodes of the edge that leaves the corner, and of the one that enters it
-    Real angle;
+    double angle;
   };
   void find_nodes(const WindowStructure& mesh, std::span<const Index> corners);
   void measure_from(const WindowStructure& mesh, const CrossedAt& arrival);
 
   std::vector<std::pair<Index, Index>> sides_;  // halfedges at the vertex, ascending, and their nodes
   std::vector<Arc> arcs_;
-  std::vector<Real> way_;                      // [nodes] from the arrival, no farther than pi
-  std::vector<std::vector<Index>> arcs_at_;    // [nodes or more]
-  std::vector<std::pair<Real, Index>> queue_;  // a heap of nodes, the nearest first
+  std::vector<double> way_;                      // [nodes] from the arrival, no farther than pi
+  std::vector<std::vector<Index>> arcs_at_;      // [nodes or more]
+  std::vector<std::pair<double, Index>> queue_;  // a heap of nodes, the nearest first
   std::vector<Sector> sectors_;
 };
 

@@ -1,0 +1,357 @@
+"""Distance matrices: dense, sparse, into arrays of other libraries, into a file."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from brushfire import _core
+from brushfire._arrays import floating_type, number, path_text, whole
+from brushfire._curves import OnMesh
+from brushfire._errors import BrushfireError, BrushfireTypeError
+from brushfire._options import Options, options, thread_count
+from brushfire._places import PlaceArrays, Places
+from brushfire._progress import Progress, Reporter, shown
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
+
+Symmetric = Literal["mean", "min"]
+
+_BLOCK_BYTES = 1 << 26
+_SYMMETRIC_BLOCK = 1024
+
+
+class Matrices(OnMesh):
+    """The distance matrices of a Mesh."""
+
+    def distance_matrix(
+        self,
+        rows: Places | None = None,
+        columns: Places | None = None,
+        *,
+        method: str | None = None,
+        tolerance: float | None = None,
+        max_distance: float = np.inf,
+        precision: str | None = None,
+        dtype: npt.DTypeLike = np.float32,
+        out: Any = None,
+        symmetric: Symmetric | None = None,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> Any:
+        """Distances from every row's place to every column's place.
+
+        :param rows: places: vertices, points or a mask; all vertices if none are given.
+        :param columns: likewise.
+        :param method, tolerance, precision: as for :meth:`distance`.
+        :param max_distance: what is farther reads +inf.
+        :param dtype: float32 (rounded from float64, 7 digits), float64, or float16 (3 digits, up to 65504: what does not
+            fit is an error).
+        :param out: of shape (rows, columns), to be filled instead of a new array, its dtype is what counts: a
+            C-contiguous, writable numpy array (a ``numpy.memmap`` for instance) or torch tensor of the CPU; or a zarr array
+            or another one that takes ``out[i:j] = rows``, which gets a block of rows at a time.
+        :param symmetric: where rows and columns are the same places: ``"mean"`` or ``"min"`` of both directions, which
+            approximate methods and rounding leave a little apart. ``scipy.spatial.distance.squareform`` takes the result.
+        :param threads: 0 means one per processor. The numbers are the same to the bit for any number of threads.
+        :return: (rows, columns). Rows and columns of vertices in no face are +inf throughout.
+        :raises BrushfireError: code ``too_large`` before anything is computed where the result does not fit into memory.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.distance_matrix([0, 1], method="dijkstra").tolist()
+        [[0.0, 3.0, 5.0, 4.0], [3.0, 0.0, 4.0, 7.0]]
+        """
+        row, column = self._optional(rows, "rows"), self._optional(columns, "columns")
+        if symmetric is not None:
+            _check_symmetric(symmetric, row, column)
+        shape = (self._count(row), self._count(column))
+        chosen = options(method, tolerance, max_distance, precision=precision)
+        team = thread_count(threads)
+        result = _new_matrix(shape, dtype) if out is None else out
+        array = _memory_of(result)
+        _check_out(array, shape)
+        with shown(progress, "matrix") as report:
+            if 0 in shape:
+                pass
+            elif _fits_core(array):
+                self._fill(array, row, column, chosen, team, report)
+            else:
+                self._fill_by_blocks(array, row, column, chosen, team, report)
+        if symmetric is not None:
+            _symmetrize(array, symmetric)
+        return result
+
+    def _fill(
+        self,
+        array: npt.NDArray[Any],
+        row: PlaceArrays | None,
+        column: PlaceArrays | None,
+        chosen: Options,
+        threads: int,
+        report: Reporter | None,
+    ) -> None:
+        _core.fill_matrix(self._mesh, array, *_pair(row), *_pair(column), chosen, threads, report)
+
+    def _fill_by_blocks(
+        self,
+        array: Any,
+        row: PlaceArrays | None,
+        column: PlaceArrays | None,
+        chosen: Options,
+        threads: int,
+        report: Reporter | None,
+    ) -> None:
+        """What the core does not write to itself: rows by blocks of its chunks, in the type that is wanted."""
+        rows, columns = array.shape
+        wanted = np.dtype(array.dtype)
+        single = wanted != np.float64
+        chunk = getattr(array, "chunks", None) or (1,)
+        step = max(1, _BLOCK_BYTES // max(1, columns * (4 if single else 8)) // chunk[0]) * chunk[0]
+        for begin in range(0, rows, step):
+            end = min(rows, begin + step)
+            block = np.empty((end - begin, columns), dtype=np.float32 if single else np.float64)
+            self._fill(block, self._some(row, begin, end), column, chosen, threads, _part(report, begin, end, rows))
+            array[begin:end] = _as_type(block, wanted)
+
+    def _some(self, row: PlaceArrays | None, begin: int, end: int) -> PlaceArrays:
+        if row is None:
+            return PlaceArrays(np.arange(begin, end), None)
+        return PlaceArrays(row.index[begin:end], None if row.weights is None else row.weights[begin:end])
+
+    def distances_within(
+        self,
+        radius: float,
+        rows: Places | None = None,
+        *,
+        method: str | None = None,
+        tolerance: float | None = None,
+        precision: str | None = None,
+        dtype: npt.DTypeLike = np.float32,
+        symmetric: Symmetric | None = None,
+        threads: int = 0,
+        memory_limit: int = 0,
+        progress: Progress = None,
+    ) -> csr_matrix:
+        """All distances up to a radius, as a ``scipy.sparse.csr_matrix`` of shape (rows, vertex_count).
+
+        A row costs what it reaches, whatever the size of the mesh. A place's distance to itself is a stored zero: what is
+        not stored is farther than the radius. Columns ascend within a row.
+
+        :param radius: finite, >= 0.
+        :param rows: vertices, points or a mask; all vertices if none are given.
+        :param method, tolerance, precision: as for :meth:`distance`.
+        :param symmetric: for all vertices as rows: ``"mean"`` or ``"min"`` of both directions, of the one that is within
+            the radius where the other is not.
+        :param memory_limit: bytes that the result may take; 0 means what the machine has left.
+        :raises BrushfireError: code ``too_large`` where the result will not fit.
+        :raises ImportError: where scipy is not installed.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> near = mesh.distances_within(3.5, method="dijkstra")
+        >>> near.nnz, near[0].indices.tolist(), near[0].data.tolist()
+        (8, [0, 1], [0.0, 3.0])
+        """
+        row = self._optional(rows, "rows")
+        if symmetric is not None:
+            _check_symmetric(symmetric, row, None)
+        compute = _core.sparse_float32 if float_type(dtype) == np.float32 else _core.sparse_float64
+        most = whole(memory_limit, "memory_limit", np.iinfo(np.int64).max)
+        _scipy_sparse()  # before anything is computed
+        chosen = options(method, tolerance, np.inf, precision=precision)
+        limit, team = number(radius, "radius"), thread_count(threads)
+        with shown(progress, "rows") as report:
+            data, indices, starts = compute(self._mesh, limit, *_pair(row), chosen, team, most, report)
+        if symmetric is not None:
+            data, indices, starts = _symmetric_rows(data, indices, starts, symmetric)
+        return sparse_matrix(data, indices, starts, self._mesh.vertex_count)
+
+    def write_distance_matrix(
+        self,
+        path: str | os.PathLike[str],
+        rows: Places | None = None,
+        columns: Places | None = None,
+        *,
+        method: str | None = None,
+        tolerance: float | None = None,
+        max_distance: float = np.inf,
+        precision: str | None = None,
+        dtype: npt.DTypeLike = np.float32,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> None:
+        """``distance_matrix()`` into a .npy file, a row at a time, for what is larger than memory.
+
+        Interrupted, it goes on where it stopped when it is called again with the same arguments; until it is complete
+        the rows stand in ``path + ".part"``. Open the result with ``numpy.load(path, mmap_mode="r")``.
+
+        :raises BrushfireError: code ``file_not_writable``, also where the disk has not enough room left.
+
+        >>> import brushfire as bf, numpy as np, tempfile, os
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     mesh.write_distance_matrix(os.path.join(folder, "d.npy"), [1], method="dijkstra")
+        ...     np.load(os.path.join(folder, "d.npy")).tolist()
+        [[3.0, 0.0, 4.0, 7.0]]
+        """
+        row, column = self._optional(rows, "rows"), self._optional(columns, "columns")
+        chosen = options(method, tolerance, max_distance, precision=precision)
+        single = bool(float_type(dtype) == np.float32)
+        team = thread_count(threads)
+        with shown(progress, "matrix") as report:
+            _core.write_matrix(self._mesh, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
+
+    def _optional(self, places: Any, what: str) -> PlaceArrays | None:
+        """None for all vertices."""
+        return None if places is None else self._arrays(places, what)
+
+    def _count(self, places: PlaceArrays | None) -> int:
+        return self._mesh.vertex_count if places is None else len(places.index)
+
+
+def _pair(places: PlaceArrays | None) -> tuple[Any, Any]:
+    return (None, None) if places is None else (places.index, places.weights)
+
+
+def _part(report: Reporter | None, begin: int, end: int, rows: int) -> Reporter | None:
+    """The share of a block as a share of the whole."""
+    if report is None:
+        return None
+    return lambda share: report((begin + share * (end - begin)) / rows)
+
+
+def float_type(dtype: npt.DTypeLike) -> np.dtype[Any]:
+    """float32 or float64."""
+    return floating_type(dtype)
+
+
+def _new_matrix(shape: tuple[int, int], dtype: npt.DTypeLike) -> npt.NDArray[Any]:
+    wanted = np.dtype(np.float16) if _is_half(dtype) else float_type(dtype)
+    if wanted == np.float16:
+        _require_memory_of_halves(shape)
+    else:
+        _core.require_dense_memory(*shape, bool(wanted == np.float32), 0)
+    return np.empty(shape, dtype=wanted)
+
+
+def _is_half(dtype: npt.DTypeLike) -> bool:
+    try:
+        return bool(np.dtype(dtype) == np.float16)
+    except TypeError:
+        return False
+
+
+def _require_memory_of_halves(shape: tuple[int, int]) -> None:
+    try:
+        _core.require_dense_memory(shape[0], (shape[1] + 1) // 2, True, 0)  # as many bytes
+    except BrushfireError as error:
+        raise BrushfireError(
+            f"a {shape[0]} x {shape[1]} float16 matrix does not fit into memory: ask for fewer rows or columns, or for "
+            "distances within a radius (sparse)",
+            error.code,
+        ) from None
+
+
+def _memory_of(out: Any) -> Any:
+    """A numpy view of a torch tensor; anything else itself."""
+    if hasattr(out, "detach") and hasattr(out, "numpy"):
+        try:
+            return out.detach().numpy()
+        except (TypeError, RuntimeError) as error:  # of a GPU, or of a type that numpy has not
+            raise BrushfireTypeError(f"out: {error}") from None
+    return out
+
+
+def _fits_core(array: Any) -> bool:
+    return isinstance(array, np.ndarray) and array.dtype != np.float16
+
+
+def _check_out(array: Any, shape: tuple[int, int]) -> None:
+    if isinstance(array, (list, tuple)) or not all(hasattr(array, a) for a in ("shape", "dtype", "__setitem__")):
+        raise BrushfireTypeError(f"out: an array that can be written to is needed, not {type(array).__name__}")
+    if np.dtype(array.dtype) != np.float16:
+        float_type(array.dtype)
+    flags = getattr(array, "flags", None)
+    plain = not isinstance(array, np.ndarray) or (array.flags.c_contiguous and array.flags.writeable)
+    if tuple(array.shape) != shape or not plain:
+        what = "a writable C-contiguous array" if flags is not None else "an array"
+        raise BrushfireError(f"out: {what} of shape {shape} is needed, not {tuple(array.shape)}")
+
+
+def _as_type(block: npt.NDArray[Any], wanted: np.dtype[Any]) -> npt.NDArray[Any]:
+    """Rounded; what has no place among the numbers of float16 is an error, neither infinity nor 0."""
+    if wanted != np.float16:
+        return block.astype(wanted, copy=False)
+    rounded: npt.NDArray[Any]
+    with np.errstate(over="ignore", under="ignore"):
+        rounded = block.astype(np.float16)
+    lost = (np.isinf(rounded) & np.isfinite(block)) | ((rounded == 0) & (block != 0))
+    if lost.any():
+        raise BrushfireError(f"float16: a distance of {block[lost][0]:g} is out of its range: ask for float32")
+    return rounded
+
+
+def _check_symmetric(symmetric: Any, row: PlaceArrays | None, column: PlaceArrays | None) -> None:
+    if symmetric not in ("mean", "min"):
+        raise BrushfireError(f"symmetric: 'mean' or 'min' is needed, not {symmetric!r}")
+    for a, b in zip(_pair(row), _pair(column), strict=True):
+        if not (a is b or (a is not None and b is not None and np.array_equal(a, b))):
+            raise BrushfireError("symmetric: rows and columns must be the same places")
+
+
+def _either_way(a: npt.NDArray[Any], b: npt.NDArray[Any], symmetric: Symmetric) -> npt.NDArray[Any]:
+    """The same bits for (a, b) and (b, a); of one number and none, the number."""
+    least: npt.NDArray[Any] = np.fmin(a, b)
+    if symmetric == "mean":
+        mean = a / 2 + b / 2
+        return np.where(np.isfinite(mean), mean, least)
+    return least
+
+
+def _symmetrize(array: Any, symmetric: Symmetric) -> None:
+    """In place, a pair of blocks at a time."""
+    cuts = [slice(b, b + _SYMMETRIC_BLOCK) for b in range(0, array.shape[0], _SYMMETRIC_BLOCK)]
+    for i, above in enumerate(cuts):
+        for beside in cuts[: i + 1]:
+            both = _either_way(np.asarray(array[above, beside]), np.asarray(array[beside, above]).T, symmetric)
+            array[above, beside] = both
+            array[beside, above] = both.T
+
+
+def _symmetric_rows(
+    data: npt.NDArray[Any], indices: npt.NDArray[Any], starts: npt.NDArray[Any], symmetric: Symmetric
+) -> tuple[npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any]]:
+    """Of a square matrix in compressed rows; the union of what is stored in either direction is stored in both."""
+    count = len(starts) - 1
+    row = np.repeat(np.arange(count, dtype=np.int64), np.diff(starts))
+    here, there = row * count + indices, indices.astype(np.int64) * count + row
+    entries = np.union1d(here, there)
+    a, b = np.full(len(entries), np.nan, data.dtype), np.full(len(entries), np.nan, data.dtype)
+    a[np.searchsorted(entries, here)] = data
+    b[np.searchsorted(entries, there)] = data
+    starts = np.searchsorted(entries, np.arange(count + 1, dtype=np.int64) * count)
+    return _either_way(a, b, symmetric), (entries % max(1, count)).astype(indices.dtype), starts
+
+
+def _scipy_sparse() -> Any:
+    try:
+        import scipy.sparse
+    except ImportError:
+        raise ImportError("a scipy matrix is returned: pip install 'brushfire[sparse]'") from None
+    return scipy.sparse
+
+
+def sparse_matrix(
+    data: npt.NDArray[Any], indices: npt.NDArray[Any], starts: npt.NDArray[Any], columns: int
+) -> csr_matrix:
+    """Compressed rows whose columns ascend. scipy wants one integer type for both: 32 bits where they do."""
+    integer = np.int32 if len(data) <= np.iinfo(np.int32).max else np.int64
+    pointers, numbers = starts.astype(integer, copy=False), indices.astype(integer, copy=False)
+    matrix = _scipy_sparse().csr_matrix((data, numbers, pointers), shape=(len(starts) - 1, columns), copy=False)
+    matrix.has_sorted_indices = True
+    matrix.has_canonical_format = True
+    return matrix

@@ -1,0 +1,11 @@
+// Files that are being written, for who has to end the process in their midst.
+#pragma once
+
+namespace brushfire {
+
+// Removes the temporary files of all outputs that this process has begun and not completed (see docs/files.md), and
+// keeps every thread that is at one from going on: for use before _exit() only. From any thread, not from a signal
+// handler.
+void remove_unfinished_files() noexcept;
+
+}  // namespace brushfire

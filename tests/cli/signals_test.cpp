@@ -1,0 +1,221 @@
+// Ctrl-C and SIGTERM end whatever the program is at within 0.3 s: a table of verb, phase and signal.
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "io/io_support.h"
+
+namespace brushfire::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kPromise{300};
+// What a machine with more to do than it has processors may add, before a process is looked at at all.
+constexpr milliseconds kLoadedSlack{1500};
+
+milliseconds limit() {
+  double load = 0;
+  const bool known = getloadavg(&load, 1) == 1;
+  return known && load > 0.75 * std::thread::hardware_concurrency() ? kPromise + kLoadedSlack : kPromise;
+}
+
+enum class Input { None, Silent, Endless };  // standard input: empty; a pipe that says nothing; one that never ends
+enum class Output { Dropped, NobodyReads };  // standard output
+
+struct Case {
+  const char* phase;
+  std::vector<std::string> arguments;
+  milliseconds delay{200};  // from the start to the signal: the phase has begun by then
+  Input input = Input::None;
+  Output output = Output::Dropped;
+};
+
+// The files that the cases need, made once.
+class Folder {
+ public:
+  Folder() {
+    run({"shape", "terrain", "-n", "600000", "-o", path("terrain.ply"), "-q"});
+    run({"shape", "sphere", "-n", "20000", "-o", path("sphere.ply"), "-q"});
+    run({"shape", "sphere", "-n", "600", "-o", path("small.ply"), "-q"});
+    mkfifo(path("pipe").c_str(), 0600);
+    mkfifo(path("pipe.csv").c_str(), 0600);
+    std::ofstream fan(path("fan.obj"));
+    constexpr int kFaces = 1'000'000;
+    fan << "v 0 0 0\n";
+    for (int i = 0; i < kFaces; ++i)
+      fan << "v " << std::cos(6.28 * i / kFaces) << ' ' << std::sin(6.28 * i / kFaces) << " 0\n";
+    for (int i = 0; i < kFaces; ++i) fan << "f 1 " << 2 + i << ' ' << 2 + (i + 1) % kFaces << '\n';
+  }
+
+  std::string path(const std::string& name) const { return folder_ / name; }
+
+ private:
+  static void run(const std::vector<std::string>& arguments) {
+    std::string command = BRUSHFIRE_PROGRAM;
+    for (const std::string& a : arguments) command += " '" + a + "'";
+    if (std::system(command.c_str()) != 0) std::abort();
+  }
+
+  TemporaryDirectory folder_;
+};
+
+// One run of the program, from its start to its end.
+class Program {
+ public:
+  explicit Program(const Case& c) {
+    std::array<int, 2> in{}, out{};
+    if (pipe2(in.data(), O_CLOEXEC) != 0 || pipe2(out.data(), O_CLOEXEC) != 0) std::abort();
+    child_ = fork();
+    if (child_ == 0) {
+      for (const int s : {SIGINT, SIGTERM, SIGPIPE}) std::signal(s, SIG_DFL);
+      const int nothing = open("/dev/null", O_RDWR);
+      dup2(c.input == Input::None ? nothing : in[0], STDIN_FILENO);
+      dup2(c.output == Output::Dropped ? nothing : out[1], STDOUT_FILENO);
+      dup2(nothing, STDERR_FILENO);
+      std::vector<std::string> words{BRUSHFIRE_PROGRAM};
+      words.insert(words.end(), c.arguments.begin(), c.arguments.end());
+      std::vector<char*> argv;
+      for (std::string& w : words) argv.push_back(w.data());
+      argv.push_back(nullptr);
+      execv(argv[0], argv.data());
+      _exit(127);
+    }
+    close(in[0]);
+    to_child_ = in[1];
+    from_child_ = out[0];
+    close(out[1]);
+    fcntl(to_child_, F_SETFL, O_NONBLOCK);
+    endless_ = c.input == Input::Endless;
+  }
+  ~Program() {
+    if (!ended_) {
+      kill(child_, SIGKILL);
+      waitpid(child_, &status_, 0);
+    }
+    close(to_child_);
+    close(from_child_);
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  void feed_until(Clock::time_point end) {
+    static const std::string zeros = [] {
+      std::string text;
+      for (int i = 0; i < 20000; ++i) text += "0\n";
+      return text;
+    }();
+    while (Clock::now() < end) {
+      const bool sent = endless_ && write(to_child_, zeros.data(), zeros.size()) > 0;
+      if (!sent) std::this_thread::sleep_for(milliseconds(1));
+    }
+  }
+  bool has_ended() {
+    ended_ = ended_ || waitpid(child_, &status_, WNOHANG) == child_;
+    return ended_;
+  }
+  void send(int signal) const { kill(child_, signal); }
+  // As a shell would see it; -1 where a signal ended it.
+  int exit_code() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }
+
+ private:
+  pid_t child_ = -1;
+  int to_child_ = -1, from_child_ = -1, status_ = 0;
+  bool ended_ = false, endless_ = false;
+};
+
+std::vector<std::string> many_waypoints(const std::string& mesh) {
+  std::vector<std::string> arguments{"path", mesh, "--from", "0", "--to", "1", "--tighten"};
+  for (int i = 0; i < 2000; ++i) {
+    arguments.emplace_back("--via");
+    arguments.push_back(std::to_string(7919 * i % 10000));
+  }
+  return arguments;
+}
+
+std::vector<Case> cases(const Folder& f) {
+  const std::string terrain = f.path("terrain.ply"), sphere = f.path("sphere.ply"), small = f.path("small.ply");
+  const std::string fan = f.path("fan.obj"), pipe = f.path("pipe"), out = f.path("out");
+  std::vector<Case> all{
+      {"mesh from a pipe that says nothing", {"info", "-"}, milliseconds(200), Input::Silent},
+      {"mesh from a pipe without end", {"info", "-"}, milliseconds(200), Input::Endless},
+      {"reading text", {"info", fan}, milliseconds(100)},
+      {"counting", {"info", terrain}, milliseconds(300)},
+      {"sources from a pipe that nobody opens", {"distance", small, "--sources", pipe}},
+      {"sources that say nothing", {"distance", small, "--sources", "-"}, milliseconds(200), Input::Silent},
+      {"sources without end", {"distance", small, "--sources", "-"}, milliseconds(200), Input::Endless},
+      {"exact, set-up of a fan", {"distance", fan, "-s", "0", "-m", "exact"}, milliseconds(900)},
+      {"novotni-klein, set-up of a fan", {"distance", fan, "-s", "0", "-m", "novotni-klein"}, milliseconds(900)},
+      {"exact, one thread", {"distance", terrain, "-s", "0", "-m", "exact", "--threads", "1"}, milliseconds(900)},
+      {"exact, two threads", {"distance", terrain, "-s", "0", "-m", "exact", "--threads", "2"}, milliseconds(900)},
+      {"output to a pipe that nobody opens", {"distance", small, "-s", "0", "-o", f.path("pipe.csv")}},
+      {"output to a pipe that nobody reads",
+       {"distance", terrain, "-s", "0", "-m", "dijkstra", "-o", "-"},
+       milliseconds(1500),
+       Input::None,
+       Output::NobodyReads},
+      {"nearest points", {"path", fan, "--from", "at:0,0,1", "--to", "5"}, milliseconds(1000)},
+      {"paths", many_waypoints(sphere), milliseconds(300)},
+      {"straight curves",
+       {"isolines", terrain, "-s", "0", "-m", "novotni-klein", "--count", "20000", "-o", out + ".json"},
+       milliseconds(900)},
+      {"curved curves",
+       {"isolines", small, "-s", "0", "--count", "300", "--curved", "1e-13", "-o", out + ".json"},
+       milliseconds(500)},
+      {"rows", {"matrix", sphere, "-o", out + ".npy", "-m", "exact"}, milliseconds(500)},
+      {"rows within a radius", {"matrix", sphere, "-r", "1", "-m", "exact", "-o", out + ".npz"}, milliseconds(500)},
+      {"painting",
+       {"render", terrain, "-s", "0", "-m", "dijkstra", "--size", "16384x16384", "-o", out + ".png"},
+       milliseconds(1500)},
+      {"an animation", {"render", sphere, "-s", "0", "--wave", "500", "-o", out + ".webp"}, milliseconds(500)},
+      {"reading a field", {"compare", "-", "-"}, milliseconds(200), Input::Silent},
+      {"measuring", {"bench", sphere, "-m", "exact", "--repeat", "1000"}, milliseconds(500)},
+  };
+  for (const char* shape : {"terrain", "sphere", "cube", "torus", "folded-sphere", "delaunay-square"}) {
+    all.push_back({shape, {"shape", shape, "-n", "2e7", "-o", out + ".ply"}, milliseconds(300)});
+  }
+  return all;
+}
+
+TEST(Signals, EveryVerbInEveryPhaseEndsWithin300Milliseconds) {
+  const Folder folder;
+  std::printf("%-10s %-38s %-8s %8s\n", "verb", "phase", "signal", "ms");
+  for (const Case& c : cases(folder)) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+      Program run(c);
+      run.feed_until(Clock::now() + c.delay);
+      ASSERT_FALSE(run.has_ended()) << c.arguments[0] << ", " << c.phase << ": ended before the signal";
+      const milliseconds most = limit();
+      const auto begin = Clock::now();
+      run.send(signal);
+      while (!run.has_ended() && Clock::now() - begin < most + kLoadedSlack)
+        run.feed_until(Clock::now() + milliseconds(1));
+      const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+      std::printf("%-10s %-38s %-8s %8.0f%s\n", c.arguments[0].c_str(), c.phase,
+                  signal == SIGINT ? "SIGINT" : "SIGTERM", ms, most > kPromise ? "  (loaded machine)" : "");
+      std::fflush(stdout);
+      EXPECT_LE(ms, static_cast<double>(most.count())) << c.arguments[0] << ", " << c.phase;
+      ASSERT_TRUE(run.has_ended());
+      EXPECT_EQ(run.exit_code(), 128 + signal) << c.arguments[0] << ", " << c.phase;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace brushfire::test
