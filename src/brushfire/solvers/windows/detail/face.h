@@ -43,7 +43,7 @@ struct Frame {
   Real left;    // a to apex
   Real right;   // apex to b
   Vec2 apex;
-  Real rest;  // from the foot of the apex to b: length - apex.x
+  Real rest = length - apex.x;  // from the foot of the apex to b
 };
 
 // The frame of halfedge k of a face (a WindowFace or a FaceShape); its length is > 0.
@@ -54,7 +54,7 @@ template <class F>
     return {length, left, right, {f.foot[k], f.double_area / length}, right * (f.foot[next3(k)] / length)};
   } else {
     const Vec2 apex = apex_over_edge(length, left, right, f.double_area);
-    return {length, left, right, apex, length - apex.x};
+    return {length, left, right, apex};
   }
 }
 
