@@ -197,8 +197,20 @@ TEST(LeastTolerance, BelowItFieldsAreThoseOfAnExactRun) {
       for (const Bound bound : {Bound::Estimate, Bound::Lower, Bound::Upper}) {
         const double t = std::min(below * least, kMaxTolerance);
         const DistanceField field = solver.distance({&source, 1}, windows(t, bound));
-        EXPECT_EQ(field.distance, truth.distance) << name << ", t " << t;
-        EXPECT_EQ(field.max_error_bound, truth.max_error_bound) << name << ", t " << t;
+        if (bound == Bound::Estimate) {
+          EXPECT_EQ(field.distance, truth.distance) << name << ", t " << t;
+          EXPECT_EQ(field.max_error_bound, truth.max_error_bound) << name << ", t " << t;
+        }
+        for (Index v = 0; v < mesh.vertex_count(); ++v) {  // a wanted bound is on its side by what rounding may do
+          if (bound == Bound::Lower) {
+            ASSERT_LE(field.distance[v], truth.distance[v]) << name;
+          }
+          if (bound == Bound::Upper) {
+            ASSERT_GE(field.distance[v], truth.distance[v]) << name;
+          }
+          if (truth.distance[v] == kInfinity) continue;
+          ASSERT_LE(std::abs(field.distance[v] - truth.distance[v]), 1.01 * truth.error_bound[v]) << name;
+        }
         EXPECT_EQ(field.updates, truth.updates) << name << ", t " << t;
       }
     }

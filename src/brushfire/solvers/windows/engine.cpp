@@ -11,8 +11,11 @@ namespace brushfire::detail {
 namespace {
 
 // Doubles serve exact runs as long as they are sure to tell the distance between any two neighbours to this share of
-// it. Scans and most machine parts have 1e-14 to 1e-10 (docs/decisions/wide-numbers.md). Always said in error_bound.
-constexpr double kDoubtAllowed = 1e-9;
+// it. Scans and most machine parts have 1e-14 to 1e-10 (docs/decisions/wide-numbers.md). Wider numbers take some 30
+// times as long: where that means more than seconds, fewer digits have to do. What is sure is always said in
+// error_bound.
+constexpr double kDoubtAllowed = 1e-9, kDoubtAllowedInLarge = 1e-3;
+constexpr Index kLarge = 1 << 16;  // faces
 // And runs with a tolerance to this share of the tolerance.
 constexpr double kOfTolerance = 1.0 / 64;
 
@@ -33,7 +36,8 @@ class Windows final : public Engine {
  private:
   Engine& engine_for(const DistanceOptions& options) {
     const double tolerance = options.method == Method::Exact ? 0 : options.tolerance;
-    if (narrow_->doubt() <= std::max(kDoubtAllowed, kOfTolerance * tolerance)) return *narrow_;
+    const double allowed = mesh_.face_count() < kLarge ? kDoubtAllowed : kDoubtAllowedInLarge;
+    if (narrow_->doubt() <= std::max(allowed, kOfTolerance * tolerance)) return *narrow_;
     if (!wide_) wide_ = in_double_doubles::make_engine(mesh_, kOnePart, merging_);
     return *wide_;
   }

@@ -200,8 +200,8 @@ WindowField::Leg WindowField::last_leg(const SurfacePoint& point) const {
   const PointLocation at = located(*data_, point);
   if (at.on == PointLocation::On::Vertex) return last_leg(at.vertex);
   Leg leg = in_callers_numbers(*data_, last_leg_of(*data_, Look(*data_).point(at), kNoIndex));
-  // It may be inside of a copy of the face.
-  if (data_->view && !leg.points.empty()) leg.points.front() = point;
+  // It may be inside of a copy of the face. (On an edge it may have been snapped, and the leg begins in another face.)
+  if (data_->view && at.on == PointLocation::On::Interior && !leg.points.empty()) leg.points.front() = point;
   return leg;
 }
 
