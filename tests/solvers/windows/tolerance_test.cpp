@@ -217,7 +217,7 @@ TEST(LeastTolerance, BelowItFieldsAreThoseOfAnExactRun) {
     if (2.02 * least > kMaxTolerance) continue;
     const DistanceField merged = solver.distance({&source, 1}, windows(1.01 * least));
     const DistanceField upper = solver.distance({&source, 1}, windows(2.02 * least, Bound::Upper));
-    EXPECT_GT(merged.max_error_bound, truth.max_error_bound) << name;
+    EXPECT_GE(merged.max_error_bound, truth.max_error_bound) << name;  // on planes nothing is lost
     EXPECT_EQ(upper.updates, merged.updates) << name;  // the same budget
   }
 }
