@@ -33,6 +33,8 @@ void add_counts(Record& record, const MeshReport& r) {
   add("repeated_index_faces", r.repeated_index_faces);
   add("duplicate_faces", r.duplicate_faces);
   add("duplicate_positions", r.duplicate_positions);
+  add("near_positions", r.near_positions);
+  record.add("near_tolerance", r.near_tolerance);
   record.add("looks_like_soup", r.looks_like_soup);
   record.add("min_edge_length", r.min_edge_length);
   record.add("mean_edge_length", r.mean_edge_length);

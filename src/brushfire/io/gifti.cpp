@@ -131,6 +131,15 @@ class GiftiParser {
   bool name_is_next_ = false;
 };
 
+// A matrix of so many rows and columns, in row order, turned.
+std::vector<double> transposed(const std::vector<double>& values, std::size_t rows, std::size_t columns) {
+  std::vector<double> turned(values.size());
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (std::size_t c = 0; c < columns; ++c) turned[c * rows + r] = values[r * columns + c];
+  }
+  return turned;
+}
+
 // The values of an array in row order.
 std::vector<double> values_of(const Input& input, const GiftiArray& a) {
   const std::size_t budget = input.inflate_budget();
@@ -176,11 +185,7 @@ std::vector<double> values_of(const Input& input, const GiftiArray& a) {
     input.fail_line(a.line, "data of encoding " + quote(a.encoding) + " is not read");
   }
   if (a.column_major && a.columns > 1) {
-    std::vector<double> rows(values.size());
-    for (std::size_t r = 0; r < a.rows; ++r) {
-      for (std::size_t c = 0; c < a.columns; ++c) rows[r * a.columns + c] = values[c * a.rows + r];
-    }
-    values = std::move(rows);
+    values = transposed(values, a.columns, a.rows);
   }
   return values;
 }
@@ -191,6 +196,19 @@ void need_columns(const Input& input, const GiftiArray& a, std::uint64_t columns
                                 std::to_string(columns));
   }
 }
+
+// Points and triangles: three to a row. Some programs write them as the columns of three rows.
+std::vector<double> triples_of(const Input& input, GiftiArray a, bool are_columns) {
+  std::vector<double> values = values_of(input, a);
+  if (are_columns && a.rows == 3) {
+    values = transposed(values, a.rows, a.columns);
+    std::swap(a.rows, a.columns);
+  }
+  need_columns(input, a, 3);
+  return values;
+}
+
+bool has_three_rows_only(const GiftiArray& a) { return a.rows == 3 && a.columns != 3; }
 
 }  // namespace
 
@@ -209,9 +227,8 @@ MeshParts read_gifti(const Input& input) {
   if (points == nullptr) input.fail("has no array of points: no surface");
   if (triangles == nullptr) input.fail("has no array of triangles: no surface");
   if (others) parts.remarks.push_back("several surfaces, of which the first was read");
-  need_columns(input, *points, 3);
-  need_columns(input, *triangles, 3);
-  const std::vector<double> xyz = values_of(input, *points);
+  const bool are_columns = has_three_rows_only(*points) || has_three_rows_only(*triangles);
+  const std::vector<double> xyz = triples_of(input, *points, are_columns);
   parts.positions.resize(xyz.size() / 3);
   for (std::size_t v = 0; v < parts.positions.size(); ++v) {
     parts.positions[v] = {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
@@ -219,7 +236,7 @@ MeshParts read_gifti(const Input& input) {
       input.fail_line(points->line, "point " + std::to_string(v) + " has a coordinate that is not finite");
     }
   }
-  const std::vector<double> corners = values_of(input, *triangles);
+  const std::vector<double> corners = triples_of(input, *triangles, are_columns);
   parts.faces.reserve(corners.size() / 3);
   for (std::size_t f = 0; f + 2 < corners.size(); f += 3) {
     for (std::size_t k = f; k < f + 3; ++k) {
@@ -239,7 +256,7 @@ LoadedField read_gifti_field(const Input& input, const std::string& name) {
   for (const GiftiArray& a : file.arrays) {
     if (a.intent == "NIFTI_INTENT_POINTSET" || a.intent == "NIFTI_INTENT_TRIANGLE") continue;
     if (!name.empty() && a.name != name) continue;
-    need_columns(input, a, 1);
+    if (a.rows != 1) need_columns(input, a, 1);
     LoadedField field;
     field.values = values_of(input, a);
     field.name = a.name;

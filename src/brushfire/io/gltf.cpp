@@ -7,6 +7,7 @@
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/numbers.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -127,6 +128,7 @@ class GltfReader {
   MeshParts read_scene() {
     parts_.places_are_lines = false;
     if (!json_.is_object()) fail("not as glTF says: no object at the top");
+    check_version();
     check_extensions();
     const std::size_t nodes = json_.contains("nodes") ? json_.at("nodes").size() : 0;
     visited_.assign(nodes, false);
@@ -147,13 +149,36 @@ class GltfReader {
     return std::move(parts_);
   }
 
-  void check_extensions() const {
-    if (!json_.contains("extensionsRequired")) return;
-    for (const Json& e : json_.at("extensionsRequired")) {
-      const auto name = e.get<std::string>();
-      if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression") {
-        fail("uses the extension " + name + ", which is not read");
+  // glTF 1.0 is another format under the same names.
+  void check_version() const {
+    const auto asset = json_.find("asset");
+    if (asset == json_.end() || !asset->is_object() || !asset->contains("version")) return;
+    const auto version = asset->at("version").get<std::string>();
+    if (version.substr(0, 2) != "2.") fail("glTF " + printable(version) + " is not read, only 2.0");
+  }
+
+  // What a file requires must be known: it may change the shape. These change its looks only, or the types of numbers
+  // that are read anyway.
+  void check_extensions() {
+    static constexpr std::string_view kHarmless[]{
+        "KHR_mesh_quantization", "KHR_texture_transform",  "KHR_texture_basisu",
+        "KHR_lights_punctual",   "KHR_xmp_json_ld",        "KHR_xmp",
+        "EXT_texture_webp",      "EXT_texture_avif",       "MSFT_texture_dds",
+        "KHR_animation_pointer", "EXT_lights_image_based", "EXT_lights_ies"};
+    const auto is_harmless = [](std::string_view name) {
+      return name.substr(0, 14) == "KHR_materials_" ||
+             std::find(std::begin(kHarmless), std::end(kHarmless), name) != std::end(kHarmless);
+    };
+    if (json_.contains("extensionsRequired")) {
+      for (const Json& e : json_.at("extensionsRequired")) {
+        const auto name = e.get<std::string>();
+        if (!is_harmless(name)) fail("requires the extension " + quote(name) + ", which is not read");
       }
+    }
+    // What is used without being required may be left out, as the format says; instances are worth a word.
+    if (!json_.contains("extensionsUsed")) return;
+    for (const Json& e : json_.at("extensionsUsed")) {
+      if (e.get<std::string>() == "EXT_mesh_gpu_instancing") parts_.remarks.emplace_back("instances left out");
     }
   }
 
@@ -296,7 +321,6 @@ class GltfReader {
   std::vector<double> accessor(std::size_t index, std::size_t components) {
     const Json& a = item("accessors", index);
     const std::string name = "accessor " + std::to_string(index);
-    if (a.contains("sparse")) fail(name + " is sparse, which is not read");
     if (a.at("type").get<std::string>() != (components == 3 ? "VEC3" : "SCALAR")) fail(name + " has the wrong type");
     const NumberType type = component_type(needed(a, "componentType"));
     const std::size_t count = needed(a, "count");
@@ -304,24 +328,59 @@ class GltfReader {
     if (count > budget_ / (components * sizeof(double)))
       fail("the accessors come to far more than the file's size: refused");
     budget_ -= count * components * sizeof(double);
-    if (!a.contains("bufferView")) return std::vector<double>(count * components, 0.0);
-    const Json& view = item("bufferViews", needed(a, "bufferView"));
-    const std::string_view bytes = view_bytes(view);
-    const std::size_t element = components * size_of(type), stride = number(view, "byteStride").value_or(element);
-    const std::size_t offset = number(a, "byteOffset").value_or(0);
-    const bool fits = offset <= bytes.size() &&
-                      (count == 0 || (element <= bytes.size() - offset &&
-                                      (stride == 0 || count - 1 <= (bytes.size() - offset - element) / stride)));
-    if (!fits) fail(name + " reaches beyond its buffer view of " + std::to_string(bytes.size()) + " bytes");
-    std::vector<double> values(count * components);
     const double scale = a.contains("normalized") && a.at("normalized").get<bool>() ? largest(type) : 1;
-    for (std::size_t e = 0; e < count; ++e) {
-      for (std::size_t k = 0; k < components; ++k) {
-        const double v = load_number(type, bytes.data() + offset + e * stride + k * size_of(type), std::endian::little);
-        values[e * components + k] = scale == 1 ? v : std::max(v / scale, -1.0);
+    std::vector<double> values(count * components, 0.0);
+    if (a.contains("bufferView")) {
+      const std::size_t stride = number(item("bufferViews", needed(a, "bufferView")), "byteStride").value_or(0);
+      read_elements(a, name, {type, count, components, stride}, scale, values.data());
+    }
+    if (a.contains("sparse")) apply_sparse(a.at("sparse"), name, {type, count, components, 0}, scale, values);
+    return values;
+  }
+
+  // How numbers stand in a buffer view; stride 0: one element after the other.
+  struct Layout {
+    NumberType type;
+    std::size_t count, components, stride;
+  };
+
+  // The elements of the buffer view that `object` names.
+  void read_elements(const Json& object, const std::string& name, const Layout& layout, double scale, double* out) {
+    const std::string_view bytes = view_bytes(item("bufferViews", needed(object, "bufferView")));
+    const std::size_t element = layout.components * size_of(layout.type);
+    const std::size_t stride = layout.stride != 0 ? layout.stride : element;
+    const std::size_t offset = number(object, "byteOffset").value_or(0);
+    const bool fits = offset <= bytes.size() &&
+                      (layout.count == 0 || (element <= bytes.size() - offset &&
+                                             layout.count - 1 <= (bytes.size() - offset - element) / stride));
+    if (!fits) fail(name + " reaches beyond its buffer view of " + std::to_string(bytes.size()) + " bytes");
+    for (std::size_t e = 0; e < layout.count; ++e) {
+      for (std::size_t k = 0; k < layout.components; ++k) {
+        const char* p = bytes.data() + offset + e * stride + k * size_of(layout.type);
+        const double v = load_number(layout.type, p, std::endian::little);
+        *out++ = scale == 1 ? v : std::max(v / scale, -1.0);
       }
     }
-    return values;
+  }
+
+  // Some elements of an accessor have values of their own.
+  void apply_sparse(const Json& sparse, const std::string& name, Layout layout, double scale,
+                    std::vector<double>& values) {
+    const std::size_t count = needed(sparse, "count");
+    if (count > layout.count) fail(name + " has more sparse elements than elements");
+    layout.count = count;
+    const Json& where = sparse.at("indices");
+    std::vector<double> index(count), replaced(count * layout.components);
+    read_elements(where, name, {component_type(needed(where, "componentType")), count, 1, 0}, 1, index.data());
+    read_elements(sparse.at("values"), name, layout, scale, replaced.data());
+    for (std::size_t e = 0; e < count; ++e) {
+      const double at = index[e];
+      if (!(at >= 0) || at != std::floor(at) || at >= static_cast<double>(values.size() / layout.components)) {
+        fail(name + " has a sparse element beyond its end");
+      }
+      std::copy_n(replaced.begin() + static_cast<std::ptrdiff_t>(e * layout.components), layout.components,
+                  values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(at) * layout.components));
+    }
   }
 
   NumberType component_type(std::size_t code) const {

@@ -20,15 +20,21 @@ std::optional<Type> type_of(std::string_view name) {
     std::string_view name;
     Type type;
   };
-  static constexpr Name kNames[]{
-      {"char", Type::Int8},     {"int8", Type::Int8},       {"uchar", Type::UInt8},    {"uint8", Type::UInt8},
-      {"short", Type::Int16},   {"int16", Type::Int16},     {"ushort", Type::UInt16},  {"uint16", Type::UInt16},
-      {"int", Type::Int32},     {"int32", Type::Int32},     {"uint", Type::UInt32},    {"uint32", Type::UInt32},
-      {"float", Type::Float32}, {"float32", Type::Float32}, {"double", Type::Float64}, {"float64", Type::Float64}};
+  static constexpr Name kNames[]{{"char", Type::Int8},       {"int8", Type::Int8},      {"uchar", Type::UInt8},
+                                 {"uint8", Type::UInt8},     {"short", Type::Int16},    {"int16", Type::Int16},
+                                 {"ushort", Type::UInt16},   {"uint16", Type::UInt16},  {"int", Type::Int32},
+                                 {"int32", Type::Int32},     {"uint", Type::UInt32},    {"uint32", Type::UInt32},
+                                 {"int64", Type::Int64},     {"uint64", Type::UInt64},  {"float", Type::Float32},
+                                 {"float32", Type::Float32}, {"double", Type::Float64}, {"float64", Type::Float64}};
   for (const Name& n : kNames) {
     if (n.name == name) return n.type;
   }
   return std::nullopt;
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return text;
 }
 
 Type read_type(TextCursor& text) {
@@ -68,11 +74,23 @@ Encoding read_encoding(TextCursor& text) {
   here.fail_word("ascii, binary_little_endian or binary_big_endian");
 }
 
+// How long the line end behind the header is, of which `left` bytes are left. Where lines end in CR alone, a line feed
+// behind the last one is data.
+std::size_t line_end_size(std::string_view bytes, std::size_t left) {
+  const std::size_t first = bytes.find_first_of("\r\n");
+  const bool ends_in_cr_lf = first != std::string_view::npos && bytes.substr(first, 2) == "\r\n";
+  return std::min<std::size_t>(left, ends_in_cr_lf ? 2 : 1);
+}
+
 }  // namespace
 
 const Property* Element::find(std::string_view property) const {
   for (const Property& p : properties) {
     if (p.name == property) return &p;
+  }
+  // Some programs write X, Y, Z and the like.
+  for (const Property& p : properties) {
+    if (lower(p.name) == property) return &p;
   }
   return nullptr;
 }
@@ -108,9 +126,10 @@ Header read_header(const Input& input) {
     }
   }
   if (!has_format) text.fail("the header has no format line");
-  if (!text.next_line()) text.skip_to_end_of_line();
-  header.size = static_cast<std::size_t>(text.position() - input.bytes().data());
-  header.lines = text.line() - 1;
+  text.skip_to_end_of_line();
+  header.size =
+      static_cast<std::size_t>(text.position() - input.bytes().data()) + line_end_size(input.bytes(), text.left());
+  header.lines = text.line();
   return header;
 }
 
@@ -162,6 +181,11 @@ class BinaryRows {
   }
   static std::size_t shortest(const Property& p) { return size_of(p.is_list ? p.count_type : p.type); }
 
+  void begin_row(const Element&, std::uint64_t) {}
+  void end_row() {}
+  std::size_t rows_with_more() const { return 0; }
+  bool has_rest() const { return !text_start(input_->bytes().substr(at_)).empty(); }
+
   [[noreturn]] void fail(std::size_t place, const std::string& cause) const { input_->fail_byte(place, cause); }
 
  private:
@@ -170,17 +194,31 @@ class BinaryRows {
   std::size_t at_;
 };
 
-// The same over text.
+// The same over text, where every row is a line.
 class AsciiRows {
  public:
   AsciiRows(const Input& input, const Header& header)
       : input_(&input), text_(input, input.bytes().substr(header.size), header.lines + 1) {}
 
-  std::size_t place() {  // where the next number stands
-    text_.to_word();
-    return text_.line();
+  std::size_t place() const { return text_.line(); }
+
+  // To the line of the next row.
+  void begin_row(const Element& e, std::uint64_t row) {
+    if (!text_.to_word()) text_.fail("the file ends before " + row_name(e, row));
   }
-  double number(Type, const Element&, std::uint64_t) { return text_.number("a number"); }
+  double number(Type, const Element& e, std::uint64_t row) {
+    if (!text_.to_word_on_line()) text_.fail("the line ends within " + row_name(e, row));
+    return text_.number_here("a number");
+  }
+  // What stands in the line behind the row's values belongs to no property.
+  void end_row() {
+    if (!text_.to_word_on_line()) return;
+    ++rows_with_more_;
+    text_.skip_to_end_of_line();
+  }
+  std::size_t rows_with_more() const { return rows_with_more_; }
+  // Whether something follows the last row.
+  bool has_rest() { return text_.to_word(); }
 
   void check_promise(const Element& e, std::size_t shortest_row) const {
     if (shortest_row != 0 && e.count > (text_.left() + 1) / shortest_row) {
@@ -193,8 +231,13 @@ class AsciiRows {
   [[noreturn]] void fail(std::size_t place, const std::string& cause) const { input_->fail_line(place, cause); }
 
  private:
+  static std::string row_name(const Element& e, std::uint64_t row) {
+    return "row " + std::to_string(row) + " of the " + std::to_string(e.count) + " of element " + quote(e.name);
+  }
+
   const Input* input_;
   TextCursor text_;
+  std::size_t rows_with_more_ = 0;
 };
 
 template <class Rows>
@@ -219,6 +262,11 @@ class PlyReader {
       }
     }
     if (!has_vertices) rows_.fail(rows_.place(), "the file has no vertices");
+    if (rows_.rows_with_more() != 0) {
+      parts_.remarks.push_back(counted(rows_.rows_with_more(), "row has", "rows have") +
+                               " more values than the header names: left out");
+    }
+    if (rows_.has_rest()) parts_.remarks.emplace_back("more follows the last row than the header names: left out");
     return std::move(parts_);
   }
 
@@ -279,6 +327,7 @@ class PlyReader {
     }
     std::vector<double> row(e.properties.size());
     for (std::uint64_t v = 0; v < e.count; ++v) {
+      rows_.begin_row(e, v);
       const std::size_t place = rows_.place();
       for (std::size_t k = 0; k < row.size(); ++k) {
         if (e.properties[k].is_list) {
@@ -287,6 +336,7 @@ class PlyReader {
           row[k] = rows_.number(e.properties[k].type, e, v);
         }
       }
+      rows_.end_row();
       add_vertex({row[axis[0]], row[axis[1]], row[axis[2]]}, place);
     }
   }
@@ -379,6 +429,7 @@ class PlyReader {
   // One number of every row.
   void read_column(const Element& e, const Property& wanted, std::vector<double>& values) {
     for (std::uint64_t row = 0; row < e.count; ++row) {
+      rows_.begin_row(e, row);
       for (const Property& p : e.properties) {
         if (&p == &wanted) {
           values.push_back(rows_.number(p.type, e, row));
@@ -386,12 +437,15 @@ class PlyReader {
           skip_property(e, row, p);
         }
       }
+      rows_.end_row();
     }
   }
 
   void skip(const Element& e) {
     for (std::uint64_t row = 0; row < e.count; ++row) {
+      rows_.begin_row(e, row);
       for (const Property& p : e.properties) skip_property(e, row, p);
+      rows_.end_row();
     }
   }
 
@@ -400,6 +454,7 @@ class PlyReader {
   void for_each_list(const Element& e, const Property& wanted, double lowest, Use use) {
     std::vector<double> entries;
     for (std::uint64_t row = 0; row < e.count; ++row) {
+      rows_.begin_row(e, row);
       const std::size_t place = rows_.place();
       for (const Property& p : e.properties) {
         if (&p != &wanted) {
@@ -418,6 +473,7 @@ class PlyReader {
         }
         use(entries, place);
       }
+      rows_.end_row();
     }
   }
 

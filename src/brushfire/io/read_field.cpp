@@ -38,7 +38,7 @@ namespace {
 class CsvRows {
  public:
   explicit CsvRows(const Input& input) : input_(&input), text_(input, input.bytes()) {
-    const std::string_view first = input.bytes().substr(0, input.bytes().find('\n'));
+    const std::string_view first = input.bytes().substr(0, input.bytes().find_first_of("\r\n"));
     for (const char c : {',', ';', '\t'}) {
       if (first.find(c) != std::string_view::npos) {
         separator_ = c;
@@ -55,7 +55,6 @@ class CsvRows {
       text_.skip_to_end_of_line();
       std::string_view row(begin, static_cast<std::size_t>(text_.position() - begin));
       text_.next_line();
-      if (!row.empty() && row.back() == '\r') row.remove_suffix(1);
       if (row.find_first_not_of(" \t") == std::string_view::npos || row[0] == '#') continue;
       cells.clear();
       while (true) {
@@ -71,7 +70,8 @@ class CsvRows {
   bool is_number(std::string_view cell, double& value) const {
     if (!cell.empty() && cell[0] == '+') cell.remove_prefix(1);
     const auto result = fast_float::from_chars(cell.data(), cell.data() + cell.size(), value);
-    return result.ec == std::errc() && result.ptr == cell.data() + cell.size();
+    if (result.ec == std::errc() && result.ptr == cell.data() + cell.size()) return true;
+    return read_foreign_number(cell, value);
   }
   double number(std::string_view cell) const {
     double value = 0;
@@ -255,10 +255,11 @@ const FieldFormat* format_named(std::string_view name) {
 const FieldFormat* format_by_content(std::string_view bytes) {
   if (starts_with(bytes, "\x93NUMPY")) return format_named("NPY");
   if (starts_with(bytes, "\xff\xff\xff")) return format_named("FreeSurfer curvature");
-  if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return format_named("PLY");
-  if (starts_with(bytes, "# vtk DataFile")) return format_named("VTK");
-  if (starts_with(bytes, "<")) {
-    const std::string_view head = bytes.substr(0, 1024);
+  const std::string_view text = text_start(bytes);
+  if (starts_with(text, "ply\n") || starts_with(text, "ply\r")) return format_named("PLY");
+  if (starts_with(text, "# vtk DataFile")) return format_named("VTK");
+  if (starts_with(text, "<")) {
+    const std::string_view head = text.substr(0, 1024);
     if (head.find("<GIFTI") != std::string_view::npos) return format_named("GIFTI");
     if (head.find("<VTKFile") != std::string_view::npos) return format_named("VTP");
   }
@@ -267,16 +268,17 @@ const FieldFormat* format_by_content(std::string_view bytes) {
 
 // For files without a telling name, as on standard input.
 const FieldFormat* format_by_look(std::string_view bytes) {
-  const std::string_view line = bytes.substr(0, bytes.find('\n'));
+  const std::string_view text = text_start(bytes), line = text.substr(0, text.find_first_of("\r\n"));
   if (starts_with(line, "#!ascii label")) return format_named("FreeSurfer label");
   if (starts_with(line, "{") || starts_with(line, "[")) return format_named("JSON");
-  if (starts_with(line, "vertex") || line.find_first_not_of("0123456789+-.eEinfan,; \t\r") == std::string_view::npos) {
+  if (starts_with(line, "vertex") || line.find_first_not_of("0123456789+-.eEdDinfan,; \t") == std::string_view::npos) {
     return format_named(line.find_first_of(",;") != std::string_view::npos ? "CSV" : "text");
   }
   return starts_with(line, "#") ? format_named("text") : nullptr;
 }
 
-LoadedField read(const Input& input, const std::string& name) {
+LoadedField read(Input input, const std::string& name) {
+  input.drop_byte_order_mark();
   if (input.size() == 0) input.fail("the file is empty");
   const FieldFormat* format = format_by_content(input.bytes());
   const std::string extension = input.extension();

@@ -10,21 +10,27 @@
 
 namespace brushfire::detail {
 
+MeshParts read_3mf(const Input& input);
 MeshParts read_freesurfer(const Input& input);
+MeshParts read_freesurfer_text(const Input& input);
 MeshParts read_gifti(const Input& input);
 MeshParts read_gltf(const Input& input);
 MeshParts read_gmsh(const Input& input);
 MeshParts read_medit(const Input& input);
+MeshParts read_medit_binary(const Input& input);
 MeshParts read_obj(const Input& input);
 MeshParts read_off(const Input& input);
 MeshParts read_ply(const Input& input);
 MeshParts read_stl(const Input& input);
 MeshParts read_vtk(const Input& input);
-MeshParts read_vtp(const Input& input);
+MeshParts read_vtp(const Input& input);  // and .vtu
 
 // Does the content say itself that it is of this format?
+bool is_3mf(std::string_view bytes);
 bool is_gltf(std::string_view bytes);
+bool is_medit_binary(std::string_view bytes);
 bool is_stl(std::string_view bytes);
+bool is_binary_stl(std::string_view bytes);
 
 // Scalars on vertices; `name` chooses the array, "" takes the first.
 LoadedField read_csv_field(const Input& input, const std::string& name);
@@ -44,6 +50,7 @@ void write_freesurfer_curv(Output& out, const Mesh& mesh, const FieldView& field
 void write_gifti(Output& out, const Mesh& mesh, const FieldView& field);
 void write_json(Output& out, const Mesh& mesh, const FieldView& field);
 void write_obj(Output& out, const Mesh& mesh, const FieldView& field);
+void write_off(Output& out, const Mesh& mesh, const FieldView& field);
 void write_ply(Output& out, const Mesh& mesh, const FieldView& field);
 void write_vtk(Output& out, const Mesh& mesh, const FieldView& field);
 void write_vtp(Output& out, const Mesh& mesh, const FieldView& field);

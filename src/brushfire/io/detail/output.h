@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,7 @@ class Output {
   void number(std::int64_t value);
   void number(std::uint32_t value) { number(static_cast<std::int64_t>(value)); }
   void number(std::int32_t value) { number(static_cast<std::int64_t>(value)); }
+  void numbers(std::initializer_list<double> values, char separator);
 
   // Values as bytes in the given order.
   template <class T>
