@@ -8,8 +8,11 @@
 #include <brushfire/io/formats.h>
 #include <brushfire/io/npy.h>
 #include <brushfire/io/read_field.h>
+#include <brushfire/io/read_lines.h>
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/io/write_field.h>
+#include <brushfire/io/write_lines.h>
+#include <brushfire/io/write_mesh.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/surface_point.h>

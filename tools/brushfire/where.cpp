@@ -13,9 +13,24 @@
 namespace brushfire::tool {
 namespace {
 
+// At most forty characters, and of these no raw bytes: what was given may be a binary file.
+std::string quote(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string out = "'";
+  for (const unsigned char c : text.substr(0, kLongest)) {
+    static constexpr char kHex[] = "0123456789abcdef";
+    if (c >= 0x20 && c < 0x7f) {
+      out += static_cast<char>(c);
+    } else {
+      out += std::string("\\x") + kHex[c >> 4] + kHex[c & 15];
+    }
+  }
+  return out + (text.size() > kLongest ? "...'" : "'");
+}
+
 [[noreturn]] void refuse(std::string_view text, const char* why) {
   throw Error(ErrorCode::InvalidArgument,
-              "'" + std::string(text) + "' is no place on a mesh: " + why +
+              quote(text) + " is no place on a mesh: " + why +
                   "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (x,y,z)");
 }
 
@@ -122,7 +137,7 @@ SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
   const auto in_range = [&](std::uint64_t index, Index count, const char* what) {
     if (index < count) return static_cast<Index>(index);
     throw Error(ErrorCode::IndexOutOfRange,
-                "'" + where.text + "': there is no such " + what + ", the mesh has " + std::to_string(count));
+                quote(where.text) + ": there is no such " + what + ", the mesh has " + std::to_string(count));
   };
   if (const auto* vertex = std::get_if<VertexPlace>(&where.place)) {
     return vertex_point(mesh, in_range(vertex->index, mesh.vertex_count(), "vertex"));

@@ -5,19 +5,17 @@
 #include <brushfire/core/detail/base64.h>
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/formats.h>
+#include <brushfire/io/detail/json.h>
 #include <brushfire/io/detail/numbers.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 namespace brushfire::detail {
 
 namespace {
-
-using Json = nlohmann::json;
 
 using Matrix = std::array<double, 16>;  // column by column, as in the file
 constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -67,26 +65,13 @@ Chunks split_glb(const Input& input) {
   return chunks;
 }
 
-Json parse_json(const Input& input, const Chunks& chunks) {
-  constexpr int kDeepest = 64;
-  const auto callback = [&](int depth, Json::parse_event_t, Json&) {
-    // Thrown through the parser, which holds nothing that would leak.
-    if (depth > kDeepest) input.fail_byte(chunks.json_begin, "JSON is nested more than 64 deep");
-    return true;
-  };
-  try {
-    return Json::parse(chunks.json.begin(), chunks.json.end(), callback);
-  } catch (const Json::parse_error& e) {
-    input.fail_byte(chunks.json_begin + (e.byte > 0 ? e.byte - 1 : 0), "not JSON");
-  } catch (const Json::exception&) {
-    input.fail_byte(chunks.json_begin, "JSON with a number that no double holds");
-  }
-}
-
 class GltfReader {
  public:
   explicit GltfReader(const Input& input)
-      : input_(&input), chunks_(split_glb(input)), json_(parse_json(input, chunks_)), budget_(input.inflate_budget()) {}
+      : input_(&input),
+        chunks_(split_glb(input)),
+        json_(parse_json(input, chunks_.json, chunks_.json_begin)),
+        budget_(input.inflate_budget()) {}
 
   MeshParts read() {
     try {

@@ -157,20 +157,4 @@ MeshParts read_off(const Input& input) {
   return BinaryOff(input, input.size() - ahead.left(), *header).read();
 }
 
-void write_off(Output& out, const Mesh& mesh, const FieldView&) {
-  out.write("OFF\n" + std::to_string(mesh.vertex_count()) + " " + std::to_string(mesh.face_count()) + " 0\n");
-  for (const Vec3& p : mesh.positions()) {
-    out.numbers({p.x, p.y, p.z}, ' ');
-    out.write('\n');
-  }
-  for (const Face& f : mesh.faces()) {
-    out.write('3');
-    for (const Index v : f) {
-      out.write(' ');
-      out.number(v);
-    }
-    out.write('\n');
-  }
-}
-
 }  // namespace brushfire::detail

@@ -286,7 +286,78 @@ class PlyReader {
     rows_.fail(rows_.place(), "the vertices have no scalar" + (name.empty() ? std::string() : " " + quote(name)));
   }
 
+  // Edges in the order of the file: one that starts where the last one ended goes on with its line. A vertex in no edge
+  // is a line of one point.
+  LoadedLines read_lines() {
+    std::vector<std::array<Index, 2>> edges;
+    for (const Element& e : header_->elements) {
+      if (check_rows(e) == 0) continue;
+      if (e.name == "vertex") {
+        read_vertices(e);
+      } else if (e.name == "edge") {
+        read_edges(e, edges);
+      } else {
+        skip(e);
+      }
+    }
+    return chained(edges);
+  }
+
  private:
+  void read_edges(const Element& e, std::vector<std::array<Index, 2>>& edges) {
+    const Property *first = e.find("vertex1"), *second = e.find("vertex2");
+    if (first == nullptr || second == nullptr || first->is_list || second->is_list) {
+      rows_.fail(rows_.place(), "the edges have no properties vertex1 and vertex2");
+    }
+    for (std::uint64_t row = 0; row < e.count; ++row) {
+      rows_.begin_row(e, row);
+      const std::size_t place = rows_.place();
+      std::array<Index, 2>& edge = edges.emplace_back();
+      for (const Property& p : e.properties) {
+        if (&p != first && &p != second) {
+          skip_property(e, row, p);
+          continue;
+        }
+        const double v = rows_.number(p.type, e, row);
+        if (!(v >= 0) || v != std::floor(v) || v >= static_cast<double>(parts_.positions.size())) {
+          rows_.fail(place, "edge " + std::to_string(row) + " names vertex " + text_of(v) + ", but there are " +
+                                std::to_string(parts_.positions.size()) + " before it");
+        }
+        edge[&p == first ? 0 : 1] = static_cast<Index>(v);
+      }
+      rows_.end_row();
+    }
+  }
+
+  LoadedLines chained(const std::vector<std::array<Index, 2>>& edges) const {
+    struct Chain {
+      Index first;  // vertex: lines come in the order of their first vertices
+      LoadedLine line;
+    };
+    std::vector<Chain> chains;
+    std::vector<bool> is_used(parts_.positions.size(), false);
+    Index last = kNoIndex;
+    for (const auto& [a, b] : edges) {
+      is_used[a] = is_used[b] = true;
+      if (a != last) chains.push_back({a, {{parts_.positions[a]}, {}, false, std::nan("")}});
+      Chain& chain = chains.back();
+      if (b == chain.first && chain.line.positions.size() > 1) {
+        chain.line.closed = true;
+        last = kNoIndex;
+      } else {
+        chain.line.positions.push_back(parts_.positions[b]);
+        last = b;
+      }
+    }
+    for (Index v = 0; v < is_used.size(); ++v) {
+      if (!is_used[v]) chains.push_back({v, {{parts_.positions[v]}, {}, false, std::nan("")}});
+    }
+    std::stable_sort(chains.begin(), chains.end(), [](const Chain& a, const Chain& b) { return a.first < b.first; });
+    LoadedLines loaded;
+    for (Chain& chain : chains) loaded.lines.push_back(std::move(chain.line));
+    return loaded;
+  }
+
   static const Property* scalar(const Element& e, const std::string& name) {
     const Property* p = e.find(name.empty() ? "quality" : name);
     if (p != nullptr) return p->is_list ? nullptr : p;
@@ -550,6 +621,12 @@ LoadedField read_ply_field(const Input& input, const std::string& name) {
   const Header header = ply::read_header(input);
   if (header.encoding == Encoding::Ascii) return PlyReader<AsciiRows>(input, header).read_field(name);
   return PlyReader<BinaryRows>(input, header).read_field(name);
+}
+
+LoadedLines read_ply_lines(const Input& input) {
+  const Header header = ply::read_header(input);
+  if (header.encoding == Encoding::Ascii) return PlyReader<AsciiRows>(input, header).read_lines();
+  return PlyReader<BinaryRows>(input, header).read_lines();
 }
 
 // Binary, little-endian. MeshLab reads `quality` and the colours.

@@ -1,7 +1,9 @@
 // Which format a field has, and the formats that hold numbers only: .npy, CSV, text, JSON.
 #include <brushfire/core/error.h>
+#include <brushfire/io/detail/csv.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/text.h>
+#include <brushfire/io/formats.h>
 #include <brushfire/io/npy.h>
 #include <brushfire/io/read_field.h>
 
@@ -33,67 +35,6 @@ LoadedField read_text_field(const Input& input, const std::string&) {
 }
 
 namespace {
-
-// One line of a CSV file at a time, cut into cells.
-class CsvRows {
- public:
-  explicit CsvRows(const Input& input) : input_(&input), text_(input, input.bytes()) {
-    const std::string_view first = input.bytes().substr(0, input.bytes().find_first_of("\r\n"));
-    for (const char c : {',', ';', '\t'}) {
-      if (first.find(c) != std::string_view::npos) {
-        separator_ = c;
-        break;
-      }
-    }
-  }
-
-  // The next line that is not empty.
-  bool next(std::vector<std::string_view>& cells) {
-    while (!text_.at_end()) {
-      line_ = text_.line();
-      const char* begin = text_.position();
-      text_.skip_to_end_of_line();
-      std::string_view row(begin, static_cast<std::size_t>(text_.position() - begin));
-      text_.next_line();
-      if (row.find_first_not_of(" \t") == std::string_view::npos || row[0] == '#') continue;
-      cells.clear();
-      while (true) {
-        const std::size_t end = row.find(separator_);
-        cells.push_back(trimmed(row.substr(0, end)));
-        if (end == std::string_view::npos) return true;
-        row.remove_prefix(end + 1);
-      }
-    }
-    return false;
-  }
-
-  bool is_number(std::string_view cell, double& value) const {
-    if (!cell.empty() && cell[0] == '+') cell.remove_prefix(1);
-    const auto result = fast_float::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (result.ec == std::errc() && result.ptr == cell.data() + cell.size()) return true;
-    return read_foreign_number(cell, value);
-  }
-  double number(std::string_view cell) const {
-    double value = 0;
-    if (!is_number(cell, value)) fail(quote(cell) + " where a number is expected");
-    return value;
-  }
-  [[noreturn]] void fail(const std::string& cause) const { input_->fail_line(line_, cause); }
-
- private:
-  static std::string_view trimmed(std::string_view cell) {
-    const std::size_t begin = cell.find_first_not_of(" \t");
-    if (begin == std::string_view::npos) return {};
-    cell = cell.substr(begin, cell.find_last_not_of(" \t") - begin + 1);
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-    return cell;
-  }
-
-  const Input* input_;
-  TextCursor text_;
-  char separator_ = ',';
-  std::size_t line_ = 1;
-};
 
 constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
 
@@ -243,6 +184,7 @@ const FieldFormat kFormats[]{
     {"PLY", {"ply"}, read_ply_field},
     {"VTK", {"vtk"}, read_vtk_field},
     {"VTP", {"vtp"}, read_vtp_field},
+    {"VTU", {"vtu"}, read_vtp_field},
 };
 
 const FieldFormat* format_named(std::string_view name) {
@@ -261,7 +203,8 @@ const FieldFormat* format_by_content(std::string_view bytes) {
   if (starts_with(text, "<")) {
     const std::string_view head = text.substr(0, 1024);
     if (head.find("<GIFTI") != std::string_view::npos) return format_named("GIFTI");
-    if (head.find("<VTKFile") != std::string_view::npos) return format_named("VTP");
+    if (head.find("<VTKFile") != std::string_view::npos)
+      return format_named(head.find("\"UnstructuredGrid\"") != std::string_view::npos ? "VTU" : "VTP");
   }
   return nullptr;
 }
@@ -302,6 +245,14 @@ LoadedField read(Input input, const std::string& name) {
 }  // namespace
 
 }  // namespace detail
+
+std::vector<FileFormat> fields_read() {
+  std::vector<FileFormat> formats;
+  for (const detail::FieldFormat& f : detail::kFormats) {
+    formats.push_back({f.name, {f.extensions.begin(), f.extensions.end()}});
+  }
+  return formats;
+}
 
 LoadedField read_field(const std::string& path, const std::string& name) {
   return detail::read(detail::Input::from_file(path), name);

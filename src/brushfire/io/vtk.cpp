@@ -67,6 +67,7 @@ class VtkReader {
   enum class Kind { PolyData, Grid };
 
   void read_preamble() {
+    text_.to_word();
     const std::string_view first = text_.rest_of_line();
     if (first.substr(0, 14) != "# vtk DataFile") text_.fail("the file does not start with '# vtk DataFile'");
     text_.next_line();

@@ -9,6 +9,7 @@
 #include <brushfire/io/detail/vtk_cells.h>
 #include <brushfire/io/detail/xml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -30,7 +31,8 @@ struct Piece {
   std::size_t line = 0;
   std::optional<ArrayPlace> positions, poly_connectivity, poly_offsets, strip_connectivity, strip_offsets;
   std::optional<ArrayPlace> cell_connectivity, cell_offsets, cell_types;  // of an unstructured grid
-  std::vector<ArrayPlace> point_data;
+  std::optional<ArrayPlace> line_connectivity, line_offsets;
+  std::vector<ArrayPlace> point_data, cell_data;
   std::uint64_t vertices = 0, lines = 0;
 };
 
@@ -89,6 +91,37 @@ class VtpReader {
     return field;
   }
 
+  // The values of lines stand behind those of vertices, in the first scalar of the cells.
+  LoadedLines lines() {
+    LoadedLines loaded;
+    for (const Piece& piece : pieces_) {
+      MeshParts parts;
+      check_points(piece);
+      read_points(piece, parts);
+      const std::size_t first_line = loaded.lines.size();
+      read_cells(piece.line_connectivity, piece.line_offsets, piece, 0,
+                 [&](std::span<const double> corners, std::size_t) {
+                   LoadedLine& line = loaded.lines.emplace_back();
+                   line.value = std::nan("");
+                   line.closed = corners.size() > 2 && corners.front() == corners.back();
+                   for (const double v : line.closed ? corners.first(corners.size() - 1) : corners) {
+                     if (v != std::floor(v)) input_->fail_line(piece.line, "a line names point " + std::to_string(v));
+                     line.positions.push_back(parts.positions[static_cast<std::size_t>(v)]);
+                   }
+                 });
+      const auto scalar = std::find_if(piece.cell_data.begin(), piece.cell_data.end(),
+                                       [](const ArrayPlace& a) { return a.components == 1; });
+      if (scalar == piece.cell_data.end()) continue;
+      loaded.value_name = scalar->name;
+      const std::vector<double> values = numbers(*scalar);
+      for (std::size_t k = first_line; k < loaded.lines.size(); ++k) {
+        const std::size_t at = piece.vertices + k - first_line;
+        if (at < values.size()) loaded.lines[k].value = values[at];
+      }
+    }
+    return loaded;
+  }
+
  private:
   void element(std::span<const XmlElement> path) {
     const XmlElement& e = path.back();
@@ -107,6 +140,8 @@ class VtpReader {
                                    {"Polys", "offsets", &Piece::poly_offsets},
                                    {"Strips", "connectivity", &Piece::strip_connectivity},
                                    {"Strips", "offsets", &Piece::strip_offsets},
+                                   {"Lines", "connectivity", &Piece::line_connectivity},
+                                   {"Lines", "offsets", &Piece::line_offsets},
                                    {"Cells", "connectivity", &Piece::cell_connectivity},
                                    {"Cells", "offsets", &Piece::cell_offsets},
                                    {"Cells", "types", &Piece::cell_types}};
@@ -117,6 +152,8 @@ class VtpReader {
       piece_.positions = place_of(e);
     } else if (section == "PointData" && type_of(e)) {  // strings and bits are passed over
       piece_.point_data.push_back(place_of(e));
+    } else if (section == "CellData" && type_of(e)) {
+      piece_.cell_data.push_back(place_of(e));
     }
   }
 
@@ -179,25 +216,9 @@ class VtpReader {
   }
 
   void read_piece(const Piece& piece, VtkCells& cells, MeshParts& parts) {
-    if (piece.points > input_->inflate_budget()) {
-      input_->fail_line(piece.line,
-                        "NumberOfPoints is " + std::to_string(piece.points) + ", beyond what the file can hold");
-    }
+    check_points(piece);
     const std::size_t first = parts.positions.size();
-    if (piece.positions) {
-      const std::vector<double> xyz = numbers(*piece.positions, 3 * piece.points);
-      parts.positions.reserve(first + piece.points);
-      for (std::size_t v = 0; v < piece.points; ++v) {
-        const Vec3 p{xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-          input_->fail_line(piece.positions->line,
-                            "point " + std::to_string(v) + " has a coordinate that is not finite");
-        }
-        parts.positions.push_back(p);
-      }
-    } else if (piece.points != 0) {
-      input_->fail_line(piece.line, "the piece has no <Points>");
-    }
+    read_points(piece, parts);
     const auto first_point = static_cast<double>(first);
     read_cells(
         piece.poly_connectivity, piece.poly_offsets, piece, first_point,
@@ -217,6 +238,31 @@ class VtpReader {
                  offset.push_back(static_cast<double>(connectivity.size()));
                });
     cells.add_grid(*input_, offset, connectivity, types, piece.cell_connectivity->line, parts);
+  }
+
+  void check_points(const Piece& piece) const {
+    if (piece.points > input_->inflate_budget()) {
+      input_->fail_line(piece.line,
+                        "NumberOfPoints is " + std::to_string(piece.points) + ", beyond what the file can hold");
+    }
+  }
+
+  void read_points(const Piece& piece, MeshParts& parts) {
+    const std::size_t first = parts.positions.size();
+    if (piece.positions) {
+      const std::vector<double> xyz = numbers(*piece.positions, 3 * piece.points);
+      parts.positions.reserve(first + piece.points);
+      for (std::size_t v = 0; v < piece.points; ++v) {
+        const Vec3 p{xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+          input_->fail_line(piece.positions->line,
+                            "point " + std::to_string(v) + " has a coordinate that is not finite");
+        }
+        parts.positions.push_back(p);
+      }
+    } else if (piece.points != 0) {
+      input_->fail_line(piece.line, "the piece has no <Points>");
+    }
   }
 
   template <class Use>
@@ -384,6 +430,8 @@ class VtpReader {
 MeshParts read_vtp(const Input& input) { return VtpReader(input).read(); }
 
 LoadedField read_vtp_field(const Input& input, const std::string& name) { return VtpReader(input).field(name); }
+
+LoadedLines read_vtp_lines(const Input& input) { return VtpReader(input).lines(); }
 
 // Appended raw data, each array behind its size in 64 bits.
 void write_vtp(Output& out, const Mesh& mesh, const FieldView& field) {

@@ -6,6 +6,7 @@
 #include <brushfire/io/detail/mesh_parts.h>
 #include <brushfire/io/detail/output.h>
 #include <brushfire/io/read_field.h>
+#include <brushfire/io/read_lines.h>
 #include <brushfire/io/write_field.h>
 
 namespace brushfire::detail {
@@ -45,12 +46,16 @@ LoadedField read_text_field(const Input& input, const std::string& name);
 LoadedField read_vtk_field(const Input& input, const std::string& name);
 LoadedField read_vtp_field(const Input& input, const std::string& name);
 
+// Curves.
+LoadedLines read_ply_lines(const Input& input);
+LoadedLines read_vtp_lines(const Input& input);
+
 void write_csv(Output& out, const Mesh& mesh, const FieldView& field);
 void write_freesurfer_curv(Output& out, const Mesh& mesh, const FieldView& field);
 void write_gifti(Output& out, const Mesh& mesh, const FieldView& field);
+void write_gifti_surface(Output& out, const Mesh& mesh, const std::string& structure);
 void write_json(Output& out, const Mesh& mesh, const FieldView& field);
 void write_obj(Output& out, const Mesh& mesh, const FieldView& field);
-void write_off(Output& out, const Mesh& mesh, const FieldView& field);
 void write_ply(Output& out, const Mesh& mesh, const FieldView& field);
 void write_vtk(Output& out, const Mesh& mesh, const FieldView& field);
 void write_vtp(Output& out, const Mesh& mesh, const FieldView& field);

@@ -83,6 +83,7 @@ LoadedMesh finish(const Input& input, MeshParts&& parts, const char* format) {
                 printable(input.name()) + ": " + e.what());
   }
   loaded.vertex_map = std::move(parts.vertex_map);
+  loaded.structure = std::move(parts.structure);
   loaded.remarks = std::move(parts.remarks);
   loaded.format = format;
   return loaded;

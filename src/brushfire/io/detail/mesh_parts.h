@@ -64,6 +64,7 @@ struct MeshParts {
   bool places_are_lines = true;
   Index counts_from = 0;  // the number of the file's first vertex, for messages
   std::vector<Index> vertex_map;
+  std::string structure;
   std::vector<std::string> remarks;
 };
 
