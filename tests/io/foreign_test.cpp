@@ -5,6 +5,8 @@
 #include <brushfire/io/read_field.h>
 #include <brushfire/mesh/report.h>
 
+#include "support/stored_zip.h"
+
 #include <algorithm>
 #include <clocale>
 #include <cmath>
@@ -405,6 +407,48 @@ TEST(Foreign, GiftiMayHoldItsTriplesAsColumns) {
   expect_triangle(file(array("POINTSET", "FLOAT32", "ColumnMajorOrder", 3, 3, "0 3 3 0 0 4 0 0 0") +
                        array("TRIANGLE", "INT32", "RowMajorOrder", 1, 3, "0 1 2")),
                   "a.surf.gii", "the ordinary way");
+}
+
+std::string model_3mf(const std::string& build, const std::string& attributes = "") {
+  return test::three_mf("<?xml version=\"1.0\"?>\n<model " + attributes + "><resources>\n" + test::three_mf_objects() +
+                        "</resources><build>" + build + "</build></model>");
+}
+
+TEST(Foreign, ObjectsOf3mfStandWhereTheirTransformsPutThem) {
+  const std::string once = model_3mf("<item objectid=\"1\"/>");
+  if (mesh_error(once, "a.3mf").find("built without libzip") != std::string::npos) GTEST_SKIP() << "no libzip";
+  expect_triangle(once, "a.3mf", "one object");
+  EXPECT_EQ(read_text(once, "standard input").format, "3MF");
+  const LoadedMesh twice =
+      read_text(model_3mf("<item objectid=\"2\" transform=\"2 0 0 0 2 0 0 0 2 0 0 0\"/>", "unit=\"inch\""), "a.3mf");
+  // The second is turned by a quarter, moved, and then all is doubled.
+  EXPECT_EQ(positions_of(twice.mesh),
+            (std::vector<Vec3>{{0, 0, 0}, {6, 0, 0}, {6, 8, 0}, {20, 0, 10}, {20, 6, 10}, {12, 6, 10}}));
+  EXPECT_EQ(faces_of(twice.mesh), (std::vector<Face>{{0, 1, 2}, {3, 4, 5}}));
+  EXPECT_EQ(twice.remarks,
+            (std::vector<std::string>{"the unit is the inch", "2 objects merged, their vertices one after the other"}));
+}
+
+TEST(Foreign, DefectsOf3mfHaveTheirMessages) {
+  if (mesh_error(model_3mf("<item objectid=\"1\"/>"), "a.3mf").find("built without libzip") != std::string::npos) {
+    GTEST_SKIP() << "no libzip";
+  }
+  EXPECT_EQ(mesh_error(model_3mf("<item objectid=\"7\"/>"), "a.3mf"),
+            "file_malformed: a.3mf/3D/3dmodel.model:5: there is no object 7");
+  EXPECT_NE(
+      mesh_error(model_3mf("<item objectid=\"1\"/>", "xmlns:b=\"http://x/beamlattice/2017\" requiredextensions=\"b\""),
+                 "a.3mf")
+          .find("requires the extension 'http://x/beamlattice/2017', which is not read"),
+      std::string::npos);
+  EXPECT_EQ(mesh_error("PK\3\4 3D/", "a.3mf").substr(0, 27), "file_malformed: a.3mf: zip:");
+  // An object that is made of itself ends somewhere.
+  const std::string loop = test::three_mf(
+      "<model><resources><object id=\"1\"><components><component objectid=\"1\"/><component "
+      "objectid=\"1\"/></components>"
+      "</object></resources><build><item objectid=\"1\"/></build></model>");
+  EXPECT_NE(mesh_error(loop, "a.3mf").find("components are nested more than 32 deep"), std::string::npos);
+  for (std::size_t size = 0; size < 600; size += 7)
+    mesh_error(model_3mf("<item objectid=\"2\"/>").substr(0, size), "a.3mf");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <brushfire/io/detail/text.h>
 #include <brushfire/io/detail/xml.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -46,6 +47,11 @@ Transform product(const Transform& a, const Transform& b) {
   return m;
 }
 
+// Parts name one another from the root of the archive.
+std::string relative_name(const std::string& part) {
+  return part.substr(std::min(part.find_first_not_of('/'), part.size()));
+}
+
 // The archive, in memory.
 class Archive {
  public:
@@ -63,8 +69,7 @@ class Archive {
   // The content of the file of this name in the archive.
   std::string read(const std::string& name) {
     const std::string shown = "the archive's " + quote(name);
-    const std::string relative =
-        name.substr(name.find_first_not_of('/') == std::string::npos ? 0 : name.find_first_not_of('/'));
+    const std::string relative = relative_name(name);
     zip_stat_t stat;
     zip_stat_init(&stat);
     if (zip_stat(zip_.get(), relative.c_str(), ZIP_FL_NOCASE, &stat) != 0 || (stat.valid & ZIP_STAT_SIZE) == 0) {
@@ -114,7 +119,7 @@ struct Object {
 class ModelPart {
  public:
   ModelPart(const Input& input, const std::string& name, std::string content)
-      : content_(std::move(content)), input_(Input::from_memory(content_, input.name() + "/" + name)) {
+      : content_(std::move(content)), input_(Input::from_memory(content_, input.name() + "/" + relative_name(name))) {
     parse_xml(input_, "", [this](std::span<const XmlElement> path) { element(path); });
   }
 

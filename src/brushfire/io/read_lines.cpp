@@ -33,6 +33,8 @@ void close_if_repeated(LoadedLine& line, bool first_is_last) {
   line.closed = true;
 }
 
+}  // namespace
+
 LoadedLines read_csv_lines(const Input& input) {
   CsvRows rows(input);
   LoadedLines loaded;
@@ -74,6 +76,8 @@ LoadedLines read_csv_lines(const Input& input) {
   return loaded;
 }
 
+namespace {
+
 LoadedLine json_line(const Input& input, const Json& object, std::string& value_name) {
   LoadedLine line;
   line.value = kNoValue;
@@ -102,6 +106,8 @@ LoadedLine json_line(const Input& input, const Json& object, std::string& value_
   return line;
 }
 
+}  // namespace
+
 LoadedLines read_json_lines(const Input& input) {
   const Json json = parse_json(input, input.bytes(), 0);
   LoadedLines loaded;
@@ -117,6 +123,8 @@ LoadedLines read_json_lines(const Input& input) {
   }
   return loaded;
 }
+
+namespace {}  // namespace
 
 LoadedLines read_obj_lines(const Input& input) {
   TextCursor text(input, input.bytes(), 1, '#');
@@ -146,6 +154,8 @@ LoadedLines read_obj_lines(const Input& input) {
   } while (text.next_line());
   return loaded;
 }
+
+namespace {
 
 bool starts_with(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
 

@@ -47,6 +47,9 @@ LoadedField read_vtk_field(const Input& input, const std::string& name);
 LoadedField read_vtp_field(const Input& input, const std::string& name);
 
 // Curves.
+LoadedLines read_csv_lines(const Input& input);
+LoadedLines read_json_lines(const Input& input);
+LoadedLines read_obj_lines(const Input& input);
 LoadedLines read_ply_lines(const Input& input);
 LoadedLines read_vtp_lines(const Input& input);
 
