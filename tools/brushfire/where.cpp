@@ -5,6 +5,7 @@
 
 #include <brushfire/core/error.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -39,6 +40,15 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+// Takes a line off the text: up to LF, CR LF or CR.
+std::string_view next_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+  const std::string_view line = text.substr(0, end);
+  const std::size_t mark = text.substr(end, 2) == "\r\n" ? 2 : 1;
+  text.remove_prefix(std::min(end + mark, text.size()));
+  return line;
 }
 
 // The whole text as a finite number, or nothing.
@@ -108,12 +118,18 @@ Where parse_where(std::string_view text) {
 }
 
 std::vector<Where> read_where_file(const std::string& path) {
-  std::ifstream file(path);
+  std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorCode::FileNotReadable, path + ": cannot be opened");
+  std::string bytes;
+  for (char block[4096]; file.read(block, sizeof block), file.gcount() > 0;) {
+    bytes.append(block, static_cast<std::size_t>(file.gcount()));
+  }
+  std::string_view rest = bytes;
+  if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);  // a byte order mark
   std::vector<Where> places;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    const std::string_view content = trimmed(std::string_view(line).substr(0, line.find('#')));
+  for (int number = 1; !rest.empty(); ++number) {
+    const std::string_view line = next_line(rest);
+    const std::string_view content = trimmed(line.substr(0, line.find('#')));
     if (content.empty()) continue;
     try {
       places.push_back(parse_where(content));
