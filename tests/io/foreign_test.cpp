@@ -323,6 +323,57 @@ TEST(Foreign, GltfThatRequiresWhatIsNotKnownIsRefusedByName) {
   EXPECT_NE(mesh_error("{\"asset\":{\"version\":\"1.0\"}}", "a.gltf").find("glTF 1.0 is not read"), std::string::npos);
 }
 
+// One triangle, its vertices and corners packed by meshoptimizer into buffer views of their own.
+std::string packed_gltf(const char* points, const char* filter, const char* corners, const char* mode) {
+  const auto buffer = [](const char* base64, std::size_t size) {
+    return "{\"byteLength\":" + std::to_string(size) + ",\"uri\":\"data:;base64," + base64 + "\"}";
+  };
+  const auto view = [](int number, std::size_t size, std::size_t packed_size, int stride, const std::string& rest) {
+    const std::string n = std::to_string(number);
+    return "{\"buffer\":2,\"byteLength\":" + std::to_string(size) +
+           ",\"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":" + n +
+           ",\"byteLength\":" + std::to_string(packed_size) + ",\"byteStride\":" + std::to_string(stride) +
+           ",\"count\":3," + rest + "}}}";
+  };
+  const auto size_of = [](std::string_view text) {
+    return text.size() / 4 * 3 - static_cast<std::size_t>(std::count(text.begin(), text.end(), '='));
+  };
+  return "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"EXT_meshopt_compression\"],\"nodes\":[{\"mesh\":0}"
+         "],"
+         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}],\"accessors\":[{"
+         "\"bufferView\":0,"
+         "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":1,\"componentType\":5125,\"count\":3,"
+         "\"type\":\"SCALAR\"}],\"bufferViews\":[" +
+         view(0, 36, size_of(points), 12, "\"mode\":\"ATTRIBUTES\",\"filter\":\"" + std::string(filter) + "\"") + "," +
+         view(1, 12, size_of(corners), 4, "\"mode\":\"" + std::string(mode) + "\"") + "],\"buffers\":[" +
+         buffer(points, size_of(points)) + "," + buffer(corners, size_of(corners)) + ",{\"byteLength\":48}]}";
+}
+
+TEST(Foreign, WhatMeshoptimizerPacksIsUnpackedWhereItIsBuiltIn) {
+  const char* const plain = "oAAAATAAAACAATAAAACAAAABDAAAAP8BDAAAAIAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA=";
+  const char* const filtered =
+      "oAABPAAAAGAvAAE4AAAABAABDAAAAEAAATgAAAAEAAAAATgAAAAEAAAAAAAAAAAAAAAAAAAAAAAAAAAAAADyAAAA8gAAAPI=";
+  const char *const triangles = "4PAAdodWZ3iphmWJaJgBaQAA", *const indices = "0AAEBAAAAAA=";
+  const std::string text = packed_gltf(plain, "NONE", triangles, "TRIANGLES");
+  if (mesh_error(text, "a.gltf").find("requires the extension 'EXT_meshopt_compression'") != std::string::npos) {
+    GTEST_SKIP() << "no meshoptimizer";
+  }
+  expect_triangle(text, "a.gltf", "triangles");
+  expect_triangle(packed_gltf(plain, "NONE", indices, "INDICES"), "a.gltf", "indices");
+  expect_triangle(packed_gltf(filtered, "EXPONENTIAL", triangles, "TRIANGLES"), "a.gltf", "filtered");
+  EXPECT_NE(
+      mesh_error(packed_gltf(plain, "QUATERNION", triangles, "TRIANGLES"), "a.gltf").find("has a filter that does not"),
+      std::string::npos);
+  EXPECT_NE(mesh_error(packed_gltf(plain, "NONE", triangles, "STRIPS"), "a.gltf").find("packed in a way that does not"),
+            std::string::npos);
+  EXPECT_NE(mesh_error(packed_gltf(indices, "NONE", triangles, "TRIANGLES"), "a.gltf").find("cannot be unpacked"),
+            std::string::npos);
+  EXPECT_NE(
+      mesh_error(replaced(text, "\"byteStride\":12,\"count\":3", "\"byteStride\":12,\"count\":300000000"), "a.gltf")
+          .find("far more than the file's size: refused"),
+      std::string::npos);
+}
+
 std::string vtu(const std::string& cells, const std::string& offsets, const std::string& types, int count) {
   const auto array = [](const char* name, const std::string& values) {
     return "<DataArray type=\"Int64\" Name=\"" + std::string(name) + "\" format=\"ascii\">" + values + "</DataArray>";

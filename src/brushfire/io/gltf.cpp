@@ -6,11 +6,13 @@
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/json.h>
+#include <brushfire/io/detail/meshopt.h>
 #include <brushfire/io/detail/numbers.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace brushfire::detail {
@@ -151,7 +153,7 @@ class GltfReader {
         "EXT_texture_webp",      "EXT_texture_avif",       "MSFT_texture_dds",
         "KHR_animation_pointer", "EXT_lights_image_based", "EXT_lights_ies"};
     const auto is_harmless = [](std::string_view name) {
-      return name.substr(0, 14) == "KHR_materials_" ||
+      return name.substr(0, 14) == "KHR_materials_" || (name == "EXT_meshopt_compression" && has_meshopt()) ||
              std::find(std::begin(kHarmless), std::end(kHarmless), name) != std::end(kHarmless);
     };
     if (json_.contains("extensionsRequired")) {
@@ -393,7 +395,31 @@ class GltfReader {
     }
   }
 
+  // The bytes of a buffer view, unpacked where they are packed.
   std::string_view view_bytes(const Json& view) {
+    constexpr const char* kExtension = "EXT_meshopt_compression";
+    const bool is_packed = view.contains("extensions") && view.at("extensions").contains(kExtension);
+    if (!is_packed) return range_of(view);
+    const auto found = unpacked_.find(&view);
+    if (found != unpacked_.end()) return {found->second.data(), found->second.size()};
+    const Json& extension = view.at("extensions").at(kExtension);
+    MeshoptView packed;
+    packed.mode = extension.at("mode").get<std::string>();
+    packed.filter = extension.value("filter", "NONE");
+    packed.count = needed(extension, "count");
+    packed.stride = needed(extension, "byteStride");
+    if (packed.stride == 0 || packed.count > budget_ / packed.stride) {
+      fail("a buffer view unpacks to far more than the file's size: refused");
+    }
+    budget_ -= packed.count * packed.stride;
+    std::vector<char>& out = unpacked_[&view];
+    out.resize(packed.count * packed.stride);
+    const std::string error = unpack_meshopt(packed, range_of(extension), out);
+    if (!error.empty()) fail("a buffer view " + error);
+    return {out.data(), out.size()};
+  }
+
+  std::string_view range_of(const Json& view) {
     const std::string_view buffer = buffer_bytes(needed(view, "buffer"));
     const std::size_t offset = number(view, "byteOffset").value_or(0), size = needed(view, "byteLength");
     if (offset > buffer.size() || size > buffer.size() - offset) {
@@ -461,6 +487,7 @@ class GltfReader {
   MeshParts parts_;
   std::vector<bool> visited_;
   std::vector<Buffer> buffers_;
+  std::map<const Json*, std::vector<char>> unpacked_;  // buffer views
   std::size_t primitives_ = 0, left_out_ = 0;
 };
 
