@@ -374,6 +374,41 @@ TEST(Foreign, WhatMeshoptimizerPacksIsUnpackedWhereItIsBuiltIn) {
       std::string::npos);
 }
 
+// One triangle, packed by Draco, with the numbers of points and triangles that the stream holds itself.
+std::string draco_gltf(const char* base64, std::size_t size) {
+  return "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"nodes\":[{"
+         "\"mesh\":0}],"
+         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"extensions\":{"
+         "\"KHR_draco_mesh_compression\":{\"bufferView\":0,\"attributes\":{\"POSITION\":0}}}}]}],\"accessors\":[{"
+         "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"componentType\":5125,\"count\":3,\"type\":"
+         "\"SCALAR\"}],"
+         "\"bufferViews\":[{\"buffer\":0,\"byteLength\":" +
+         std::to_string(size) + "}],\"buffers\":[{\"byteLength\":" + std::to_string(size) + ",\"uri\":\"data:;base64," +
+         base64 + "\"}]}";
+}
+
+TEST(Foreign, WhatDracoPacksIsUnpackedWhereItIsBuiltIn) {
+  const char* const sequential = "RFJBQ08CAgEAAAABAwEAAQIBAQAJAwAAAAAAAAAAAAAAAAAAAAAAQEAAAAAAAAAAAAAAQEAAAIBAAAAAAA==";
+  const std::string text = draco_gltf(sequential, 61);
+  if (mesh_error(text, "a.gltf").find("requires the extension 'KHR_draco_mesh_compression'") != std::string::npos) {
+    GTEST_SKIP() << "no Draco";
+  }
+  expect_triangle(text, "a.gltf", "sequential");
+  const LoadedMesh walked = read_text(
+      draco_gltf("RFJBQ08CAgEBAAAAAwEAAQAAAQf/AREB/wAAAQAJAwAAAAAAQEAAAAAAAAAAAAAAQEAAAIBAAAAAAAAAAAAAAAAAAAAAAA==",
+                 70),
+      "a.gltf");
+  EXPECT_EQ(walked.mesh.face_count(), 1u);
+  EXPECT_EQ(walked.mesh.report().area, 6) << "Draco's edgebreaker renumbers the points";
+  EXPECT_NE(mesh_error(draco_gltf(sequential, 40), "a.gltf").find("packed by Draco cannot be unpacked"),
+            std::string::npos);
+  EXPECT_NE(mesh_error(replaced(text, "RFJBQ08C", "RFJBQ08D"), "a.gltf").find("is no mesh of Draco 2.2"),
+            std::string::npos);
+  const std::string many = std::string("DRACO\2\2\1\0\0\0", 11) + "\xff\xff\xff\xff\x0f\3" + std::string(40, '\0');
+  EXPECT_NE(mesh_error(draco_gltf(detail::encode_base64(many).c_str(), many.size()), "a.gltf").find("far more than"),
+            std::string::npos);
+}
+
 std::string vtu(const std::string& cells, const std::string& offsets, const std::string& types, int count) {
   const auto array = [](const char* name, const std::string& values) {
     return "<DataArray type=\"Int64\" Name=\"" + std::string(name) + "\" format=\"ascii\">" + values + "</DataArray>";

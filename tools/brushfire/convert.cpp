@@ -11,6 +11,7 @@
 #include <brushfire/mesh/nearest_point.h>
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 
 namespace brushfire::tool {

@@ -4,6 +4,7 @@
 // as everywhere but in STL, nothing is welded.
 #include <brushfire/core/detail/base64.h>
 #include <brushfire/core/error.h>
+#include <brushfire/io/detail/draco.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/json.h>
 #include <brushfire/io/detail/meshopt.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 
 namespace brushfire::detail {
@@ -154,6 +156,7 @@ class GltfReader {
         "KHR_animation_pointer", "EXT_lights_image_based", "EXT_lights_ies"};
     const auto is_harmless = [](std::string_view name) {
       return name.substr(0, 14) == "KHR_materials_" || (name == "EXT_meshopt_compression" && has_meshopt()) ||
+             (name == "KHR_draco_mesh_compression" && has_draco()) ||
              std::find(std::begin(kHarmless), std::end(kHarmless), name) != std::end(kHarmless);
     };
     if (json_.contains("extensionsRequired")) {
@@ -253,6 +256,29 @@ class GltfReader {
     for (const Json& primitive : mesh.at("primitives")) add_primitive(primitive, transform);
   }
 
+  DracoMesh from_accessors(const Json& primitive) {
+    DracoMesh data;
+    data.positions = accessor(needed(primitive.at("attributes"), "POSITION"), 3);
+    if (const std::optional<std::size_t> indices = number(primitive, "indices")) {
+      data.corners = accessor(*indices, 1);
+    } else {
+      data.corners.resize(data.positions.size() / 3);
+      std::iota(data.corners.begin(), data.corners.end(), 0.0);
+    }
+    return data;
+  }
+
+  DracoMesh unpacked(const Json& extension) {
+    DracoMesh data;
+    const std::size_t position = needed(extension.at("attributes"), "POSITION");
+    const std::string_view packed = range_of(item("bufferViews", needed(extension, "bufferView")));
+    constexpr std::size_t kEach = 6 * sizeof(double);  // three coordinates, three corners
+    const std::string error = unpack_draco(packed, static_cast<std::uint32_t>(position), budget_ / kEach, data);
+    if (!error.empty()) fail("a primitive packed by Draco " + error);
+    budget_ -= std::min(budget_, (data.positions.size() + data.corners.size()) * sizeof(double));
+    return data;
+  }
+
   void add_primitive(const Json& primitive, const Matrix& transform) {
     constexpr std::size_t kTriangles = 4, kStrip = 5, kFan = 6;
     const std::size_t mode = number(primitive, "mode").value_or(kTriangles);
@@ -262,10 +288,11 @@ class GltfReader {
       return;
     }
     ++primitives_;
-    if (primitive.contains("extensions") && (primitive.at("extensions").contains("KHR_draco_mesh_compression"))) {
-      fail("uses the extension KHR_draco_mesh_compression, which is not read");
-    }
-    const std::vector<double> xyz = accessor(needed(primitive.at("attributes"), "POSITION"), 3);
+    const bool is_packed =
+        primitive.contains("extensions") && primitive.at("extensions").contains("KHR_draco_mesh_compression");
+    const DracoMesh data =
+        is_packed ? unpacked(primitive.at("extensions").at("KHR_draco_mesh_compression")) : from_accessors(primitive);
+    const std::vector<double>&xyz = data.positions, &corners = data.corners;
     const auto first = parts_.positions.size();
     const std::size_t count = xyz.size() / 3;
     if (first + count >= kNoIndex)
@@ -277,13 +304,6 @@ class GltfReader {
       }
       parts_.positions.push_back(p);
     }
-    std::vector<double> corners;
-    if (const std::optional<std::size_t> indices = number(primitive, "indices")) {
-      corners = accessor(*indices, 1);
-    } else {
-      corners.resize(count);
-      for (std::size_t k = 0; k < count; ++k) corners[k] = static_cast<double>(k);
-    }
     for (const double v : corners) {
       if (!(v >= 0) || v >= static_cast<double>(count) || v != std::floor(v)) {
         fail("a primitive names vertex " + std::to_string(static_cast<std::int64_t>(v)) + ", but has " +
@@ -291,7 +311,7 @@ class GltfReader {
       }
     }
     const auto corner = [&](std::size_t k) { return static_cast<Index>(first + static_cast<std::size_t>(corners[k])); };
-    if (mode == kTriangles) {
+    if (mode == kTriangles || is_packed) {
       for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
         parts_.faces.add_triangle(corner(k), corner(k + 1), corner(k + 2), 0);
       return;
