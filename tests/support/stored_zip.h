@@ -21,7 +21,7 @@ inline std::uint32_t crc32_of(const std::string& bytes) {
 inline std::string stored_zip(const std::vector<std::pair<std::string, std::string>>& files) {
   const auto number = [](std::uint64_t value, int bytes) {
     std::string out;
-    for (int k = 0; k < bytes; ++k) out += static_cast<char>(value >> (8 * k) & 255);
+    for (int k = 0; k < bytes; ++k, value >>= 8) out += static_cast<char>(value & 255);
     return out;
   };
   std::string out, directory;
