@@ -200,13 +200,13 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   stop_if_interrupted();
 
   const Snap snap = snapper(run.mesh);
-  for (const Where& w : source_places) run.sources.push_back({surface.resolve(w, snap), w.offset});
+  for (const Where& w : source_places) run.sources.push_back({resolve(surface.place(w), run.mesh, snap), w.offset});
 
   options.precision = arguments.precision == "float" ? Precision::Float : Precision::Double;
   options.max_distance = arguments.radius.value_or(kInfinity);
   options.cancel = &cancel_token();
   options.progress = talk.progress("distance");
-  for (const Where& w : run.target_places) options.targets.push_back(surface.resolve(w, snap));
+  for (const Where& w : run.target_places) options.targets.push_back(resolve(surface.place(w), run.mesh, snap));
 
   const Stopwatch setting_up;
   DistanceSolver solver(run.mesh);

@@ -81,7 +81,7 @@ DistanceField solve(const Arguments& a, const Surface& surface, const Talk& talk
   std::vector<Source> sources;
   for (const std::string& text : a.sources) {
     const Where where = parse_where(text);
-    sources.push_back({surface.resolve(where, snap), where.offset});
+    sources.push_back({resolve(surface.place(where), mesh, snap), where.offset});
   }
   DistanceOptions options;
   options.method = method_named(a.method);

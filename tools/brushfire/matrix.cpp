@@ -80,7 +80,7 @@ std::optional<std::vector<Place>> places_on(const Surface& surface, const std::s
     if (vertex && vertex->index < surface.file().mesh.vertex_count()) {
       places.push_back(surface.vertex(static_cast<Index>(vertex->index)));
     } else {
-      places.push_back(surface.resolve(where, snap));
+      places.push_back(resolve(surface.place(where), mesh, snap));
     }
   }
   return places;

@@ -84,7 +84,7 @@ int path_verb(const Arguments& a, const Talk& talk) {
   stop_if_interrupted();
   const Snap snap = snapper(mesh);
   std::vector<SurfacePoint> points;
-  for (const Where& w : places) points.push_back(surface.resolve(w, snap));
+  for (const Where& w : places) points.push_back(resolve(surface.place(w), mesh, snap));
 
   const SurfacePath path = find(a, mesh, points);
   if (path.points.empty()) throw Unreachable(places.back().text);

@@ -29,11 +29,11 @@ std::vector<std::string> Surface::remarks() const {
   return remarks;
 }
 
-SurfacePoint Surface::resolve(const Where& where, const Snap& snap) const {
-  const auto* vertex = std::get_if<VertexPlace>(&where.place);
-  if (!is_welded() || vertex == nullptr || vertex->index >= vertex_map_.size())
-    return tool::resolve(where, mesh_, snap);
-  return vertex_point(mesh_, vertex_map_[vertex->index]);
+Where Surface::place(const Where& where) const {
+  Where on_mesh = where;
+  auto* vertex = std::get_if<VertexPlace>(&on_mesh.place);
+  if (vertex != nullptr && vertex->index < vertex_map_.size()) vertex->index = vertex_map_[vertex->index];
+  return on_mesh;
 }
 
 }  // namespace brushfire::tool

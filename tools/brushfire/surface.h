@@ -32,8 +32,8 @@ class Surface {
   bool is_welded() const { return !vertex_map_.empty(); }
   std::vector<std::string> remarks() const;
 
-  // Vertex numbers are those of the file. Throws as the function of where.h does.
-  SurfacePoint resolve(const Where& where, const Snap& snap) const;
+  // A place whose vertex number is that of the file, as a place on mesh().
+  Where place(const Where& where) const;
   // Which vertex of mesh() the file's vertex v is.
   Index vertex(Index v) const { return is_welded() ? vertex_map_[v] : v; }
 
