@@ -11,5 +11,6 @@ configure_package_config_file(cmake/brushfireConfig.cmake.in brushfireConfig.cma
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brushfire)
 write_basic_package_version_file(brushfireConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/brushfireConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/brushfireConfigVersion.cmake
-  cmake/FindWebP.cmake
+  cmake/FindDraco.cmake cmake/FindLZ4.cmake cmake/FindLibZip.cmake
+  cmake/FindMeshoptimizer.cmake cmake/FindWebP.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brushfire)

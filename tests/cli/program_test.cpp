@@ -125,6 +125,8 @@ TEST_F(Program, InfoJsonHasStableKeys) {
                                                           "repeated_index_faces",
                                                           "duplicate_faces",
                                                           "duplicate_positions",
+                                                          "near_positions",
+                                                          "near_tolerance",
                                                           "looks_like_soup",
                                                           "min_edge_length",
                                                           "mean_edge_length",

@@ -106,6 +106,7 @@ void add_isolines(CommandLine& command_line);
 void add_render(CommandLine& command_line);
 void add_compare(CommandLine& command_line);
 void add_bench(CommandLine& command_line);
+void add_convert(CommandLine& command_line);
 void add_shape(CommandLine& command_line);
 void add_completion(CommandLine& command_line);
 

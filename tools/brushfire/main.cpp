@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   add_compare(command_line);
   add_render(command_line);
   add_bench(command_line);
+  add_convert(command_line);
   add_shape(command_line);
   add_completion(command_line);
   return command_line.run(argc, argv);
