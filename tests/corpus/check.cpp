@@ -24,6 +24,9 @@ constexpr Real kSure = 1e-15L;
 // With 237 bits a window takes a tenth of a millisecond and more: beyond so many the quad's word is taken.
 constexpr std::uint64_t kMostWindowsOfOctuple = 200'000;
 
+// Of so many cases one is asked about with 237 bits whether or not anything seems wrong.
+constexpr std::uint64_t kOctupleEvery = 16;
+
 constexpr double kSolveSeconds = 2, kTruthSeconds = 5, kOctupleSeconds = 120;
 
 // A value, what it should be, the length of the path to it (without an offset) and the bound that came along (infinity:
@@ -63,12 +66,12 @@ void hold_exact(const Value& v, const std::string& where, Outcome& out) {
   if (error > room || error > v.bound) out.complain(off(v, where));
 }
 
-// A bound's promise.
-void hold_bound(const Value& v, double tolerance, const std::string& where, Outcome& out) {
+// A bound's promise. `offsets`: the largest of the sources, whose rounding a bound may hold.
+void hold_bound(const Value& v, double tolerance, double offsets, const std::string& where, Outcome& out) {
   if (!same_reach(v, where, out)) return;
   const Real error = std::abs(v.got - v.truth);
   if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(error / v.length));
-  const bool too_wide = v.bound > tolerance * v.length + 2 * kEpsilon * std::abs(v.got);
+  const bool too_wide = v.bound > tolerance * v.length + 16 * kEpsilon * (std::abs(v.got) + offsets);
   if (error > v.bound + kTruthRounding * std::abs(v.truth)) {
     ++out.unbound;
     out.complain(off(v, where));
@@ -184,13 +187,18 @@ const oracle::Truth& Examination::truth() {
   return truth_;
 }
 
-// Whether there are any to be had, and the truth has them now.
-bool Examination::more_digits() {
+// Gives the truth twice the digits, where that is to be had; whether it makes a difference.
+bool Examination::more_digits_differ() {
   if (arithmetic_ == Arithmetic::Octuple || truth().windows > kMostWindowsOfOctuple) return false;
   limit_processor_time(kOctupleSeconds);
   arithmetic_ = Arithmetic::Octuple;
+  const std::vector<Real> before = truth_.distance;
   truth_ = oracle::polyhedral_distance(case_.plain, case_.starts[start_], kFar, case_.targets, arithmetic_);
-  return true;
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    const Real after = truth_.distance[v];
+    if (before[v] != after && !(std::abs(before[v] - after) <= kSure * std::abs(after))) return true;
+  }
+  return false;
 }
 
 Outcome Examination::run(std::uint64_t index, std::size_t start, const Task& task) {
@@ -219,18 +227,14 @@ Outcome Examination::run(std::uint64_t index, std::size_t start, const Task& tas
     return other(task);
   };
   Outcome outcome = once();
+  if (task.kind == Task::Kind::Truth && index % kOctupleEvery == 0) outcome.unsure = more_digits_differ();
   const bool last_bits = task.kind == Task::Kind::Lower || task.kind == Task::Kind::Upper;
   if (outcome.good() || last_bits) return outcome;
   // Before a solver is blamed, the oracle is asked again with twice the digits.
-  const std::vector<Real> before = truth().distance;
-  if (!more_digits()) return outcome;
+  const bool changed = more_digits_differ();
   limit_processor_time(kSolveSeconds);
   outcome = once();
-  for (std::size_t v = 0; v < before.size(); ++v) {
-    if (before[v] != truth_.distance[v] && !(std::abs(before[v] - truth_.distance[v]) <= kSure * truth_.distance[v])) {
-      outcome.unsure = 1;
-    }
-  }
+  outcome.unsure = changed;
   return outcome;
 }
 
@@ -300,11 +304,13 @@ Outcome Examination::radius() {
 Outcome Examination::windows(const Task& task) {
   Outcome out;
   const std::vector<Source>& sources = case_.starts[start_];
+  double offsets = 0;
+  for (const Source& s : sources) offsets = std::max(offsets, std::abs(s.offset));
   const DistanceField field = distance(case_.mesh, sources, options_of(task));
   for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
     const Value value = value_at(field, sources, truth().distance, v);
     if (task.kind == Task::Kind::Windows) {
-      hold_bound(value, task.tolerance, vertex_text(v), out);
+      hold_bound(value, task.tolerance, offsets, vertex_text(v), out);
     } else {
       hold_side(value, task.kind == Task::Kind::Lower, vertex_text(v), out);
     }

@@ -1,9 +1,9 @@
 // The corpus: complexes at random, awkward in every way that is known, each solver on them, and who was right.
 #include "corpus/check.h"
+#include "corpus/laws.h"
+#include "corpus/tally.h"
 
 #include <brushfire/core/error.h>
-
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,92 +11,38 @@
 #include <ctime>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <thread>
 
 namespace brushfire::corpus {
 namespace {
 
-constexpr std::size_t kStarts = 2;
+namespace fs = std::filesystem;
+using Count = unsigned long long;
+
+constexpr std::size_t kStarts = 2;  // of every case
 
 struct Settings {
-  std::vector<std::string> families, methods;
+  std::vector<std::string> parts, families, methods, folders;
   std::vector<double> tolerances{1e-2, 1e-3, 1e-5};
-  std::uint64_t seed = 1, count = 60, first = 0;
+  std::uint64_t seed = 1, count = 0, first = 0;
   std::string dump;
   unsigned lanes = 1;
   std::size_t shown = 3;
-};
+  bool night = false;
 
-// What became of a family.
-struct Tally {
-  std::uint64_t exact_compared = 0, exact_beyond = 0, unbound = 0, hung = 0, crashed = 0, refused = 0;
-  std::uint64_t paths = 0, lost = 0, path_beyond = 0, window_violations = 0, side_violations = 0, other_beyond = 0;
-  std::uint64_t no_truth = 0, unsure = 0;
-  double worst = 0, path_worst = 0;
-
-  std::uint64_t wrong() const {
-    return exact_beyond + unbound + hung + crashed + refused + lost + path_beyond + window_violations +
-           side_violations + other_beyond;
+  bool wants(const std::string& part) const {
+    return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
   }
-
-  void add(const Task& task, const Outcome& o) {
-    using Kind = Task::Kind;
-    unsure += o.unsure;
-    if (task.kind == Kind::Truth) {
-      no_truth += o.ending != Ending::Done;
-      return;
-    }
-    hung += o.ending == Ending::Hung;
-    crashed += o.ending == Ending::Crashed;
-    refused += o.ending == Ending::Refused;
-    if (task.kind == Kind::Paths) {
-      paths += o.compared;
-      lost += o.lost;
-      path_beyond += o.beyond;
-      path_worst = std::max(path_worst, o.worst);
-    } else if (task.kind == Kind::Windows) {
-      window_violations += o.beyond + o.unbound;
-    } else if (task.of_windows()) {
-      side_violations += o.beyond;
-    } else if (task.kind == Kind::Other) {
-      other_beyond += o.beyond;
-    } else {
-      exact_compared += o.compared;
-      exact_beyond += o.beyond;
-      unbound += o.unbound;
-      worst = std::max(worst, o.worst);
-    }
-  }
-
-  void add(const Tally& t) {
-    exact_compared += t.exact_compared, exact_beyond += t.exact_beyond, unbound += t.unbound, hung += t.hung;
-    crashed += t.crashed, refused += t.refused, paths += t.paths, lost += t.lost, path_beyond += t.path_beyond;
-    window_violations += t.window_violations, side_violations += t.side_violations, other_beyond += t.other_beyond;
-    no_truth += t.no_truth, unsure += t.unsure;
-    worst = std::max(worst, t.worst), path_worst = std::max(path_worst, t.path_worst);
+  std::uint64_t count_or(std::uint64_t by_day, std::uint64_t by_night) const {
+    return count > 0 ? count : night ? by_night : by_day;
   }
 };
 
-void print_head() {
-  std::printf(
-      "| family | cases | compared | beyond | worst | bound broken | hangs | crashes | errors | paths | lost | "
-      "off the field | worst | windows | lower, upper | others | no truth | oracle unsure |\n");
-  std::printf("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
-}
+// ---- beside the oracle
 
-void print_row(const std::string& name, std::uint64_t cases, const Tally& t) {
-  const auto n = [](std::uint64_t x) { return static_cast<unsigned long long>(x); };
-  std::printf(
-      "| %s | %llu | %llu | %llu | %.1e | %llu | %llu | %llu | %llu | %llu | %llu | %llu | %.1e | %llu | %llu | "
-      "%llu | %llu | %llu |\n",
-      name.c_str(), n(cases), n(t.exact_compared), n(t.exact_beyond), t.worst, n(t.unbound), n(t.hung), n(t.crashed),
-      n(t.refused), n(t.paths), n(t.lost), n(t.path_beyond), t.path_worst, n(t.window_violations), n(t.side_violations),
-      n(t.other_beyond), n(t.no_truth), n(t.unsure));
-  std::fflush(stdout);
-}
-
-std::string starts_text(const std::vector<Source>& sources) {
+std::string sources_text(const std::vector<Source>& sources) {
   std::string text;
   for (const Source& s : sources) {
     char offset[40] = "";
@@ -106,33 +52,35 @@ std::string starts_text(const std::vector<Source>& sources) {
   return text;
 }
 
+std::string first_word(const std::string& text) { return text.substr(0, text.find(' ')); }
+
 void dump(const Settings& settings, const Family& family, std::uint64_t index, std::size_t start, const Task& task,
           const Outcome& outcome) {
   const Case c = make_case(family, settings.seed, index);
   const std::string name = family.name + "-" + std::to_string(settings.seed) + "-" + std::to_string(index) + ".obj";
   if (!c.mesh.has_positions()) {
-    std::fprintf(stderr, "  %s has lengths only: no OBJ\n", name.c_str());
+    std::fprintf(stderr, "  (lengths only: no OBJ)\n");
     return;
   }
-  std::filesystem::create_directories(settings.dump);
-  write_obj(settings.dump + "/" + name, c.mesh, {task.name() + starts_text(c.starts[start]), outcome.text});
+  fs::create_directories(settings.dump);
+  write_obj((fs::path(settings.dump) / name).string(), c.mesh,
+            {task.name() + sources_text(c.starts[start]), outcome.text});
 }
 
 void report(const Settings& settings, const Family& family, std::uint64_t index, std::size_t start, const Task& task,
             const Outcome& outcome) {
   std::fprintf(stderr, "%s: %s: %s\n  again: ./run corpus --family %s --seed %llu --index %llu --method %s --dump .\n",
-               family.name.c_str(), task.name().c_str(), outcome.text, family.name.c_str(),
-               static_cast<unsigned long long>(settings.seed), static_cast<unsigned long long>(index),
-               task.name().substr(0, task.name().find(' ')).c_str());
+               family.name.c_str(), task.name().c_str(), outcome.text, family.name.c_str(), Count{settings.seed},
+               Count{index}, first_word(task.name()).c_str());
   if (!settings.dump.empty()) dump(settings, family, index, start, task, outcome);
 }
 
-Tally run_family(const Settings& settings, const Family& family, const std::vector<Task>& tasks) {
+Tally run_family(const Settings& settings, const Family& family, const std::vector<Task>& tasks, std::uint64_t count) {
   Tally tally;
   Examination examination(family, settings.seed);
   std::map<std::string, std::size_t> shown;  // by task
   Steps steps;
-  steps.blocks = settings.count;
+  steps.blocks = count;
   steps.block_size = kStarts * tasks.size();
   steps.lanes = settings.lanes;
   steps.run = [&](std::size_t block, std::size_t step) {
@@ -154,59 +102,167 @@ Tally run_family(const Settings& settings, const Family& family, const std::vect
   return tally;
 }
 
-bool is_wanted(const Settings& settings, const std::string& name) {
-  return settings.families.empty() ||
-         std::find(settings.families.begin(), settings.families.end(), name) != settings.families.end();
-}
-
-int run(const Settings& settings) {
+std::vector<Family> chosen_families(const Settings& settings) {
+  std::vector<Family> all(small_families().begin(), small_families().end());
+  for (int decades = 3; decades <= 12; ++decades) all.push_back(family_of_ratio(decades));
+  if (settings.families.empty()) return {small_families().begin(), small_families().end()};
+  std::vector<Family> chosen;
   for (const std::string& name : settings.families) {
-    const auto all = small_families();
-    if (std::none_of(all.begin(), all.end(), [&](const Family& f) { return f.name == name; })) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Family& f) { return f.name == name; });
+    if (found == all.end()) {
       throw Error(ErrorCode::InvalidArgument, "there is no family '" + name + "' (--list tells which there are)");
     }
+    chosen.push_back(*found);
   }
+  return chosen;
+}
+
+std::uint64_t families_part(const Settings& settings) {
   const std::vector<Task> tasks = tasks_of(settings.methods, settings.tolerances);
-  std::printf("seed %llu\n\n", static_cast<unsigned long long>(settings.seed));
-  print_head();
+  const std::uint64_t count = settings.count_or(20, 1000);
+  std::printf("\nRandom families beside the oracle, seed %llu\n\n", Count{settings.seed});
+  print_head_of_families();
   Tally all;
   std::uint64_t cases = 0;
-  for (const Family& family : small_families()) {
-    if (!is_wanted(settings, family.name)) continue;
-    const Tally tally = run_family(settings, family, tasks);
-    print_row(family.name, settings.count, tally);
+  for (const Family& family : chosen_families(settings)) {
+    const Tally tally = run_family(settings, family, tasks, count);
+    print_row(family.name, count, tally);
     all.add(tally);
-    cases += settings.count;
+    cases += count;
   }
   print_row("all", cases, all);
-  return all.wrong() > 0 ? 1 : 0;
+  return all.wrong();
 }
+
+// The error of exact against the ratio of the largest length to the shortest.
+std::uint64_t ratios_part(const Settings& settings) {
+  const std::vector<Task> tasks = tasks_of({"exact"}, {});
+  const std::uint64_t count = settings.count_or(20, 500);
+  std::printf("\nExact, by the ratio of the largest length to the shortest, seed %llu\n\n", Count{settings.seed});
+  std::printf("| ratio | cases | compared | largest relative error | beyond | bound broken | hangs |\n");
+  std::printf("|---|--:|--:|--:|--:|--:|--:|\n");
+  std::uint64_t wrong = 0;
+  for (int decades = 3; decades <= 12; ++decades) {
+    const Tally t = run_family(settings, family_of_ratio(decades), tasks, count);
+    std::printf("| 1e%d | %llu | %llu | %.1e | %llu | %llu | %llu |\n", decades, Count{count}, Count{t.compared},
+                t.worst, Count{t.beyond}, Count{t.unbound}, Count{t.hung});
+    std::fflush(stdout);
+    wrong += t.wrong();
+  }
+  return wrong;
+}
+
+// ---- laws
+
+LawTally hold_to_laws(const Settings& settings, const std::vector<Subject>& subjects, double seconds, bool row_each) {
+  std::vector<LawTally> each(subjects.size());
+  LawTally all;
+  Trial trial(subjects, settings.seed, seconds);
+  Steps steps;
+  steps.blocks = subjects.size();
+  steps.block_size = kLaws;
+  steps.lanes = settings.lanes;
+  steps.run = [&](std::size_t block, std::size_t step) { return trial.run(block, static_cast<Law>(step)); };
+  steps.seconds = [&](std::size_t) { return seconds; };
+  steps.resume = [](std::size_t step) { return step == 0 ? kLaws : step + 1; };  // without exact, nothing to compare
+  steps.done = [&](std::size_t block, std::size_t step, const Outcome& outcome) {
+    const std::string law = name_of_law(static_cast<Law>(step));
+    each[block].add(law, outcome);
+    all.add(subjects[block].name + ", " + law, outcome);
+    if (!outcome.good()) std::fprintf(stderr, "%s: %s: %s\n", subjects[block].name.c_str(), law.c_str(), outcome.text);
+  };
+  run_in_children(steps);
+  for (std::size_t k = 0; row_each && k < subjects.size(); ++k) {
+    each[k].meshes = 1;
+    print_row(subjects[k].name, each[k]);
+  }
+  all.meshes = subjects.size();
+  return all;
+}
+
+std::uint64_t laws_part(const Settings& settings) {
+  std::printf("\nLarge meshes, held to laws, seed %llu\n\n", Count{settings.seed});
+  print_head_of_laws();
+  const LawTally all =
+      hold_to_laws(settings, large_subjects(settings.seed, settings.night ? 1 : 0.01), settings.night ? 60 : 5, true);
+  print_row("all", all);
+  return all.wrong();
+}
+
+std::uint64_t files_part(const Settings& settings) {
+  std::printf("\nMeshes from files, held to laws, seed %llu\n\n", Count{settings.seed});
+  if (settings.folders.empty()) std::printf("(no folder of meshes at hand: left out)\n");
+  std::uint64_t wrong = 0;
+  std::vector<std::pair<std::string, LawTally>> rows;
+  const double seconds = settings.night ? 120 : 5;
+  const std::uint64_t most_bytes = settings.night ? std::uint64_t{1} << 40 : 100'000;
+  for (const std::string& folder : settings.folders) {
+    rows.emplace_back(folder, hold_to_laws(settings, file_subjects(folder, most_bytes), seconds, false));
+    wrong += rows.back().second.wrong();
+  }
+  if (!rows.empty()) print_head_of_laws();
+  for (const auto& [name, tally] : rows) print_row(name, tally);
+  return wrong;
+}
+
+std::uint64_t run(const Settings& settings) {
+  std::uint64_t wrong = 0;
+  if (settings.wants("families")) wrong += families_part(settings);
+  if (settings.wants("ratios")) wrong += ratios_part(settings);
+  if (settings.wants("laws")) wrong += laws_part(settings);
+  if (settings.wants("files")) wrong += files_part(settings);
+  std::printf("\n%llu wrong\n", Count{wrong});
+  return wrong;
+}
+
+// Days since 1970: every night other cases.
+std::uint64_t today() { return static_cast<std::uint64_t>(std::time(nullptr)) / 86400; }
+
+constexpr const char* kFooter =
+    R"(A case is named by its family, a seed and an index, and is the same anywhere. Every failure prints the command
+that makes it again. Exit code 1 where anything is wrong.
+
+  beyond         farther from the truth than max(1e-12 of the value, its error_bound): exact, at vertices and targets
+  bound broken   farther than error_bound
+  windows        bounds that do not hold, or are wider than the tolerance
+  lower, upper   on the wrong side of the truth, to the last bit
+  others         marching and Dijkstra: reached wrongly; Dijkstra: below the truth
+  no truth       starts on which the oracle does not end
+  oracle unsure  solves on which the oracle changed its mind with twice the digits)";
 
 int main(int argc, char** argv) {
   CLI::App app{"Complexes at random, awkward in every way that is known, each solver on them, and who was right.",
                "./run corpus"};
   Settings settings;
   bool list = false;
-  std::optional<std::uint64_t> index;
+  std::optional<std::uint64_t> index, seed;
   settings.lanes = std::max(1u, std::thread::hardware_concurrency());
-  app.add_option("--family", settings.families, "Only these families")->delimiter(',');
-  app.add_option("--method", settings.methods, "Only these: exact, paths, windows, lower, novotni-klein, ...")
+  app.add_option("part", settings.parts, "families, ratios, laws, files; all of them if none is named")
+      ->check(CLI::IsMember({"families", "ratios", "laws", "files"}));
+  app.add_flag("--night", settings.night, "Hours instead of two minutes; a new seed every day");
+  app.add_option("--family", settings.families, "Only these families (implies the part families)")->delimiter(',');
+  app.add_option("--method", settings.methods, "Only these: exact, paths, targets, radius, windows, lower, upper, ...")
       ->delimiter(',');
   app.add_option("--tolerance", settings.tolerances, "Of windows, lower and upper")->delimiter(',');
   app.add_option("--count", settings.count, "Cases of each family");
-  app.add_option("--seed", settings.seed, "Another seed, other cases");
+  app.add_option("--seed", seed, "Another seed, other cases (default 1; at night the day)");
   app.add_option("--index", index, "One case only");
   app.add_option("--dump", settings.dump, "A folder for the meshes of all failures, as OBJ");
+  app.add_option("--meshes", settings.folders, "A folder of meshes for the part files; may be given several times")
+      ->allow_extra_args(false);
   app.add_option("--jobs", settings.lanes, "Processes at a time")->check(CLI::PositiveNumber);
-  app.add_option("--shown", settings.shown, "How many failures of each family and method are told");
+  app.add_option("--shown", settings.shown, "How many failures of each family and method are told (default 3)");
   app.add_flag("--list", list, "Tell the families");
+  app.footer(kFooter);
   CLI11_PARSE(app, argc, argv);
   if (list) {
     for (const Family& f : small_families()) std::printf("%-14s %s\n", f.name.c_str(), f.what.c_str());
     return 0;
   }
+  settings.seed = seed.value_or(settings.night ? today() : 1);
   if (index) settings.first = *index, settings.count = 1;
-  return run(settings);
+  if (!settings.families.empty()) settings.parts = {"families"};
+  return run(settings) > 0 ? 1 : 0;
 }
 
 }  // namespace

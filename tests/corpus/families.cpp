@@ -63,6 +63,8 @@ Shape sheets_in_space(Dice& dice) {
   }
 }
 
+Index any_vertex(const Shape& s, Dice& dice) { return dice.below(s.positions.size()); }
+
 Shape any_base(Dice& dice) {
   switch (dice.below(4)) {
     case 0:
@@ -338,12 +340,29 @@ std::span<const Family> small_families() {
   return all;
 }
 
+Family family_of_ratio(int decades) {
+  return {
+      "ratio-1e" + std::to_string(decades), "the largest length is this many times the shortest",
+      [decades](Dice& dice) {
+        Shape s = any_base(dice);
+        const double least = std::pow(10.0, -decades);
+        const Index small = any_vertex(s, dice);
+        for (Index v = 0; v < s.positions.size(); ++v) {
+          const double scale = v == small || dice.chance(0.3) ? least : dice.chance(0.5) ? 1 : dice.power(-decades, 0);
+          s.positions[v] = scale * s.positions[v];
+        }
+        return draft(s);
+      },
+      true};
+}
+
 Case make_case(const Family& family, std::uint64_t seed, std::uint64_t index) {
   Dice dice(family.name, seed, index);
   Draft made = family.make(dice);
   Case c{made.mesh, made.plain.value_or(made.mesh), {}, {}};
-  const auto turn = static_cast<std::uint32_t>(index % (kKinds + 1));
-  for (const std::uint32_t kind : {turn, (turn + 1 + dice.below(kKinds)) % (kKinds + 1)}) {
+  const std::uint32_t kinds = family.ordinary_starts ? 3 : kKinds + 1;
+  const auto turn = static_cast<std::uint32_t>(index % kinds);
+  for (const std::uint32_t kind : {turn, (turn + 1 + dice.below(kinds - 1)) % kinds}) {
     c.starts.push_back(kind == kKinds ? several(c.plain, dice)
                                       : std::vector<Source>{{point_of_kind(c.plain, dice, kind), 0}});
   }

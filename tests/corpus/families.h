@@ -8,6 +8,7 @@
 #include <brushfire/solvers/distance.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,11 +24,15 @@ struct Draft {
 struct Family {
   std::string name;
   std::string what;
-  Draft (*make)(Dice&);
+  std::function<Draft(Dice&)> make;
+  bool ordinary_starts = false;  // at vertices, on edges and in faces, and not next to them
 };
 
 // Complexes of at most 100 faces, for the oracle.
 std::span<const Family> small_families();
+
+// Complexes whose largest length is some 10^decades of the shortest, with ordinary starts.
+Family family_of_ratio(int decades);
 
 struct Case {
   Mesh mesh, plain;
@@ -36,7 +41,8 @@ struct Case {
 };
 
 // The case `index` of a family: starts at a vertex, on an edge, in a face, 1e-16 .. 1e-3 from a vertex or an edge, and
-// at several points with offsets, two of these by turns; targets of all kinds.
+// at several points with offsets, two of these by turns (the first three where starts are ordinary); targets of all
+// kinds.
 Case make_case(const Family& family, std::uint64_t seed, std::uint64_t index);
 
 // A mesh with all the digits of its coordinates as OBJ, the remarks in front as comments. Throws

@@ -24,6 +24,7 @@ struct Outcome {
   std::uint32_t lost = 0;     // paths that are not there, or are not paths
   std::uint32_t unsure = 0;   // where the oracle needed more digits than it had
   double worst = 0;           // relative
+  double seconds = 0;         // of processor time, where somebody asks
   char text[320] = {};        // of the first thing that is wrong
 
   void complain(std::string_view what);  // the first one stays
