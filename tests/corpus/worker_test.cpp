@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <map>
 #include <stdexcept>
@@ -20,7 +21,8 @@ std::map<std::pair<std::size_t, std::size_t>, Outcome> all_outcomes(unsigned lan
   steps.lanes = lanes;
   steps.run = [](std::size_t block, std::size_t step) {
     if (block == 1 && step == 1) {
-      for (volatile int spin = 0;; spin = spin + 1) {
+      std::atomic<bool> forever = true;
+      while (forever) {
       }
     }
     if (block == 2 && step == 0) std::abort();
