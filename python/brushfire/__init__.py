@@ -16,6 +16,7 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 """
 
 from brushfire._core import version as __version__
+from brushfire._certify import Certificate
 from brushfire._curves import LogMap, Path
 from brushfire._errors import BrushfireError, BrushfireIndexError
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
@@ -30,6 +31,7 @@ __all__ = [
     "Border",
     "BrushfireError",
     "BrushfireIndexError",
+    "Certificate",
     "Comparison",
     "Cut",
     "Descent",
