@@ -52,8 +52,10 @@ bool ends_with(const std::string& path, const char* ending) { return path.ends_w
 void check(const Arguments& a, const Talk& talk) {
   if (a.within && !(*a.within >= 0)) refuse("--within " + exact(*a.within) + " is not a number >= 0");
   if (a.radius && !(*a.radius >= 0)) refuse("--radius " + exact(*a.radius) + " is not a number >= 0");
-  if (a.tolerance && !(*a.tolerance >= 0 && *a.tolerance <= kMaxTolerance)) {
-    refuse("--tolerance " + exact(*a.tolerance) + " is not in 0 to " + exact(kMaxTolerance));
+  const double tolerance = a.tolerance.value_or(0);
+  const bool fits = tolerance >= 0 && tolerance <= kMaxTolerance;
+  if (!fits) {
+    refuse("--tolerance " + exact(tolerance) + " is not in 0 to " + exact(kMaxTolerance));
   }
   check_output(a.output);
   if (a.output == "-" && talk.json) refuse("only one of -o - and --json can have the standard output");

@@ -36,7 +36,7 @@ struct CertifyOptions {
   // What is farther than this may read +inf; >= 0.
   double max_distance = kInfinity;
   unsigned threads = 1;  // 0: one per processor
-  Progress progress = {};
+  Progress progress = nullptr;
   const CancelToken* cancel = nullptr;
 };
 
