@@ -24,7 +24,7 @@ using Count = unsigned long long;
 constexpr std::size_t kStarts = 2;  // of every case
 
 struct Settings {
-  std::vector<std::string> parts, families, methods, folders;
+  std::vector<std::string> parts, families, methods, meshes, folders;
   std::vector<double> tolerances{1e-2, 1e-3, 1e-5};
   std::uint64_t seed = 1, count = 0, first = 0;
   std::string dump;
@@ -154,24 +154,59 @@ std::uint64_t ratios_part(const Settings& settings) {
 
 // ---- laws
 
-LawTally hold_to_laws(const Settings& settings, const std::vector<Subject>& subjects, double seconds, bool row_each) {
+// Those that were asked for: a part of the name is enough.
+std::vector<Subject> chosen_subjects(const Settings& settings, std::vector<Subject> all) {
+  if (settings.meshes.empty()) return all;
+  std::vector<Subject> chosen;
+  for (Subject& s : all) {
+    const auto is_part = [&](const std::string& word) { return s.name.find(word) != std::string::npos; };
+    if (std::any_of(settings.meshes.begin(), settings.meshes.end(), is_part)) chosen.push_back(std::move(s));
+  }
+  return chosen;
+}
+
+// Exact, which the others are compared with, and those of --method.
+std::vector<Law> chosen_laws(const Settings& settings) {
+  std::vector<Law> laws;
+  for (std::size_t k = 0; k < kLaws; ++k) {
+    const auto law = static_cast<Law>(k);
+    const bool named = std::find(settings.methods.begin(), settings.methods.end(), first_word(name_of_law(law))) !=
+                       settings.methods.end();
+    if (law == Law::Exact || settings.methods.empty() || named) laws.push_back(law);
+  }
+  return laws;
+}
+
+void report(const Settings& settings, const char* part, const std::string& name, const std::string& law,
+            const Outcome& outcome) {
+  std::fprintf(stderr, "%s: %s: %s\n  again: ./run corpus %s%s --mesh '%s' --seed %llu --method %s\n", name.c_str(),
+               law.c_str(), outcome.text, part, settings.night ? " --night" : "", name.c_str(), Count{settings.seed},
+               first_word(law).c_str());
+}
+
+LawTally hold_to_laws(const Settings& settings, const char* part, const std::vector<Subject>& every, double seconds,
+                      bool row_each) {
+  const std::vector<Subject> subjects = chosen_subjects(settings, every);
+  const std::vector<Law> laws = chosen_laws(settings);
   std::vector<LawTally> each(subjects.size());
   LawTally all;
   Trial trial(subjects, settings.seed, seconds);
   Steps steps;
   steps.blocks = subjects.size();
-  steps.block_size = kLaws;
+  steps.block_size = laws.size();
   steps.lanes = settings.lanes;
-  steps.run = [&](std::size_t block, std::size_t step) { return trial.run(block, static_cast<Law>(step)); };
+  steps.run = [&](std::size_t block, std::size_t step) { return trial.run(block, laws[step]); };
   steps.seconds = [&](std::size_t) { return seconds; };
-  steps.resume = [](std::size_t step) { return step == 0 ? kLaws : step + 1; };  // without exact, nothing to compare
+  steps.resume = [&](std::size_t step) {
+    return step == 0 ? laws.size() : step + 1;
+  };  // without exact, nothing to compare
   steps.done = [&](std::size_t block, std::size_t step, const Outcome& outcome) {
-    const std::string law = name_of_law(static_cast<Law>(step));
+    const std::string law = name_of_law(laws[step]);
     each[block].add(law, outcome);
     all.add(subjects[block].name + ", " + law, outcome);
-    if (!outcome.good()) std::fprintf(stderr, "%s: %s: %s\n", subjects[block].name.c_str(), law.c_str(), outcome.text);
+    if (!outcome.good()) report(settings, part, subjects[block].name, law, outcome);
   };
-  run_in_children(steps);
+  if (!subjects.empty()) run_in_children(steps);
   for (std::size_t k = 0; row_each && k < subjects.size(); ++k) {
     each[k].meshes = 1;
     print_row(subjects[k].name, each[k]);
@@ -183,8 +218,8 @@ LawTally hold_to_laws(const Settings& settings, const std::vector<Subject>& subj
 std::uint64_t laws_part(const Settings& settings) {
   std::printf("\nLarge meshes, held to laws, seed %llu\n\n", Count{settings.seed});
   print_head_of_laws();
-  const LawTally all =
-      hold_to_laws(settings, large_subjects(settings.seed, settings.night ? 1 : 0.01), settings.night ? 60 : 5, true);
+  const LawTally all = hold_to_laws(settings, "laws", large_subjects(settings.seed, settings.night ? 1 : 0.01),
+                                    settings.night ? 60 : 5, true);
   print_row("all", all);
   return all.wrong();
 }
@@ -197,7 +232,7 @@ std::uint64_t files_part(const Settings& settings) {
   const double seconds = settings.night ? 120 : 5;
   const std::uint64_t most_bytes = settings.night ? std::uint64_t{1} << 40 : 100'000;
   for (const std::string& folder : settings.folders) {
-    rows.emplace_back(folder, hold_to_laws(settings, file_subjects(folder, most_bytes), seconds, false));
+    rows.emplace_back(folder, hold_to_laws(settings, "files", file_subjects(folder, most_bytes), seconds, false));
     wrong += rows.back().second.wrong();
   }
   if (!rows.empty()) print_head_of_laws();
@@ -241,9 +276,11 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"families", "ratios", "laws", "files"}));
   app.add_flag("--night", settings.night, "Hours instead of two minutes; a new seed every day");
   app.add_option("--family", settings.families, "Only these families (implies the part families)")->delimiter(',');
-  app.add_option("--method", settings.methods, "Only these: exact, paths, targets, radius, windows, lower, upper, ...")
+  app.add_option("--method", settings.methods,
+                 "Only these: exact, paths, targets, radius, windows, lower, upper, symmetry, ...")
       ->delimiter(',');
   app.add_option("--tolerance", settings.tolerances, "Of windows, lower and upper")->delimiter(',');
+  app.add_option("--mesh", settings.meshes, "Of laws and files: those whose name has this in it")->delimiter(',');
   app.add_option("--count", settings.count, "Cases of each family");
   app.add_option("--seed", seed, "Another seed, other cases (default 1; at night the day)");
   app.add_option("--index", index, "One case only");

@@ -186,7 +186,7 @@ Outcome Trial::scaling() {
 
 Outcome Trial::renumbering() {
   Outcome out;
-  Dice dice("renumbering", seed_, at_);
+  Dice dice(subjects_[at_].name + ", renumbering", seed_, 0);
   const std::vector<Index> vertices = shuffled(mesh_.vertex_count(), dice), rank = inverse(vertices);
   const std::vector<Index> face_rank = shuffled(mesh_.face_count(), dice);
   const Mesh mesh = mesh_.renumbered(vertices, rank, face_rank);
@@ -222,7 +222,7 @@ Outcome Trial::radius() {
 
 Outcome Trial::targets() {
   Outcome out;
-  Dice dice("targets", seed_, at_);
+  Dice dice(subjects_[at_].name + ", targets", seed_, 0);
   DistanceOptions options = exact();
   std::vector<Index> vertices;
   for (std::size_t k = 0; k < kPoints; ++k) {
@@ -290,7 +290,7 @@ Outcome Trial::paths() {
   DistanceOptions options = exact();
   options.keep_paths = true;
   const DistanceField kept = solve(mesh_, options);
-  Dice dice("paths", seed_, at_);
+  Dice dice(subjects_[at_].name + ", paths", seed_, 0);
   for (int k = 0; k < kPathsPerMesh; ++k) {
     const SurfacePoint to = oracle::random_vertex(mesh_, dice.small());
     const Index v = locate(mesh_, to).vertex;
