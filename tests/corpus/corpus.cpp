@@ -189,6 +189,7 @@ LawTally hold_to_laws(const Settings& settings, const char* part, const std::vec
   const std::vector<Subject> subjects = chosen_subjects(settings, every);
   const std::vector<Law> laws = chosen_laws(settings);
   std::vector<LawTally> each(subjects.size());
+  for (LawTally& t : each) t.meshes = 1;
   LawTally all;
   Trial trial(subjects, settings.seed, seconds);
   Steps steps;
@@ -205,12 +206,11 @@ LawTally hold_to_laws(const Settings& settings, const char* part, const std::vec
     each[block].add(law, outcome);
     all.add(subjects[block].name + ", " + law, outcome);
     if (!outcome.good()) report(settings, part, subjects[block].name, law, outcome);
+    const bool died = outcome.ending == Ending::Hung || outcome.ending == Ending::Crashed;
+    const std::size_t next = died ? steps.resume(step) : step + 1;
+    if (row_each && next >= laws.size()) print_row(subjects[block].name, each[block]);
   };
   if (!subjects.empty()) run_in_children(steps);
-  for (std::size_t k = 0; row_each && k < subjects.size(); ++k) {
-    each[k].meshes = 1;
-    print_row(subjects[k].name, each[k]);
-  }
   all.meshes = subjects.size();
   return all;
 }

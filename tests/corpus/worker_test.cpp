@@ -59,7 +59,7 @@ TEST(CorpusFamilies, ACaseIsTheSameWheneverItIsMade) {
   for (const Family& family : small_families()) {
     const Case a = make_case(family, 7, 3), b = make_case(family, 7, 3), other = make_case(family, 8, 3);
     ASSERT_EQ(a.mesh.face_count(), b.mesh.face_count()) << family.name;
-    EXPECT_LE(a.mesh.face_count(), 160u) << family.name;
+    EXPECT_LE(a.mesh.face_count(), 110u) << family.name;
     for (Index v = 0; a.mesh.has_positions() && v < a.mesh.vertex_count(); ++v) {
       EXPECT_EQ(a.mesh.positions()[v], b.mesh.positions()[v]) << family.name;
     }
