@@ -38,6 +38,7 @@ def test_every_public_function_and_method_has_an_example():
         "LogMap",
         "At",
         "Border",
+        "Certificate",
         "Comparison",
         "Descent",
         "Errors",

@@ -139,7 +139,7 @@ CommandLine::CommandLine() : implementation_(std::make_unique<Implementation>())
       "  brushfire distance bunny.ply --source 0 -o bunny-distance.ply\n"
       "\n"
       "Exit codes: 0 done, 1 internal error or output not writable, 2 usage, 3 unusable input file,\n"
-      "4 target unreachable, 130 interrupted (Ctrl-C), 143 terminated.");
+      "4 target unreachable, 5 field proven wrong, 130 interrupted (Ctrl-C), 143 terminated.");
 }
 
 CommandLine::~CommandLine() = default;

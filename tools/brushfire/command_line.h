@@ -19,6 +19,7 @@ inline constexpr int kInternal = 1;     // a bug, no memory, an output that cann
 inline constexpr int kUsage = 2;        // an argument that is not understood or names something that is not in the mesh
 inline constexpr int kBadInput = 3;     // an input file that cannot be read or is not a mesh
 inline constexpr int kUnreachable = 4;  // a target that no source reaches
+inline constexpr int kProvenWrong = 5;  // a field that is proven wrong, or farther from another than was allowed
 // Interrupted: 128 and the signal, see interrupt.h: 130 after Ctrl-C, 143 after SIGTERM.
 
 // Thrown by a verb whose answer is that there is no way: what() says to where.
@@ -105,6 +106,7 @@ void add_path(CommandLine& command_line);
 void add_isolines(CommandLine& command_line);
 void add_render(CommandLine& command_line);
 void add_compare(CommandLine& command_line);
+void add_certify(CommandLine& command_line);
 void add_bench(CommandLine& command_line);
 void add_convert(CommandLine& command_line);
 void add_shape(CommandLine& command_line);

@@ -3,6 +3,7 @@
 #include "command_line.h"
 #include "interrupt.h"
 #include "output.h"
+#include "sources.h"
 #include "surface.h"
 #include "where.h"
 
@@ -78,20 +79,6 @@ struct Run {
     return best;
   }
 };
-
-std::vector<Where> parse_sources(const Arguments& arguments) {
-  std::vector<Where> places;
-  for (const std::string& text : split_places(arguments.sources)) places.push_back(parse_where(text));
-  if (!arguments.sources_file.empty()) {
-    for (Where& w : read_where_file(arguments.sources_file)) places.push_back(std::move(w));
-  }
-  if (places.empty()) {
-    throw Error(ErrorCode::InvalidArgument, arguments.sources_file.empty()
-                                                ? "where from? give --source or --sources"
-                                                : arguments.sources_file + ": no source in this file");
-  }
-  return places;
-}
 
 std::vector<Where> parse_targets(const Arguments& arguments) {
   std::vector<Where> places;
@@ -194,7 +181,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   DistanceOptions& options = run.options;
   apply(arguments.accuracy, options);
   options.threads = static_cast<unsigned>(whole_number(arguments.threads, 0, 0, kMostThreads, "--threads"));
-  const std::vector<Where> source_places = parse_sources(arguments);
+  const std::vector<Where> source_places = parse_sources(arguments.sources, arguments.sources_file);
   run.target_places = parse_targets(arguments);
 
   const Stopwatch reading;
