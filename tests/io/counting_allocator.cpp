@@ -1,5 +1,6 @@
-// operator new and delete that keep count. A file of its own, so that the compiler cannot look into them. All forms: with
-// one of them left out, a sanitizer's own allocates what ours then frees (std::stable_sort asks for the nothrow form).
+// operator new and delete that keep count. A file of its own, so that the compiler cannot look into them. All forms:
+// with one of them left out, a sanitizer's own allocates what ours then frees (std::stable_sort asks for the nothrow
+// form).
 #include "counting_allocator.h"
 
 #include <malloc.h>
