@@ -16,8 +16,12 @@ function(brushfire_warnings target)
   else()
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
       -Wcast-qual -Wconversion -Wno-sign-conversion -Wextra-semi ${brushfire_werror})
+    # What GCC concludes after inlining is of no use where it concludes it of the standard library's own code: false alarms.
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-      target_compile_options(${target} PRIVATE -Wno-restrict)  # false alarms on string + string (GCC bug 105651)
+      target_compile_options(${target} PRIVATE -Wno-restrict)  # on string + string (GCC bug 105651)
+    elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${target} PRIVATE  # on vector::insert, on a variant that is moved
+        -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
     endif()
   endif()
 endfunction()

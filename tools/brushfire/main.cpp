@@ -14,5 +14,6 @@ int main(int argc, char** argv) {
   add_bench(command_line);
   add_shape(command_line);
   add_completion(command_line);
+  add_manual(command_line);
   return command_line.run(argc, argv);
 }
