@@ -21,12 +21,13 @@ if [ ${#commands[@]} = 0 ]; then commands=(demo test); fi
 
 mirror=${BRUSHFIRE_FRESH_MIRROR:-http://deb.debian.org/debian}
 cache=${BRUSHFIRE_FRESH_CCACHE:-}
-here=build/fresh logs=build/fresh/logs table=()
+here=build/fresh logs=build/fresh/logs table=() worker=
 mkdir -p "$logs"
 machine=$(mktemp -d "$PWD/$here/machine-XXXXXX")
 say() { printf '\033[1m%s\033[0m\n' "$*" >&2; }
 
-# Mounts are made in a namespace of the command's own, and gone when it ends, however it ends.
+# Mounts and processes are in namespaces of the command's own, and gone when it ends, however it ends. In the background,
+# so that this script hears signals meanwhile.
 inside() {
   unshare --mount --propagation private --pid --fork --kill-child -- bash -c '
     set -e
@@ -35,7 +36,9 @@ inside() {
     mount -t proc proc "$machine/proc"
     mount --rbind /dev "$machine/dev"
     if [ -n "$cache" ]; then mount --bind "$cache" "$machine/var/cache/ccache"; fi
-    exec chroot "$machine" "$@"' inside "$machine" "$cache" "$@"
+    exec chroot "$machine" "$@"' inside "$machine" "$cache" "$@" &
+  worker=$!
+  wait "$worker"
 }
 
 cleared() { rm -rf --one-file-system "$machine"; }
@@ -50,7 +53,7 @@ finish() {
   exit $status
 }
 trap finish EXIT
-trap 'exit 130' INT TERM
+trap 'kill -KILL "$worker" 2>/dev/null; wait; exit 130' INT TERM
 
 # base RELEASE: the machine as debootstrap makes it; the archive is kept for the next time.
 base() {
