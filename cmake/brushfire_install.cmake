@@ -45,6 +45,7 @@ else()
   set(brushfire_pc_libraries "")
 endif()
 file(RELATIVE_PATH brushfire_pc_up /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+string(REGEX REPLACE "/$" "" brushfire_pc_up ${brushfire_pc_up})
 configure_file(cmake/brushfire.pc.in brushfire.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/brushfire.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 

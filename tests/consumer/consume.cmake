@@ -5,7 +5,7 @@
 # fetch: builds the consumer with brushfire as a part of it, shared; installs that and builds a second consumer against
 # the shared library with find_package.
 # core: builds a consumer of the solvers alone, with brushfire as a part of it that neither reads files nor draws.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
 file(WRITE ${SCRATCH}/square.obj "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")

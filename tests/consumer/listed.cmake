@@ -1,6 +1,6 @@
 # cmake -D SOURCE=.../src -P listed.cmake: every header outside of a detail/ folder is either in brushfire.h, which makes it
 # public and installs it, or here, which says that it is private and that its folder does not say so yet.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 set(private
   core/bucket_queue.h core/inline.h core/memory.h core/planar.h core/populate.h core/random.h core/uninitialized.h
   mesh/flat_face.h mesh/locality_order.h)
