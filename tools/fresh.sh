@@ -5,13 +5,13 @@
 # root, or one who may use sudo. It gets the checkout as it lies there, changes included, and the network's settings.
 set -euo pipefail
 
-usage='usage: ./run fresh [bookworm] [trixie] [root] [user] [demo] [test]'
+usage='usage: ./run fresh [bookworm] [trixie] [root] [user] [demo] [test] [build] [python] [threads]'
 releases=() users=() commands=()
 for word in "$@"; do
   case $word in
     bookworm | trixie) releases+=("$word") ;;
     root | user) users+=("$word") ;;
-    demo | test) commands+=("$word") ;;
+    demo | test | build | python | threads) commands+=("$word") ;;
     *) echo "$usage" >&2; exit 2 ;;
   esac
 done
