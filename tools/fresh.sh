@@ -35,7 +35,7 @@ inside() {
     shift 2
     mount -t proc proc "$machine/proc"
     mount --rbind /dev "$machine/dev"
-    if [ -n "$cache" ]; then mount --bind "$cache" "$machine/var/cache/ccache"; fi
+    if [ -n "$cache" ]; then mkdir -p "$machine/var/cache/ccache" && mount --bind "$cache" "$machine/var/cache/ccache"; fi
     exec chroot "$machine" "$@"' inside "$machine" "$cache" "$@" &
   worker=$!
   wait "$worker"
@@ -102,7 +102,6 @@ prepared() {
   fi
   environment+=("HOME=$home")
   if [ -n "$cache" ]; then
-    mkdir -p "$machine/var/cache/ccache"
     install_in_machine ccache
     # By content: the same compiler has another date in every machine.
     environment+=(CCACHE_DIR=/var/cache/ccache CCACHE_UMASK=000 CCACHE_COMPILERCHECK=content CCACHE_NOHASHDIR=1
