@@ -23,7 +23,8 @@ function(brushfire_warnings target)
       target_compile_options(${target} PRIVATE  # on vector::insert, on a variant that is moved
         -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
     else()
-      target_compile_options(${target} PRIVATE -Wno-bitwise-instead-of-logical)  # two comparisons without a branch: meant
+      target_compile_options(${target} PRIVATE -Wno-bitwise-instead-of-logical  # two comparisons without a branch: meant
+        -Wno-bitwise-conditional-parentheses)
     endif()
   endif()
 endfunction()
