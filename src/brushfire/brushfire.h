@@ -1,4 +1,4 @@
-// Everything public, in one include. What is not listed here is not installed: this is the list that installation reads.
+// Everything public, in one include. What is not listed here is not installed: installation reads this file.
 #pragma once
 
 #include <brushfire/config.h>
