@@ -22,6 +22,7 @@ if [ ${#commands[@]} = 0 ]; then commands=(demo test); fi
 mirror=${BRUSHFIRE_FRESH_MIRROR:-http://deb.debian.org/debian}
 cache=${BRUSHFIRE_FRESH_CCACHE:-}
 here=build/fresh logs=build/fresh/logs table=() worker=
+exec {table_out}>&1
 mkdir -p "$logs"
 machine=$(mktemp -d "$PWD/$here/machine-XXXXXX")
 say() { printf '\033[1m%s\033[0m\n' "$*" >&2; }
@@ -47,6 +48,7 @@ cleared() { rm -rf --one-file-system "$machine"; }
 finish() {
   local status=$?
   cleared
+  exec >&"$table_out"  # a signal may come while output goes to a log
   printf '\n%-9s %-5s %-11s %-7s %8s\n' release user command result seconds
   if [ ${#table[@]} -gt 0 ]; then printf '%s\n' "${table[@]}"; fi
   echo "Processors: $(nproc). Compiled files from a cache: $(if [ -n "$cache" ]; then echo "yes, $cache"; else echo no; fi)."
