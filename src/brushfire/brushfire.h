@@ -15,6 +15,10 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/mesh/subdivide.h>
 #include <brushfire/mesh/surface_point.h>
+#include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/window_field.h>
+#include <brushfire/version.h>
+#if BRUSHFIRE_QUERIES
 #include <brushfire/queries/compare.h>
 #include <brushfire/queries/curved_isolines.h>
 #include <brushfire/queries/distance_matrix.h>
@@ -26,9 +30,7 @@
 #include <brushfire/queries/straightest.h>
 #include <brushfire/queries/surface_path.h>
 #include <brushfire/queries/voronoi.h>
-#include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/window_field.h>
-#include <brushfire/version.h>
+#endif
 #if BRUSHFIRE_IO
 #include <brushfire/io/npy.h>
 #include <brushfire/io/read_field.h>
