@@ -77,6 +77,7 @@ network() {
   local name certificates=${PIP_CERT:-${SSL_CERT_FILE:-}}
   environment=(PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb)
   cp /etc/resolv.conf "$machine/etc/resolv.conf"
+  echo "127.0.0.1 localhost $(uname -n)" >"$machine/etc/hosts"
   for name in http_proxy https_proxy no_proxy PIP_INDEX_URL; do
     if [ -n "${!name:-}" ]; then environment+=("$name=${!name}"); fi
   done
