@@ -134,6 +134,7 @@ def write_field(
     labels: _Signed | None,
     name: str,
     label_name: str,
+    structure: str,
     format: str,
 ) -> None: ...
 def write_lines(

@@ -16,5 +16,6 @@ int main(int argc, char** argv) {
   add_convert(command_line);
   add_shape(command_line);
   add_completion(command_line);
+  add_manual(command_line);
   return command_line.run(argc, argv);
 }

@@ -1,13 +1,13 @@
 // What meshoptimizer unpacks, and what to say without it.
 #include <brushfire/io/detail/meshopt.h>
 
-#ifdef BRUSHFIRE_HAS_MESHOPT
+#ifdef BRUSHFIRE_HAS_MESHOPTIMIZER
 #include <meshoptimizer.h>
 #endif
 
 namespace brushfire::detail {
 
-#ifdef BRUSHFIRE_HAS_MESHOPT
+#ifdef BRUSHFIRE_HAS_MESHOPTIMIZER
 
 namespace {
 

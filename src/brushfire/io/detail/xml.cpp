@@ -37,6 +37,35 @@ namespace {
 
 constexpr std::size_t kDeepest = 64;
 
+// Places in the input. Newer expats have functions of 64 bits on every machine and deprecate the others, whatever their
+// version number says (distributions backport them): `requires` looks whether they are there.
+template <class Parser>
+std::size_t line_number(Parser* parser) {
+  if constexpr (requires { XML_GetCurrentLineNumber64(parser); }) {
+    return static_cast<std::size_t>(XML_GetCurrentLineNumber64(parser));
+  } else {
+    return static_cast<std::size_t>(XML_GetCurrentLineNumber(parser));
+  }
+}
+
+template <class Parser>
+std::size_t byte_index(Parser* parser) {
+  if constexpr (requires { XML_GetCurrentByteIndex64(parser); }) {
+    return static_cast<std::size_t>(XML_GetCurrentByteIndex64(parser));
+  } else {
+    return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser));
+  }
+}
+
+template <class Parser>
+std::size_t byte_count(Parser* parser) {
+  if constexpr (requires { XML_GetCurrentByteCount64(parser); }) {
+    return static_cast<std::size_t>(XML_GetCurrentByteCount64(parser));
+  } else {
+    return static_cast<std::size_t>(XML_GetCurrentByteCount(parser));
+  }
+}
+
 class XmlStream {
  public:
   XmlStream(const Input& input, std::string_view stop_at,
@@ -83,10 +112,9 @@ class XmlStream {
 
   std::size_t line() const {
     const std::string_view before = input_->bytes().substr(0, begin_);
-    return static_cast<std::size_t>(XML_GetCurrentLineNumber(parser_.get())) +
-           static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+    return line_number(parser_.get()) + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
   }
-  std::size_t byte() const { return begin_ + static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get())); }
+  std::size_t byte() const { return begin_ + byte_index(parser_.get()); }
 
   static void XMLCALL start(void* self, const XML_Char* name, const XML_Char** attributes) {
     auto& s = *static_cast<XmlStream*>(self);
@@ -100,7 +128,7 @@ class XmlStream {
       XmlElement e;
       e.name = name;
       e.line = s.line();
-      e.text_begin = s.byte() + static_cast<std::size_t>(XML_GetCurrentByteCount(s.parser_.get()));
+      e.text_begin = s.byte() + byte_count(s.parser_.get());
       for (; *attributes != nullptr; attributes += 2) e.attributes.emplace_back(attributes[0], attributes[1]);
       s.path_.push_back(std::move(e));
       if (s.path_.back().name == s.stop_at_) {
