@@ -2,7 +2,7 @@
 # public and installs it, or here, which says that it is private and that its folder does not say so yet.
 cmake_minimum_required(VERSION 3.22)
 set(private
-  core/bucket_queue.h core/inline.h core/memory.h core/planar.h core/populate.h core/random.h core/uninitialized.h
+  core/bucket_queue.h core/inline.h core/memory.h core/planar.h core/populate.h core/random.h core/text.h core/uninitialized.h
   mesh/flat_face.h mesh/locality_order.h)
 
 file(READ ${SOURCE}/brushfire/brushfire.h everything)
