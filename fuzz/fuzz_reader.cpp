@@ -1,6 +1,6 @@
 // Feeds arbitrary bytes to one reader: a result or an Error of one line is fine, anything else is a finding.
 //
-// FUZZ_MESH and FUZZ_FIELD name the functions of io/detail/formats.h that this program is for.
+// FUZZ_MESH, FUZZ_FIELD and FUZZ_LINES name the functions of io/detail/formats.h that this program is for.
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/formats.h>
 
@@ -36,13 +36,25 @@ void read_once(const detail::Input& input) {
     check(e);
   }
 #endif
+#ifdef FUZZ_LINES
+  try {
+    for (const LoadedLine& line : detail::FUZZ_LINES(input).lines) {
+      const std::size_t positions = line.positions.size(), points = line.points.size();
+      if (positions != points && positions != 0 && points != 0) std::abort();
+    }
+  } catch (const Error& e) {
+    check(e);
+  }
+#endif
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    read_once(detail::Input::from_memory({reinterpret_cast<const char*>(data), size}, "input"));
+    auto input = detail::Input::from_memory({reinterpret_cast<const char*>(data), size}, "input");
+    input.drop_byte_order_mark();
+    read_once(input);
   } catch (const Error& e) {
     check(e);  // of the decompression
   }

@@ -3,6 +3,10 @@
 #include <brushfire/core/error.h>
 #include <brushfire/io/npy.h>
 #include <brushfire/io/write_field.h>
+#include <brushfire/io/write_lines.h>
+#include <brushfire/io/write_mesh.h>
+
+#include "../tests/support/stored_zip.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -56,6 +60,20 @@ void from_writers(const Seeds& seeds) {
     write_field(seeds.path(format, "written"), mesh, field, format);
   write_field(seeds.path("gifti", "written"), mesh, field, "gii");
   write_field(seeds.path("curv", "written"), mesh, field, "curv");
+  for (const char* format : {"off", "stl", "msh", "mesh"}) {
+    const std::string reader = std::string(format) == "msh" ? "gmsh" : std::string(format) == "mesh" ? "medit" : format;
+    write_mesh(seeds.path(reader, "written"), mesh, format);
+  }
+  write_mesh(seeds.path("gltf", "written"), mesh, "glb");
+  write_mesh(seeds.path("gifti", "written-surface"), mesh, "gii", "CortexLeft");
+  write_mesh(seeds.path("freesurfer", "written"), mesh, "white");
+  write_mesh(seeds.path("freesurfer_text", "written"), mesh, "asc");
+  write_mesh(seeds.path("medit_binary", "written"), mesh, "meshb");
+  const std::vector<SurfaceLine> lines{{{{0, {1, 0, 0}}, {0, {0.5, 0, 0.5}}, {1, {0.25, 0.5, 0.25}}}, false, 0.75},
+                                       {{{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}}, true, 3.5}};
+  for (const char* format : {"csv", "json", "obj", "ply", "vtp"}) {
+    write_lines(seeds.path(format, "curves"), mesh, lines, "length", format);
+  }
   write_npy(seeds.path("npy", "doubles"), values);
   const std::vector<std::size_t> shape{5, 1};
   write_npy(seeds.path("npy", "column"), labels, shape);
@@ -63,6 +81,10 @@ void from_writers(const Seeds& seeds) {
 
 void texts(const Seeds& seeds) {
   seeds.text("off", "plain", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3 255 0 0\n");
+  seeds.text("off", "binary",
+             "CNOFF BINARY\n" + packed<std::int32_t>({1, 1, 0}, true) +
+                 packed<float>({0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, true) + packed<std::int32_t>({3, 0, 0, 0, 0}, true));
+  seeds.text("off", "planar", "OFF3 1 0\r0 0\r1 0D0\r1 1\r3 0 1 2\r");
   seeds.text("obj", "polygon", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv .2 .3 0\nv 0 1 0\nf 1/1/1 2//2 3/3 \\\n 4 -1\nl 1 2\n");
   seeds.text("ply", "ascii",
              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty "
@@ -115,6 +137,29 @@ void volumes(const Seeds& seeds) {
   seeds.text("vtk", "grid",
              "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 1 1 "
              "0\nCELLS 2 9\n3 0 1 2\n4 0 1 2 3\nCELL_TYPES 2\n5 8\n");
+  seeds.text("vtk", "strings",
+             "# vtk DataFile Version 5.1\nt\nBINARY\nDATASET POLYDATA\nPOINTS 1 float\n" + std::string(12, '\0') +
+                 "\nPOINT_DATA 1\nFIELD f 2\nb 1 1 bit\n\x80\nn 1 1 string\n\xc1z\n");
+  seeds.text(
+      "vtp", "grid",
+      "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"3\" NumberOfCells=\"1\"><Points>"
+      "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 "
+      "0</DataArray></Points><Cells>"
+      "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray><DataArray type=\"Int64\" "
+      "Name=\"offsets\" format=\"ascii\">3</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5"
+      "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>");
+  const std::string packed_points[]{
+      "vtkLZ4DataCompressor", "AQAAAACAAABIAAAAGQAAAA==HwABAAovCEAfAAMEGACgEEAAAAAAAAAAAA==", "vtkLZMADataCompressor",
+      "AQAAAACAAABIAAAASAAAAA=="
+      "/Td6WFoAAAFpIt42AsAWSCEBFgAqosJT4ABHAA5dAABuFE/KP8GCWgG7p/ogAAAA0yDHBQABJkit/1+bkEKZDQEAAAAAAVla"};
+  for (const std::size_t k : {0, 2}) {
+    seeds.text(
+        "vtp", packed_points[k],
+        "<VTKFile type=\"PolyData\" compressor=\"" + packed_points[k] +
+            "\"><PolyData><Piece NumberOfPoints=\"3\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+            "format=\"binary\">" +
+            packed_points[k + 1] + "</DataArray></Points></Piece></PolyData></VTKFile>");
+  }
   const std::string points =
       detail::encode_base64(packed<std::uint32_t>({36}) + packed<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}));
   seeds.text("vtp", "inline",
@@ -157,6 +202,11 @@ void brains(const Seeds& seeds) {
 }
 
 void scenes(const Seeds& seeds) {
+  seeds.text(
+      "3mf", "components",
+      test::three_mf("<model unit=\"inch\" xmlns:p=\"http://x/production/\" requiredextensions=\"p\"><resources>" +
+                     test::three_mf_objects() +
+                     "</resources><build><item objectid=\"2\" p:path=\"/3D/3dmodel.model\"/></build></model>"));
   const std::string binary = packed<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}) + packed<std::uint16_t>({0, 1, 2, 0});
   const std::string start =
       "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"children\":[1],"

@@ -17,6 +17,7 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 
 from brushfire._any import from_any
 from brushfire._core import version as __version__
+from brushfire._certify import Certificate
 from brushfire._curves import LogMap, Path
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
@@ -34,6 +35,7 @@ __all__ = [
     "BrushfireIndexError",
     "BrushfireTypeError",
     "BrushfireWarning",
+    "Certificate",
     "Comparison",
     "Cut",
     "Descent",

@@ -92,6 +92,19 @@ def steepest_descent(
     mesh: Mesh, values: _Floats, index: _Ints, weights: _Floats | None
 ) -> tuple[int, tuple[float, float, float], float, _Floats | None] | None: ...
 def compare_fields(field: _Floats, reference: _Floats, weights: _Floats | None) -> dict[str, Any]: ...
+def certify(
+    mesh: Mesh,
+    field: _Floats,
+    index: _Ints,
+    weights: _Floats | None,
+    offsets: _Floats,
+    tolerance: float,
+    within: float,
+    max_distance: float,
+    threads: int,
+    progress: _Progress,
+) -> dict[str, Any]: ...
+def finding_names() -> tuple[str, ...]: ...
 def vertex_areas(mesh: Mesh) -> _Floats: ...
 def voronoi(
     mesh: Mesh, index: _Ints, weights: _Floats | None, offsets: _Floats, options: _Options, progress: _Progress
@@ -121,6 +134,7 @@ def write_field(
     labels: _Signed | None,
     name: str,
     label_name: str,
+    structure: str,
     format: str,
 ) -> None: ...
 def write_lines(

@@ -41,13 +41,14 @@ class Files(OnMesh):
         """The mesh, and what it carries, into a file: complete or not at all.
 
         :param path: whose extension decides: ply vtk vtp obj hold the mesh too; gii curv npy csv json and CIFTI-2
-            (``.dscalar.nii``, written by nibabel) hold the values only.
+            (``.dscalar.nii``, written by nibabel) hold the values only. A mesh without values also goes into off stl
+            ``surf.gii`` glb msh mesh meshb and FreeSurfer's formats.
         :param field: one value per vertex, +inf where there is none, (vertex_count,).
         :param labels: one integer per vertex, -1 for none: the sources of :meth:`distance`, (vertex_count,).
         :param name, label_name: what the file calls the two.
         :param format: an extension, for names that have none; ``"-"`` as the path is standard output.
-        :param structure: for CIFTI-2, the part of the brain that this is: ``"cortex_left"``, ... Only vertices with finite
-            values are in the file.
+        :param structure: for CIFTI-2 and GIFTI, the part of the brain that this is: ``"cortex_left"``, ... In CIFTI-2 only
+            vertices with finite values are in the file.
         :raises BrushfireError: codes ``unknown_format``, ``file_not_writable``; ``invalid_argument`` for arrays that do not
             fit the mesh and for what a format has no place for.
 
@@ -65,7 +66,7 @@ class Files(OnMesh):
         if place.endswith(_DSCALAR) or kind == _DSCALAR[1:]:
             _write_dscalar(place, self._mesh.vertex_count, values, numbers, (name, label_name), structure)
         else:
-            _core.write_field(place, self._mesh, values, numbers, name, label_name, kind)
+            _core.write_field(place, self._mesh, values, numbers, name, label_name, _gifti_name(structure), kind)
 
 
 def write(
@@ -85,7 +86,7 @@ def write(
 
         - a Mesh: as :meth:`Mesh.save` does;
         - a field, (vertex_count,): npy csv json curv gii dscalar.nii; with ``mesh`` also ply vtk vtp obj;
-        - a :class:`Path`, an :class:`Isoline`, a :class:`Border`, or several of them: json obj ply vtp csv svg;
+        - a :class:`Path`, an :class:`Isoline`, a :class:`Border`, or several of them: json obj ply vtp csv svg dxf;
         - a dense matrix, (rows, columns): npy;
         - a scipy sparse matrix: npz (for ``scipy.sparse.load_npz``), mtx (MatrixMarket).
     :param mesh: to which a field belongs; curves that were made in this process know theirs.
@@ -126,6 +127,15 @@ def write(
                 if mesh is None and "positions" in str(error):
                     raise BrushfireError(f"{place}: this format holds a mesh, too: give it as mesh=") from None
                 raise
+
+
+def _gifti_name(structure: str | None) -> str:
+    """cortex_left, CIFTI_STRUCTURE_CORTEX_LEFT and CortexLeft are all CortexLeft in GIFTI."""
+    if structure is None:
+        return ""
+    name = structure.removeprefix("CIFTI_STRUCTURE_")
+    is_plain = "_" in name or name.islower() or name.isupper()
+    return "".join(part.capitalize() for part in name.split("_")) if is_plain else name
 
 
 def _one_each(values: Floats, what: str) -> Floats:

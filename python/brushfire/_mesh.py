@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats, number
+from brushfire._certify import Certificates
 from brushfire._curves import Curves
 from brushfire._distance import Distances
 from brushfire._errors import BrushfireError, BrushfireWarning
@@ -86,7 +87,7 @@ class MeshReport:
         return "\n".join([head, *self.remarks])
 
 
-class Mesh(Distances, Curves, Fields, Regions, Matrices, Pictures, Files):
+class Mesh(Distances, Curves, Fields, Certificates, Regions, Matrices, Pictures, Files):
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
     :param vertices: (n, 3) positions, or (n, 2) for a flat mesh. Kept as float64.

@@ -29,6 +29,7 @@ void bind_distance(nb::module_& m);
 void bind_matrix(nb::module_& m);
 void bind_curves(nb::module_& m);
 void bind_fields(nb::module_& m);
+void bind_certify(nb::module_& m);
 void bind_regions(nb::module_& m);
 void bind_figure(nb::module_& m);
 void bind_files(nb::module_& m);

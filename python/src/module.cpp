@@ -11,6 +11,7 @@ NB_MODULE(_core, m) {
   brushfire::python::bind_matrix(m);
   brushfire::python::bind_curves(m);
   brushfire::python::bind_fields(m);
+  brushfire::python::bind_certify(m);
   brushfire::python::bind_regions(m);
   brushfire::python::bind_figure(m);
   brushfire::python::bind_files(m);

@@ -40,6 +40,27 @@ def test_meshes_come_back_to_the_bit(mesh, field, tmp_path, extension):
     assert np.array_equal(bf.read(path).vertices, mesh.vertices)
 
 
+@pytest.mark.parametrize("extension", ["off", "msh", "meshb", "mesh", "surf.gii", "glb", "stl"])
+def test_bare_meshes_go_into_every_format_of_meshes(tmp_path, extension):
+    mesh = bf.Mesh(V, F)
+    path = tmp_path / f"mesh.{extension}"
+    mesh.save(path)
+    again = bf.read(path)
+    assert again.face_count == mesh.face_count
+    corners = again.vertices[again.faces]
+    assert np.allclose(corners, mesh.vertices[mesh.faces], rtol=1e-6, atol=1e-6)
+
+
+def test_gifti_says_which_part_of_the_brain_it_is(field, tmp_path):
+    mesh = bf.Mesh(V, F)
+    path = tmp_path / "a.surf.gii"
+    for structure in ("cortex_left", "CortexLeft", "CIFTI_STRUCTURE_CORTEX_LEFT"):
+        mesh.save(path, structure=structure)
+        assert b"CortexLeft" in path.read_bytes()
+    mesh.save(tmp_path / "a.func.gii", field[:-1], structure="cortex_left")
+    assert b"CortexLeft" in (tmp_path / "a.func.gii").read_bytes()
+
+
 def test_values_and_labels_come_back(mesh, field, tmp_path):
     labels = np.where(np.isfinite(field), 0, -1)
     mesh.save(tmp_path / "d.npy", field)
@@ -115,7 +136,7 @@ CURVES = {
 
 
 @pytest.mark.parametrize("make", CURVES.values(), ids=CURVES)
-@pytest.mark.parametrize("extension", ["json", "obj", "ply", "vtp", "csv", "svg"])
+@pytest.mark.parametrize("extension", ["json", "obj", "ply", "vtp", "csv", "svg", "dxf"])
 def test_curves_are_written_in_every_format(mesh, field, tmp_path, extension, make):
     curves = make(mesh, field)
     bf.write(tmp_path / f"a.{extension}", curves)

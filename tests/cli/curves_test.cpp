@@ -60,7 +60,8 @@ TEST_F(Curves, MethodWithoutPathsIsAUsageError) {
 TEST_F(Curves, PathNeedsBothEnds) {
   EXPECT_EQ(run({"path", "--from", "1"}).code, 2);
   EXPECT_EQ(run({"path", "--to", "1"}).code, 2);
-  EXPECT_EQ(run({"path", "--from", "1", "--to", "3", "-o", path("p.dxf")}).code, 2);
+  EXPECT_EQ(run({"path", "--from", "1", "--to", "3", "-o", path("p.xyz")}).code, 2);
+  EXPECT_EQ(run({"path", "--from", "1", "--to", "3", "--view", "below", "-o", path("p.svg")}).code, 2);
   EXPECT_EQ(run({"path", "--from", "1", "--to", "99"}).code, 2);
 }
 
@@ -68,7 +69,7 @@ TEST_F(Curves, IsolinesAreWrittenWithTheirLevels) {
   const Ended ended = run({"isolines", "--source", "0", "--levels", "0.5,0.25", "-o", path("l.csv")});
   EXPECT_EQ(ended.code, 0) << ended.err;
   const std::string csv = content("l.csv");
-  EXPECT_NE(csv.find("line,level,point,x,y,z,face,w0,w1,w2\n0,0.25,"), std::string::npos);
+  EXPECT_NE(csv.find("line,level,point,x,y,z,face,w0,w1,w2,closed\n0,0.25,"), std::string::npos);
   EXPECT_NE(csv.find("\n1,0.5,"), std::string::npos);
 }
 

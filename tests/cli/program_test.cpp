@@ -77,8 +77,8 @@ TEST_F(Program, VersionIsOneLine) {
 }
 
 TEST_F(Program, HelpOfEveryVerbHasExamplesAndFitsTheTerminal) {
-  for (const char* verb :
-       {"info", "distance", "path", "isolines", "matrix", "compare", "render", "bench", "shape", "completion"}) {
+  for (const char* verb : {"info", "distance", "path", "isolines", "matrix", "compare", "render", "bench", "shape",
+                           "completion", "manual"}) {
     const Ended ended = run_program({verb, "--help"});
     EXPECT_EQ(ended.code, 0);
     EXPECT_NE(ended.out.find("Examples:\n"), std::string::npos) << verb;
@@ -125,6 +125,8 @@ TEST_F(Program, InfoJsonHasStableKeys) {
                                                           "repeated_index_faces",
                                                           "duplicate_faces",
                                                           "duplicate_positions",
+                                                          "near_positions",
+                                                          "near_tolerance",
                                                           "looks_like_soup",
                                                           "min_edge_length",
                                                           "mean_edge_length",
@@ -396,8 +398,9 @@ TEST_F(Program, UsageErrorsEndWithTwoAndOneLine) {
   expect_error({"distance", mesh, "--source", "0", "--radius", "-1"}, 2, "brushfire: --radius -1 is not a number >= 0");
   expect_error({"distance", mesh, "--source", "0", "--precision", "half"}, 2,
                "brushfire: --precision: 'half' is none of float32, float64 (see brushfire distance --help)");
-  expect_error({"completion", "fish"}, 2,
-               "brushfire: shell: 'fish' is none of bash, zsh (see brushfire completion --help)");
+  expect_error({"completion", "csh"}, 2,
+               "brushfire: shell: 'csh' is none of bash, zsh, fish (see brushfire completion --help)");
+  expect_error({"manual", "--verb", "fly"}, 2, "brushfire: --verb: there is no verb 'fly'");
   write("empty.txt", "# nothing\n");
   expect_error({"distance", mesh, "--sources", path("empty.txt")}, 2, "brushfire: empty.txt: no source in this file");
 }
@@ -468,13 +471,42 @@ TEST_F(Program, BashCompletesAMethod) {
 }
 
 TEST_F(Program, CompletionKnowsVerbsOptionsAndMethods) {
-  for (const char* shell : {"bash", "zsh"}) {
+  for (const char* shell : {"bash", "zsh", "fish"}) {
     const Ended ended = run_program({"completion", shell});
     EXPECT_EQ(ended.code, 0);
-    for (const char* word : {"info", "distance", "completion", "--source", "--json", "dijkstra", "float32 float64"}) {
+    const bool fish = std::string(shell) == "fish";
+    for (const char* word : {"info", "distance", "completion", fish ? "-l source" : "--source",
+                             fish ? "-l json" : "--json", "dijkstra", "float32 float64"}) {
       EXPECT_NE(ended.out.find(word), std::string::npos) << shell << " " << word;
     }
   }
+}
+
+TEST_F(Program, ManualPagesTellWhatHelpTells) {
+  const std::string all = run_program({"manual"}).out;
+  EXPECT_EQ(all.rfind(".\\\" made by: brushfire manual\n.TH brushfire 1 ", 0), 0u) << all;
+  const std::string page = run_program({"manual", "--verb", "distance"}).out;
+  for (const char* text : {".SH NAME\nbrushfire\\-distance \\- ", "\\fB\\-\\-source\\fR", ".SH SYNOPSIS\n",
+                           "brushfire distance bunny.ply \\-\\-source 0"}) {
+    EXPECT_NE(page.find(text), std::string::npos) << text << "\n" << page;
+  }
+  // Every line is text or one of the requests that the pages use: nothing of the help is read as a command.
+  for (const std::string& line : lines_of(page)) {
+    if (line.empty() || line[0] != '.') continue;
+    EXPECT_TRUE(line.rfind(".\\\"", 0) == 0 || line.rfind(".TH ", 0) == 0 || line.rfind(".SH ", 0) == 0 ||
+                line == ".TP" || line == ".nf" || line == ".fi" || line.rfind(".BR ", 0) == 0)
+        << line;
+  }
+}
+
+TEST_F(Program, ManualWritesOnePageForEachVerb) {
+  const std::string folder = path("man1");
+  std::filesystem::create_directory(folder);
+  EXPECT_EQ(run_program({"manual", "--folder", folder}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder + "/brushfire.1"));
+  EXPECT_TRUE(std::filesystem::exists(folder + "/brushfire-isolines.1"));
+  EXPECT_TRUE(std::filesystem::exists(folder + "/brushfire-manual.1"));
+  expect_error({"manual", "--folder", path("missing")}, 1, "brushfire: missing/brushfire.1: cannot be written");
 }
 
 }  // namespace

@@ -118,6 +118,20 @@ TEST(Where, AFileHasOnePlaceOrAListPerLineAndComments) {
   EXPECT_EQ(std::get<VertexPlace>(places[4].place).index, 9u);
 }
 
+TEST(Where, AFileMayComeFromAnySystem) {
+  const std::string path = testing::TempDir() + "brushfire_foreign_places.txt";
+  for (const char* text : {"3\n4@1\n\n5", "3\r\n4@1\r\n\r\n5\r\n", "3\r4@1\r\r5\r",
+                           "\xef\xbb\xbf"
+                           "3\n4@1\n5"}) {
+    std::ofstream(path, std::ios::binary) << text;
+    const std::vector<Where> places = read_where_file(path);
+    ASSERT_EQ(places.size(), 3u) << text;
+    EXPECT_EQ(std::get<VertexPlace>(places[0].place).index, 3u);
+    EXPECT_EQ(std::get<VertexPlace>(places[2].place).index, 5u);
+  }
+  EXPECT_THROW(read_where_file(testing::TempDir()), Error);
+}
+
 TEST(Where, AFileErrorNamesFileAndLine) {
   const std::string path = testing::TempDir() + "brushfire_bad_places.txt";
   std::ofstream(path) << "3\n\nnose\n";

@@ -39,7 +39,7 @@ void expect_golden(const std::string& name, const Image& image) {
   EXPECT_LT(mean_difference(golden, image), kTolerance) << name;
 }
 
-// A torus coloured by its longitude and latitude, so that lines run every way. No text: fonts differ.
+// A torus coloured by its longitude and latitude, so that lines run every way.
 Panel torus(double shift = 0) {
   Panel panel;
   panel.mesh = shapes::torus(64, 32).mesh();
@@ -76,6 +76,15 @@ TEST(Golden, TorusInBandsWithPerspectiveAndWireframe) {
   o.wireframe = true;
   o.scales[0].colormap = Colormap::Cividis;
   expect_golden("torus-bands", render_one(torus(), o));
+}
+
+TEST(Golden, TitleAndColourBar) {
+  RenderOptions o = options();
+  o.colour_bar = true;
+  o.scales[0].unit = "distance, µm";
+  Panel panel = torus();
+  panel.title = "Torus: ½ of 2π";
+  expect_golden("torus-lettered", render_one(panel, o));
 }
 
 TEST(Golden, ShiftOfTheIsolinesByOnePixelExceedsTheTolerance) {

@@ -230,7 +230,6 @@ TEST(Render, CornersThatAreLessOpenAreDarker) {
 
 TEST(Render, TextOfTheFrameStaysInsideThePicture) {
   const detail::Font font("");
-  if (font.empty()) GTEST_SKIP() << "no TrueType font on this system";
   Panel panel = square();
   panel.title = "A title that is far too long for a panel of one hundred and sixty pixels, and goes on";
   for (double& x : panel.scalar) x *= 123456.789;
@@ -246,6 +245,52 @@ TEST(Render, TextOfTheFrameStaysInsideThePicture) {
     EXPECT_LE(t.x + font.width(t.text, t.height), layout.width) << t.text;
     EXPECT_GE(t.y - t.height, -1) << t.text;
     EXPECT_LE(t.y, layout.height) << t.text;
+  }
+}
+
+// How many pixels of a picture are darker than grey.
+std::size_t dark_pixels(const Image& picture) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4) count += picture.rgba[i] < 128 ? 1 : 0;
+  return count;
+}
+
+Image written(const std::string& text) {
+  Image picture;
+  picture.width = 64, picture.height = 32;
+  picture.rgba.assign(64 * 32 * 4, 255);
+  detail::Font("").write(picture, 4, 26, 26, text, {0, 0, 0});
+  return picture;
+}
+
+TEST(Render, EveryLetterOfTheBuiltInFontIsInkAndNotTheBoxOfAMissingOne) {
+  const Image box = written("\U0001F40C");  // a snail, which it lacks
+  EXPECT_GT(dark_pixels(box), 0u);
+  for (const char* letter : {"0", "1", "9", "-", ".", "e", "A", "z", "%", "°", "µ", "é", "ß", "ğ",
+                             "ł", "ș", "Ω", "α", "Ж", "я", "²", "−", "≤", "∞", "→", "–", "’", "€"}) {
+    const Image picture = written(letter);
+    EXPECT_GT(dark_pixels(picture), 2u) << letter;
+    EXPECT_NE(picture.rgba, box.rgba) << letter;
+  }
+}
+
+TEST(Render, TheColourBarHasNumbersOnAMachineWithoutFonts) {
+  // No font of the system is looked for: what is drawn here is drawn everywhere.
+  const Panel panel = square();
+  RenderOptions options;
+  options.width = 160, options.height = 120;
+  const std::vector<Panel> panels{panel};
+  const auto layout = detail::lay_out(panels, options, detail::ranges_of(panels, options), detail::Font(""));
+  const Image picture = render_one(panel, options);
+  ASSERT_GE(layout.texts.size(), 3u);
+  for (const detail::TextAt& t : layout.texts) {
+    std::size_t ink = 0;
+    for (int y = static_cast<int>(t.y - t.height); y < static_cast<int>(t.y) + 1; ++y) {
+      for (int x = static_cast<int>(t.x); x < static_cast<int>(t.x + t.height); ++x) {
+        ink += picture.pixel(x, y)[0] < 128 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(ink, 3u) << t.text;
   }
 }
 

@@ -100,7 +100,7 @@ TEST(Vtk, AsciiPolyDataWithStripsAttributesAndMetadata) {
       "1 2 3 4 5 6 7 8 9 10 11 12\nt 1 4 int\n7 8 9 10\n";
   const LoadedMesh loaded = read_text(text, "a.vtk");
   EXPECT_EQ(faces_of(loaded.mesh), (std::vector<Face>{{0, 1, 2}, {0, 1, 2}, {2, 1, 3}}));
-  EXPECT_EQ(loaded.remarks, (std::vector<std::string>{"1 cell that is no face left out"}));
+  EXPECT_EQ(loaded.remarks, (std::vector<std::string>{"1 cell that is no face left out (vertices: 1)"}));
   EXPECT_EQ(field_of(text, "a.vtk").values, (std::vector<double>{0, 1, 2.5, kInfinity}));
   EXPECT_EQ(field_of(text, "a.vtk", "t").values, (std::vector<double>{7, 8, 9, 10}));
 }
@@ -122,7 +122,7 @@ TEST(Vtk, UnstructuredGridGivesItsFacesAndLeavesOutTheRest) {
       "a.vtk");
   EXPECT_EQ(loaded.mesh.face_count(), 3u);
   EXPECT_EQ(loaded.face_origin, (std::vector<Index>{0, 1, 1}));
-  EXPECT_EQ(loaded.remarks, (std::vector<std::string>{"1 cell that is no face left out"}));
+  EXPECT_EQ(loaded.remarks, (std::vector<std::string>{"1 cell that is no face left out (tetrahedron: 1)"}));
 }
 
 std::string vtp(const std::string& attributes, const std::string& points, const std::string& cells,

@@ -76,9 +76,9 @@ TEST_F(WriteLines, VtpCountsItsPointsAndLines) {
 TEST_F(WriteLines, CsvHasOneRowPerPoint) {
   const std::string text = write("csv", open_);
   EXPECT_EQ(text,
-            "line,length,point,x,y,z,face,w0,w1,w2\n"
-            "0,0.75,0,0,0,0,0,1,0,0\n"
-            "0,0.75,1,0.5,0.5,0,0,0.5,0,0.5\n");
+            "line,length,point,x,y,z,face,w0,w1,w2,closed\n"
+            "0,0.75,0,0,0,0,0,1,0,0,0\n"
+            "0,0.75,1,0.5,0.5,0,0,0.5,0,0.5,0\n");
 }
 
 TEST_F(WriteLines, SvgOfAFlatMeshIsSeenFromAbove) {
@@ -88,16 +88,17 @@ TEST_F(WriteLines, SvgOfAFlatMeshIsSeenFromAbove) {
 }
 
 TEST_F(WriteLines, NoLinesAreAValidFileInEveryFormat) {
-  for (const char* extension : {"json", "obj", "ply", "vtp", "csv", "svg"}) EXPECT_NO_THROW(write(extension, {}));
+  for (const char* extension : {"json", "obj", "ply", "vtp", "csv", "svg", "dxf"})
+    EXPECT_NO_THROW(write(extension, {}));
 }
 
 TEST_F(WriteLines, UnknownExtensionIsAnErrorThatListsTheFormats) {
   try {
-    write("dxf", open_);
+    write("xyz", open_);
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ErrorCode::UnknownFormat);
-    EXPECT_NE(std::string(e.what()).find("json, obj, ply, vtp, csv or svg"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("json, obj, ply, vtp, csv, svg or dxf"), std::string::npos);
   }
 }
 

@@ -1,5 +1,7 @@
-// Connectivity by pairs of vertices, lengths and angles in long double.
+// Connectivity by pairs of vertices, lengths and angles.
 #include "oracle/complex.h"
+
+#include "oracle/arithmetic.h"
 
 #include <algorithm>
 #include <map>
@@ -8,44 +10,57 @@
 namespace brushfire::oracle {
 namespace {
 
+template <class R>
 struct Vector {
-  Real x, y, z;
+  R x, y, z;
 };
-Vector difference(const Vec3& a, const Vec3& b) { return {Real{a.x} - b.x, Real{a.y} - b.y, Real{a.z} - b.z}; }
-Real dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Real norm(const Vector& a) { return std::sqrt(dot(a, a)); }
-Real double_area(const Vector& a, const Vector& b) {
-  return norm({a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x});
+template <class R>
+Vector<R> difference(const Vec3& a, const Vec3& b) {
+  return {R{a.x} - b.x, R{a.y} - b.y, R{a.z} - b.z};
+}
+template <class R>
+R dot(const Vector<R>& a, const Vector<R>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class R>
+R norm(const Vector<R>& a) {
+  return sqrt(dot(a, a));
+}
+template <class R>
+R double_area(const Vector<R>& a, const Vector<R>& b) {
+  return norm(Vector<R>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x});
 }
 
 // Twice the area from three lengths; 0 where they do not close.
-Real double_area(Real a, Real b, Real c) {
+template <class R>
+R double_area(R a, R b, R c) {
   if (a < b) std::swap(a, b);
   if (a < c) std::swap(a, c);
   if (b < c) std::swap(b, c);
-  const Real q = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
-  return q > 0 ? std::sqrt(q) / 2 : 0;
+  const R q = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+  return q > 0 ? R(sqrt(q) / 2) : R(0);
 }
 
-void shape_from_positions(const Mesh& mesh, Corner& c) {
+template <class R>
+void shape_from_positions(const Mesh& mesh, Corner<R>& c) {
   const auto p = mesh.positions();
-  const Vector side = difference(p[c.to], p[c.from]), left = difference(p[c.apex_vertex], p[c.from]),
-               right = difference(p[c.apex_vertex], p[c.to]);
-  const Real along = dot(side, left),
-             area = norm(left) < norm(right) ? double_area(side, left) : double_area(side, right);
+  const Vector<R> side = difference<R>(p[c.to], p[c.from]), left = difference<R>(p[c.apex_vertex], p[c.from]),
+                  right = difference<R>(p[c.apex_vertex], p[c.to]);
+  const R along = dot(side, left), area = norm(left) < norm(right) ? double_area(side, left) : double_area(side, right);
   c.length = norm(side);
-  c.angle = along == 0 && area == 0 ? kHalfTurn / 2 : std::atan2(area, along);
+  c.angle = along == 0 && area == 0 ? R(half_turn<R>() / 2) : R(atan2(area, along));
   c.apex = {0, norm(left)};
   if (c.length == 0) return;  // a segment, seen from the end that two corners share
   c.apex = {along / c.length, area / c.length};
   c.apex_to_end = -dot(side, right) / c.length;
 }
 
-void shape_from_lengths(Real length, Real left, Real right, Corner& c) {
-  const Real area = double_area(length, left, right);
-  const Real along = (length * length + (left - right) * (left + right)) / 2;
+template <class R>
+void shape_from_lengths(R length, R left, R right, Corner<R>& c) {
+  const R area = double_area(length, left, right);
+  const R along = (length * length + (left - right) * (left + right)) / 2;
   c.length = length;
-  c.angle = along == 0 && area == 0 ? kHalfTurn / 2 : std::atan2(area, along);
+  c.angle = along == 0 && area == 0 ? R(half_turn<R>() / 2) : R(atan2(area, along));
   c.apex = {0, left};
   if (length == 0) return;
   c.apex = {along / length, area / length};
@@ -54,13 +69,14 @@ void shape_from_lengths(Real length, Real left, Real right, Corner& c) {
 
 }  // namespace
 
-Complex::Complex(const Mesh& mesh)
+template <class R>
+Complex<R>::Complex(const Mesh& mesh)
     : corner(3 * static_cast<std::size_t>(mesh.face_count())),
       neighbours(mesh.vertex_count()),
       corners_at(mesh.vertex_count()),
       pinched(mesh.vertex_count(), false) {
   std::map<std::pair<Index, Index>, Index> number;
-  const Real unit = mesh.unit();
+  const R unit = mesh.unit();
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     const Face& t = mesh.faces()[h / 3];
     const Index from = t[h % 3], to = t[(h + 1) % 3];
@@ -68,7 +84,7 @@ Complex::Complex(const Mesh& mesh)
     const auto [place, fresh] = number.try_emplace(std::minmax(from, to), static_cast<Index>(edge.size()));
     if (fresh) {
       const auto p = mesh.positions();
-      const Real length = mesh.has_positions() ? norm(difference(p[to], p[from])) : mesh.lengths()[h] * unit;
+      const R length = mesh.has_positions() ? norm(difference<R>(p[to], p[from])) : R(mesh.lengths()[h] * unit);
       edge.push_back({std::min(from, to), std::max(from, to), length, {}});
       neighbours[from].push_back({to, place->second});
       neighbours[to].push_back({from, place->second});
@@ -80,7 +96,7 @@ Complex::Complex(const Mesh& mesh)
     corners_at[from].push_back(h);
   }
   for (Index h = 0; h < corner.size(); ++h) {
-    Corner& c = corner[h];
+    Corner<R>& c = corner[h];
     if (c.from == kNoIndex) continue;
     if (mesh.has_positions()) {
       shape_from_positions(mesh, c);
@@ -98,11 +114,16 @@ Complex::Complex(const Mesh& mesh)
   }
 }
 
-Index Complex::edge_between(Index a, Index b) const {
+template <class R>
+Index Complex<R>::edge_between(Index a, Index b) const {
   for (const Neighbour& n : neighbours[a]) {
     if (n.vertex == b) return n.edge;
   }
   return kNoIndex;
 }
+
+template struct Complex<Real>;
+template struct Complex<Quad>;
+template struct Complex<Octuple>;
 
 }  // namespace brushfire::oracle

@@ -1,6 +1,8 @@
 // Best-first window tree without lists: propagation, the four pruning rules, emission from vertices.
 #include "oracle/polyhedral.h"
 
+#include "oracle/arithmetic.h"
+
 #include <algorithm>
 #include <queue>
 #include <utility>
@@ -9,22 +11,25 @@ namespace brushfire::oracle {
 namespace {
 
 // Long double carries 64 bits. After thousands of unfoldings a virtual source is some 1e-16 of its distance off, in
-// the worst case met; what has to be decided with doubt is decided towards more windows:
-constexpr Real kMargin = 1e-15L;   // of the distance: what is worse by less counts as equal and is kept
-constexpr Real kAngle = 1e-15L;    // radians: a vertex that far outside a wedge counts as seen (an error of 1e-30)
-constexpr Real kLateral = 1e-18L;  // of the lengths at hand: the same where the vertex is next to the source
-constexpr Real kShadow = 1e-11L;   // radians: shadows are widened by that much
-constexpr Real kSameWay = 1e-12L;  // radians: arrivals that are nearer than that cast the same shadow
+// the worst case met; what has to be decided with doubt is decided towards more windows. In units of the arithmetic's
+// epsilon, so 1e-15, 1e-15 and 1e-18 in long double:
+constexpr double kMargin = 1e4;  // of the distance: what is worse by less counts as equal and is kept
+constexpr double kAngle = 1e4;   // radians: a vertex that far outside a wedge counts as seen (an error of its square)
+constexpr double kLateral = 10;  // of the lengths at hand: the same where the vertex is next to the source
+// Too much light does no harm, whatever the arithmetic: a path that bends in a vertex is a real path.
+constexpr double kShadow = 1e-11;   // radians: shadows are widened by that much
+constexpr double kSameWay = 1e-12;  // radians: arrivals that are nearer than that cast the same shadow
 
 constexpr std::uint32_t kRoot = 0xffffffff;
 
 // Rays from `source` (below or on the x axis), between the unit directions `left` and `right`, that enter the face of
 // `halfedge` across it, in the frame of that corner. Smaller x is left. `back` is the vertex opposite to the edge in
 // the face that the rays come from, and back_at its place.
+template <class R>
 struct Window {
-  Real key = 0;  // least distance on the edge
-  Real sigma = 0;
-  Point source, left, right, back_at;
+  R key = 0;  // least distance on the edge
+  R sigma = 0;
+  Point<R> source, left, right, back_at;
   Index halfedge = kNoIndex;
   Index back = kNoIndex;
   std::uint32_t parent = kRoot;
@@ -32,36 +37,59 @@ struct Window {
 
 // How a front comes to a vertex: over an edge, inside a corner (angle from the corner's halfedge), or from nowhere
 // (the vertex is a source or lies where directions mean nothing).
+template <class R>
 struct Arrival {
   enum class By : std::uint8_t { Start, Edge, Corner };
-  Real distance = 0;
+  R distance = 0;
   Index vertex = kNoIndex;
   By by = By::Start;
   Index at = 0;  // neighbour number or corner
-  Real angle = 0;
+  R angle = 0;
 };
 
 template <class T>
 struct Later {
-  static Real key(const Window& w) { return w.key; }
-  static Real key(const Arrival& a) { return a.distance; }
+  template <class R>
+  static const R& key(const Window<R>& w) {
+    return w.key;
+  }
+  template <class R>
+  static const R& key(const Arrival<R>& a) {
+    return a.distance;
+  }
   bool operator()(const T& a, const T& b) const { return key(a) > key(b); }
 };
 template <class T>
 using Queue = std::priority_queue<T, std::vector<T>, Later<T>>;
 
-Point unit(Point a) { return (1 / norm(a)) * a; }
-Point mirrored(Point a, Real length) { return {length - a.x, a.y}; }
-Point mirrored(Point direction) { return {-direction.x, direction.y}; }
+template <class R>
+Point<R> unit(Point<R> a) {
+  return R(1 / norm(a)) * a;
+}
+template <class R>
+Point<R> mirrored(Point<R> a, R length) {
+  return {length - a.x, a.y};
+}
+template <class R>
+Point<R> mirrored(Point<R> direction) {
+  return {-direction.x, direction.y};
+}
 
+template <class R>
 class Solver {
+  using Point = oracle::Point<R>;
+  using Corner = oracle::Corner<R>;
+  using Edge = oracle::Edge<R>;
+  using Window = oracle::Window<R>;
+  using Arrival = oracle::Arrival<R>;
+
  public:
-  Solver(const Mesh& mesh, std::span<const Source> sources, Real radius, std::span<const SurfacePoint> targets)
+  Solver(const Mesh& mesh, std::span<const Source> sources, R radius, std::span<const SurfacePoint> targets)
       : mesh_(mesh), complex_(mesh), radius_(radius), shadows_(mesh.vertex_count()) {
-    truth_.distance.assign(mesh.vertex_count(), kFar);
-    truth_.target.assign(targets.size(), kFar);
+    distance_.assign(mesh.vertex_count(), far<R>());
+    target_.assign(targets.size(), far<R>());
     targets_in_.resize(mesh.face_count());
-    for (const Source& s : sources) scale_ = std::max(scale_, std::abs(Real{s.offset}));
+    for (const Source& s : sources) scale_ = std::max(scale_, R(abs(R(s.offset))));
     for (Index i = 0; i < targets.size(); ++i) place_target(i, locate(mesh, targets[i]));
     for (const Source& s : sources) start(locate(mesh, s.point), s.offset);
   }
@@ -70,12 +98,12 @@ class Solver {
     while (!windows_.empty() || !arrivals_.empty()) {
       const bool window_first =
           arrivals_.empty() || (!windows_.empty() && windows_.top().key < arrivals_.top().distance);
-      const Real now = window_first ? windows_.top().key : arrivals_.top().distance;
+      const R now = window_first ? windows_.top().key : arrivals_.top().distance;
       if (now > radius_ || (arrivals_.empty() && now > farthest_target())) break;
       if (window_first) {
         Window w = windows_.top();
         windows_.pop();
-        ++truth_.windows;
+        ++windows_taken_;
         if (prune(w)) propagate(w);
       } else {
         const Arrival a = arrivals_.top();
@@ -83,42 +111,47 @@ class Solver {
         settle(a);
       }
     }
-    finish();
-    return std::move(truth_);
+    return {rounded(distance_), rounded(target_), windows_taken_};
   }
 
  private:
-  Real margin(Real d) const { return kMargin * (std::abs(d) + scale_); }
+  R margin(R d) const { return kMargin * epsilon<R>() * (abs(d) + scale_); }
 
   // ---- what is known of vertices and targets; only lengths of real paths get here
 
   void reach(const Arrival& a) {
-    Real& known = truth_.distance[a.vertex];
+    R& known = distance_[a.vertex];
     if (a.distance > known + margin(known)) return;
     known = std::min(known, a.distance);
     arrivals_.push(a);
   }
 
-  void reach_target(Index i, Real d) { truth_.target[i] = std::min(truth_.target[i], d); }
+  void reach_target(Index i, R d) { target_[i] = std::min(target_[i], d); }
 
   // Every vertex that can be reached is reached along edges, so when no arrival is left all vertices are settled, and
   // only targets can still gain: from windows that start nearer than they are.
-  Real farthest_target() const {
-    Real far = -kFar;
-    for (const Real d : truth_.target) far = std::max(far, d < kFar ? d : -kFar);
-    return far;
+  R farthest_target() const {
+    R farthest = -far<R>();
+    for (const R& d : target_) farthest = std::max(farthest, d < far<R>() ? d : R(-far<R>()));
+    return farthest;
   }
 
   // ---- sources and targets
 
+  // Weights need not sum to one to the last bit: the point is their centre of mass.
   Point in_frame(Index h, const std::array<double, 3>& weights) const {
     const Corner& c = complex_.corner[h];
-    const Real b = weights[(h + 1) % 3], a = weights[(h + 2) % 3];
+    const R sum = R(weights[0]) + weights[1] + weights[2];
+    const R b = weights[(h + 1) % 3] / sum, a = weights[(h + 2) % 3] / sum;
     return Point{b * c.length, 0} + a * c.apex;
   }
 
-  // The same point of an edge in the frame of another face's halfedge over it.
-  static Point on_edge(const Corner& c, Index first, Real t) { return {(c.from == first ? t : 1 - t) * c.length, 0}; }
+  // The share of the way from vertex `first` along the edge that the point lies on.
+  R share_from(const PointLocation& at, Index first) const {
+    const auto k = static_cast<std::size_t>(at.halfedge % 3);
+    const R near = at.weights[k], far_end = at.weights[(k + 1) % 3];
+    return (mesh_.from(at.halfedge) == first ? far_end : near) / (near + far_end);
+  }
 
   // The frames, one per face, in which a point of an edge or a face can be seen: halfedge and place.
   std::vector<std::pair<Index, Point>> frames_of(const PointLocation& at) const {
@@ -126,9 +159,9 @@ class Solver {
     if (at.on == PointLocation::On::Interior) {
       frames.emplace_back(3 * at.face, in_frame(3 * at.face, at.weights));
     } else if (at.on == PointLocation::On::Edge) {
-      const Index first = mesh_.from(at.halfedge);
       for (const Index h : complex_.edge[edge_of(at)].halfedges) {
-        frames.emplace_back(h, on_edge(complex_.corner[h], first, at.t));
+        const Corner& c = complex_.corner[h];
+        frames.emplace_back(h, Point{share_from(at, c.from) * c.length, 0});
       }
     }
     return frames;
@@ -156,13 +189,13 @@ class Solver {
     std::array<Point, 3> corners{Point{0, 0}, Point{goal.length, 0}, goal.apex};
     const auto corner_of = [&](Index v) { return v == goal.from ? 0U : v == goal.to ? 1U : 2U; };
     if (t.at.on == PointLocation::On::Edge) {
-      const Real share = c.length > 0 ? t.place.x / c.length : 0;
+      const R share = c.length > 0 ? t.place.x / c.length : 0;
       return (1 - share) * corners[corner_of(c.from)] + share * corners[corner_of(c.to)];
     }
     return in_frame(h, t.at.weights);
   }
 
-  void start(const PointLocation& at, Real offset) {
+  void start(const PointLocation& at, R offset) {
     if (at.on == PointLocation::On::Vertex) {
       reach({offset, at.vertex, Arrival::By::Start, 0, 0});
       return;
@@ -171,22 +204,22 @@ class Solver {
     for (const auto& [h, p] : frames_of(at)) start_in_face(h, p, offset);
   }
 
-  void start_along_edge(const PointLocation& at, Real offset) {
+  void start_along_edge(const PointLocation& at, R offset) {
     const Edge& e = complex_.edge[edge_of(at)];
-    const Real t = mesh_.from(at.halfedge) == e.a ? Real{at.t} : 1 - Real{at.t};
+    const R t = share_from(at, e.a);
     reach({offset + t * e.length, e.a, Arrival::By::Edge, number(e.a, e.b), 0});
-    reach({offset + (1 - t) * e.length, e.b, Arrival::By::Edge, number(e.b, e.a), 0});
+    reach({offset + share_from(at, e.b) * e.length, e.b, Arrival::By::Edge, number(e.b, e.a), 0});
     for (Index i = 0; i < target_at_.size(); ++i) {
       const PointLocation& goal = target_at_[i];
       if (goal.on != PointLocation::On::Edge || edge_of(goal) != edge_of(at)) continue;
-      const Real u = mesh_.from(goal.halfedge) == e.a ? Real{goal.t} : 1 - Real{goal.t};
-      reach_target(i, offset + std::abs(t - u) * e.length);
+      const R u = share_from(goal, e.a);
+      reach_target(i, offset + abs(t - u) * e.length);
     }
   }
 
   // A point inside a face, or on its first edge: straight to the corners and targets, and out over the edges that do
   // not hold it.
-  void start_in_face(Index h, Point p, Real offset) {
+  void start_in_face(Index h, Point p, R offset) {
     for (const Target& t : targets_in_[h / 3]) reach_target(t.index, offset + norm(place_in(h, t) - p));
     const bool on_edge = p.y == 0 && complex_.corner[h].apex.y > 0;
     Index g = h;
@@ -195,8 +228,8 @@ class Solver {
       const Corner& c = complex_.corner[g];
       if (!(on_edge && k < 2)) {  // the ends of the edge are reached along the edge
         const Point to_point = q, to_end{c.length, 0};
-        const Real angle = std::atan2(cross(to_end, to_point), dot(to_end, to_point));
-        reach({offset + norm(q), c.from, Arrival::By::Corner, g, std::clamp(angle, Real{0}, c.angle)});
+        const R angle = atan2(cross(to_end, to_point), dot(to_end, to_point));
+        reach({offset + norm(q), c.from, Arrival::By::Corner, g, std::clamp(angle, R{0}, c.angle)});
       }
       if (!(on_edge && k == 0)) leave(g, q, offset);
       q = next_frame(c, q);
@@ -210,12 +243,12 @@ class Solver {
     const Point d{q.x - c.length, q.y};
     if (n.length == 0) return {0, norm(d)};
     const Point ahead = (1 / n.length) * Point{-c.apex_to_end, c.apex.y};
-    return {dot(ahead, d), std::max(Real{0}, cross(ahead, d))};
+    return {dot(ahead, d), std::max(R{0}, cross(ahead, d))};
   }
   Index c_next(const Corner& c) const { return Mesh::next(static_cast<Index>(&c - complex_.corner.data())); }
 
   // All rays from a point q of the face over the edge of corner g, q in the frame of g.
-  void leave(Index g, Point q, Real offset) {
+  void leave(Index g, Point q, R offset) {
     const Corner& c = complex_.corner[g];
     if (c.length == 0) return;
     Window w;
@@ -242,18 +275,18 @@ class Solver {
         child.left = mirrored(w.right);
         child.right = mirrored(w.left);
       }
-      child.source.y = std::min(child.source.y, Real{0});
+      child.source.y = std::min(child.source.y, R{0});
       if (returns(child) || !prune(child)) continue;
       windows_.push(child);
     }
   }
 
   // Where the ray from the source in direction d meets the edge.
-  static Real meets(const Window& w, Point d, Real length) {
+  static R meets(const Window& w, Point d, R length) {
     if (w.source.y == 0 || d.y <= 0) {
-      return std::clamp(w.source.y == 0 ? w.source.x : d.x > 0 ? length : Real{0}, Real{0}, length);
+      return std::clamp(w.source.y == 0 ? w.source.x : d.x > 0 ? length : R{0}, R{0}, length);
     }
-    return std::clamp(w.source.x - w.source.y * (d.x / d.y), Real{0}, length);
+    return std::clamp(w.source.x - w.source.y * (d.x / d.y), R{0}, length);
   }
 
   // Rule 1, no face twice. A shortest path that meets a face twice can be straightened inside the face, so of all
@@ -262,20 +295,20 @@ class Solver {
   // flat faces glued to each other would go round for ever.)
   bool returns(const Window& w) const {
     const Corner& c = complex_.corner[w.halfedge];
-    const Real size = c.length + norm(c.apex);
+    const R size = c.length + norm(c.apex);
     for (std::uint32_t p = w.parent; p != kRoot && branch_[p].key >= least(w) - size; p = branch_[p].parent) {
       if (branch_[p].face == w.halfedge / 3) return true;
     }
     return false;
   }
 
-  Real least(const Window& w) const {
-    const Real length = complex_.corner[w.halfedge].length;
-    const Real a = meets(w, w.left, length), b = std::max(a, meets(w, w.right, length));
+  R least(const Window& w) const {
+    const R length = complex_.corner[w.halfedge].length;
+    const R a = meets(w, w.left, length), b = std::max(a, meets(w, w.right, length));
     return w.sigma + norm(Point{std::clamp(w.source.x, a, b), 0} - w.source);
   }
 
-  static Real along(const Window& w, Real x) { return w.sigma + norm(Point{x, 0} - w.source); }
+  static R along(const Window& w, R x) { return w.sigma + norm(Point{x, 0} - w.source); }
 
   // Cuts off what cannot be part of a shortest path and sets the key; false where nothing remains. Prefixes of shortest
   // paths are shortest: a ray that reaches the edge later than another real path does is on none.
@@ -291,23 +324,23 @@ class Solver {
     const Corner& c = complex_.corner[w.halfedge];
     if (c.length == 0) return false;  // its two ends are one point, and emit into every corner (settle)
     if (cross(w.right, w.left) < 0 || (cross(w.right, w.left) == 0 && dot(w.right, w.left) > 0)) return false;
-    const Real end_a = truth_.distance[c.from], end_b = truth_.distance[c.to];
-    Real a = meets(w, w.left, c.length), b = std::max(a, meets(w, w.right, c.length));
+    const R end_a = distance_[c.from], end_b = distance_[c.to];
+    R a = meets(w, w.left, c.length), b = std::max(a, meets(w, w.right, c.length));
     if (along(w, b) - b > end_a + margin(end_a)) return false;
     if (along(w, a) - (c.length - a) > end_b + margin(end_b)) return false;
-    if (const Real x = first_useful(w, w.source.x, end_a - w.sigma); x > a && x < b) {
+    if (const R x = first_useful(w, w.source.x, end_a - w.sigma); x > a && x < b) {
       if (along(w, x) - x > end_a + margin(end_a) / 2) cut(w, w.left, a, x);
     }
-    if (const Real x = c.length - first_useful(w, c.length - w.source.x, end_b - w.sigma); x > a && x < b) {
+    if (const R x = c.length - first_useful(w, c.length - w.source.x, end_b - w.sigma); x > a && x < b) {
       if (along(w, x) - (c.length - x) > end_b + margin(end_b) / 2) cut(w, w.right, b, x);
     }
     if (a > b) return false;
     if (w.back != kNoIndex) {
-      const Real behind = truth_.distance[w.back];
+      const R behind = distance_[w.back];
       // Without doubt: a source on the edge behind lies in line with V and a limit ray.
       const Point to_back = w.back_at - w.source;
-      const Real side_left = cross(w.left, to_back) - doubt(w, w.back_at);
-      const Real side_right = cross(w.right, to_back) + doubt(w, w.back_at);
+      const R side_left = cross(w.left, to_back) - doubt(w, w.back_at);
+      const R side_right = cross(w.right, to_back) + doubt(w, w.back_at);
       const Point at_b{b, 0}, at_a{a, 0};
       if (side_left > 0 && behind + norm(at_b - w.back_at) + margin(behind) < along(w, b)) return false;
       if (side_right < 0 && behind + norm(at_a - w.back_at) + margin(behind) < along(w, a)) return false;
@@ -318,16 +351,16 @@ class Solver {
 
   // The x up to which `other` + x is less than |x - source| by the margin; whatever rounding makes of it, the caller
   // checks what it gets.
-  Real first_useful(const Window& w, Real source_x, Real other) const {
-    const Real value = other + margin(other + w.sigma), sum = value + source_x;
-    if (!(value < kFar) || sum == 0) return -1;
+  R first_useful(const Window& w, R source_x, R other) const {
+    const R value = other + margin(other + w.sigma), sum = value + source_x;
+    if (!(value < far<R>()) || sum == 0) return -1;
     return (source_x * source_x + w.source.y * w.source.y - value * value) / (2 * sum);
   }
 
   // Moves one end of the window to x. Next to the source x says little about the direction: then it is left alone.
-  void cut(Window& w, Point& direction, Real& end, Real x) const {
+  void cut(Window& w, Point& direction, R& end, R x) const {
     const Point d = Point{x, 0} - w.source;
-    if (norm(d) < 1e-6L * complex_.corner[w.halfedge].length) return;
+    if (norm(d) < 1e-6 * complex_.corner[w.halfedge].length) return;
     direction = unit(d);
     end = x;
   }
@@ -337,14 +370,14 @@ class Solver {
 
   bool sees(const Window& w, Point p) const {
     const Point d = p - w.source;
-    const Real doubtful = doubt(w, p);
+    const R doubtful = doubt(w, p);
     return cross(w.left, d) <= doubtful && cross(w.right, d) >= -doubtful &&
            (dot(w.left, d) >= -doubtful || dot(w.right, d) >= -doubtful);
   }
 
   // How far (times 1, across a unit direction) rounding may have moved p against a ray from the source.
-  static Real doubt(const Window& w, Point p) {
-    return kAngle * norm(p - w.source) + kLateral * (norm(w.source) + norm(p));
+  static R doubt(const Window& w, Point p) {
+    return epsilon<R>() * (kAngle * norm(p - w.source) + kLateral * (norm(w.source) + norm(p)));
   }
 
   // Through the face: to the apex, the targets inside and, split at the apex, to the two other edges.
@@ -360,7 +393,7 @@ class Solver {
       if (sees(w, p)) reach_target(t.index, w.sigma + norm(p - w.source));
     }
     const Point split = norm(to_apex) > 0 ? unit(to_apex) : Point{0, 1};
-    const Real left_length = complex_.corner[behind].length, right_length = complex_.corner[ahead].length;
+    const R left_length = complex_.corner[behind].length, right_length = complex_.corner[ahead].length;
     if (!left_of(to_apex, w.left) && left_length > 0) {
       const Point along_edge = (1 / left_length) * c.apex;
       Window child = turned(w, {0, 0}, along_edge, {c.length, 0}, c.to, me);
@@ -390,15 +423,15 @@ class Solver {
 
   void arrive_at_apex(const Window& w, Point to_apex) {
     const Corner& c = complex_.corner[w.halfedge];
-    const Real d = w.sigma + norm(to_apex);
+    const R d = w.sigma + norm(to_apex);
     const Index at = Mesh::previous(w.halfedge);  // the corner at the apex: its halfedge runs to `from`
     if (norm(to_apex) == 0 || complex_.corner[at].length == 0) {
       reach({d, c.apex_vertex, Arrival::By::Start, 0, 0});
       return;
     }
     const Point ahead = Point{0, 0} - c.apex, back = Point{0, 0} - to_apex;
-    const Real angle = std::atan2(cross(ahead, back), dot(ahead, back));
-    reach({d, c.apex_vertex, Arrival::By::Corner, at, std::clamp(angle, Real{0}, complex_.corner[at].angle)});
+    const R angle = atan2(cross(ahead, back), dot(ahead, back));
+    reach({d, c.apex_vertex, Arrival::By::Corner, at, std::clamp(angle, R{0}, complex_.corner[at].angle)});
   }
 
   // ---- vertices
@@ -412,29 +445,29 @@ class Solver {
 
   // In order of distance, so that the first arrival is final. Equal ones follow, each with its own shadow.
   void settle(const Arrival& a) {
-    const Real known = truth_.distance[a.vertex];
+    const R known = distance_[a.vertex];
     if (a.distance > known + margin(known)) return;
     Shadows& before = shadows_[a.vertex];
     if (before.everywhere) return;
     if (before.nodes.empty()) walk_edges(a.vertex, known);
     const std::size_t degree = complex_.neighbours[a.vertex].size();
     before.everywhere = a.by == Arrival::By::Start || complex_.pinched[a.vertex];
-    const std::vector<Real> link = before.everywhere ? std::vector<Real>(degree, kFar) : link_distances(a);
-    for (const std::vector<Real>& other : before.nodes) {
+    const std::vector<R> link = before.everywhere ? std::vector<R>(degree, far<R>()) : link_distances(a);
+    for (const std::vector<R>& other : before.nodes) {
       if (same_way(link, other)) return;
     }
     before.nodes.push_back(link);
     for (const Index h : complex_.corners_at[a.vertex]) cast_shadow(h, link, known);
   }
 
-  static bool same_way(const std::vector<Real>& a, const std::vector<Real>& b) {
+  static bool same_way(const std::vector<R>& a, const std::vector<R>& b) {
     for (std::size_t i = 0; i < a.size(); ++i) {
-      if (a[i] != b[i] && !(std::abs(a[i] - b[i]) <= kSameWay)) return false;
+      if (a[i] != b[i] && !(abs(a[i] - b[i]) <= kSameWay)) return false;
     }
     return true;
   }
 
-  void walk_edges(Index v, Real d) {
+  void walk_edges(Index v, R d) {
     for (const Neighbour& n : complex_.neighbours[v]) {
       reach({d + complex_.edge[n.edge].length, n.vertex, Arrival::By::Edge, number(n.vertex, v), 0});
     }
@@ -446,21 +479,20 @@ class Solver {
       if (at.on == PointLocation::On::Vertex && at.vertex == v) reach_target(i, d);
       if (at.on != PointLocation::On::Edge) continue;
       const Edge& e = complex_.edge[edge_of(at)];
-      const Real share = mesh_.from(at.halfedge) == v ? Real{at.t} : 1 - Real{at.t};
-      if (e.a == v || e.b == v) reach_target(i, d + share * e.length);
+      if (e.a == v || e.b == v) reach_target(i, d + share_from(at, v) * e.length);
     }
   }
 
   // The link of a vertex is a graph: a node per edge at the vertex, an arc per corner, as long as the corner's angle.
   // Distances in it from where the front comes from; infinity where the fan hangs together with it by the vertex only.
-  std::vector<Real> link_distances(const Arrival& a) const {
-    std::vector<Real> link(complex_.neighbours[a.vertex].size(), kFar);
+  std::vector<R> link_distances(const Arrival& a) const {
+    std::vector<R> link(complex_.neighbours[a.vertex].size(), far<R>());
     if (a.by == Arrival::By::Edge) {
       link[a.at] = 0;
     } else {
       const Corner& c = complex_.corner[a.at];
       link[c.ahead] = a.angle;
-      link[c.behind] = std::max(Real{0}, c.angle - a.angle);
+      link[c.behind] = std::max(R{0}, c.angle - a.angle);
     }
     // Arcs are relaxed in turns until nothing changes: one or two turns in the order of a fan, and simple.
     for (bool changed = true; changed;) {
@@ -478,12 +510,12 @@ class Solver {
   // from one direction and leaves it in another is locally shortest exactly where the two are at least pi apart in the
   // link (otherwise the flat sector between them holds a shortcut). That holds for every link: circles, arcs, several
   // components, arcs that meet in threes. In one corner these directions are an interval.
-  void cast_shadow(Index h, const std::vector<Real>& link, Real d) {
+  void cast_shadow(Index h, const std::vector<R>& link, R d) {
     const Corner& c = complex_.corner[h];
     const Corner& edge = complex_.corner[Mesh::next(h)];  // the edge opposite to the vertex
     if (edge.length == 0 || c.length == 0 || norm(c.apex) == 0) return;
-    const Real begin = std::max(Real{0}, kHalfTurn - link[c.ahead] - kShadow);
-    const Real end = std::min(c.angle, c.angle - (kHalfTurn - link[c.behind]) + kShadow);
+    const R begin = std::max(R{0}, half_turn<R>() - link[c.ahead] - kShadow);
+    const R end = std::min(c.angle, c.angle - (half_turn<R>() - link[c.behind]) + kShadow);
     if (!(begin < end)) return;
     Window w;
     w.sigma = d;
@@ -498,31 +530,33 @@ class Solver {
     cross_edge(Mesh::next(h), w);
   }
 
-  static Point rotated(Point d, Real angle) {
-    const Real c = std::cos(angle), s = std::sin(angle);
+  static Point rotated(Point d, R angle) {
+    const R c = cos(angle), s = sin(angle);
     return {c * d.x - s * d.y, s * d.x + c * d.y};
   }
 
-  void finish() {
-    for (Real& d : truth_.distance) d = d > radius_ ? kFar : d;
-    for (Real& d : truth_.target) d = d > radius_ ? kFar : d;
+  std::vector<Real> rounded(const std::vector<R>& values) const {
+    std::vector<Real> result;
+    for (const R& d : values) result.push_back(d > radius_ ? kFar : static_cast<Real>(d));
+    return result;
   }
 
   struct Ancestor {
     std::uint32_t parent;
     Index face;
-    Real key;
+    R key;
   };
   struct Shadows {
-    std::vector<std::vector<Real>> nodes;  // the link distances of the arrivals so far
+    std::vector<std::vector<R>> nodes;  // the link distances of the arrivals so far
     bool everywhere = false;
   };
 
   const Mesh& mesh_;
-  Complex complex_;
-  Real radius_;
-  Real scale_ = 0;
-  Truth truth_;
+  Complex<R> complex_;
+  R radius_;
+  R scale_ = 0;
+  std::vector<R> distance_, target_;
+  std::uint64_t windows_taken_ = 0;
   std::vector<PointLocation> target_at_;
   std::vector<std::vector<Target>> targets_in_;  // [faces]
   Queue<Window> windows_;
@@ -534,8 +568,16 @@ class Solver {
 }  // namespace
 
 Truth polyhedral_distance(const Mesh& mesh, std::span<const Source> sources, Real radius,
-                          std::span<const SurfacePoint> targets) {
-  return Solver(mesh, sources, radius, targets).run();
+                          std::span<const SurfacePoint> targets, Arithmetic arithmetic) {
+  switch (arithmetic) {
+    case Arithmetic::Quad:
+      return Solver<Quad>(mesh, sources, radius, targets).run();
+    case Arithmetic::Octuple:
+      return Solver<Octuple>(mesh, sources, radius, targets).run();
+    case Arithmetic::LongDouble:
+      break;
+  }
+  return Solver<Real>(mesh, sources, radius, targets).run();
 }
 
 }  // namespace brushfire::oracle

@@ -1,4 +1,4 @@
-// The truth: polyhedral distances on any triangle complex, in long double, by the simplest scheme that is exact.
+// The truth: polyhedral distances on any triangle complex, in wide arithmetic, by the simplest scheme that is exact.
 //
 // A tree of windows, taken from a queue in order of distance, as in "Shortest paths on a polyhedron" (Chen and Han
 // 1990); a window is a wedge of straight rays that enters a face through one edge, together with the unfolded place
@@ -17,6 +17,11 @@
 
 namespace brushfire::oracle {
 
+// What the oracle computes in. Its results are rounded to long double. Long double is quick, and right where lengths
+// differ by factors of a thousand; where they differ by 1e12, directions need the digits of Quad; Octuple says whether
+// Quad had enough of them.
+enum class Arithmetic : std::uint8_t { LongDouble, Quad, Octuple };
+
 struct Truth {
   std::vector<Real> distance;  // [vertices]; infinity: unreachable, or farther than the radius
   std::vector<Real> target;    // [targets]
@@ -25,6 +30,6 @@ struct Truth {
 
 // Distances from the nearest of the sources (distance plus offset) to all vertices and to `targets`.
 Truth polyhedral_distance(const Mesh& mesh, std::span<const Source> sources, Real radius = kFar,
-                          std::span<const SurfacePoint> targets = {});
+                          std::span<const SurfacePoint> targets = {}, Arithmetic arithmetic = Arithmetic::LongDouble);
 
 }  // namespace brushfire::oracle

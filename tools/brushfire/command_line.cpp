@@ -139,7 +139,7 @@ CommandLine::CommandLine() : implementation_(std::make_unique<Implementation>())
       "  brushfire distance bunny.ply --source 0 -o bunny-distance.ply\n"
       "\n"
       "Exit codes: 0 done, 1 internal error or output not writable, 2 usage, 3 unusable input file,\n"
-      "4 target unreachable, 130 interrupted (Ctrl-C), 143 terminated.");
+      "4 target unreachable, 5 field proven wrong, 130 interrupted (Ctrl-C), 143 terminated.");
 }
 
 CommandLine::~CommandLine() = default;
@@ -198,23 +198,27 @@ int whole_number(const std::optional<double>& value, int otherwise, int low, int
   return static_cast<int>(*value);
 }
 
+std::string CommandLine::footer() const { return implementation_->app.get_footer(); }
+
 std::vector<VerbNames> CommandLine::names() const {
   std::vector<VerbNames> verbs;
   for (const auto& parser : implementation_->verbs) {
     VerbNames& verb = verbs.emplace_back();
     verb.name = parser->app->get_name();
     verb.help = parser->app->get_description();
+    verb.footer = parser->app->get_footer();
     for (const CLI::Option* option : parser->app->get_options()) {
-      if (option->nonpositional()) {
-        OptionNames& names = verb.options.emplace_back();
-        for (const std::string& s : option->get_snames()) names.names.push_back("-" + s);
-        for (const std::string& l : option->get_lnames()) names.names.push_back("--" + l);
-        names.takes_value = option->get_items_expected_max() > 0;
-        names.help = option->get_description();
-        std::replace(names.help.begin(), names.help.end(), '\n', ' ');
-        if (const auto found = parser->choices.find(option); found != parser->choices.end()) {
-          names.choices = found->second;
-        }
+      const bool dashed = option->nonpositional();
+      OptionNames& names = (dashed ? verb.options : verb.arguments).emplace_back();
+      for (const std::string& s : option->get_snames()) names.names.push_back("-" + s);
+      for (const std::string& l : option->get_lnames()) names.names.push_back("--" + l);
+      if (!dashed) names.names = {option->get_name()};
+      names.takes_value = option->get_items_expected_max() > 0;
+      if (names.takes_value) names.placeholder = option->get_type_name();
+      names.help = option->get_description();
+      std::replace(names.help.begin(), names.help.end(), '\n', ' ');
+      if (const auto found = parser->choices.find(option); found != parser->choices.end()) {
+        names.choices = found->second;
       }
     }
   }

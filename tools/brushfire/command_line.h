@@ -19,6 +19,7 @@ inline constexpr int kInternal = 1;     // a bug, no memory, an output that cann
 inline constexpr int kUsage = 2;        // an argument that is not understood or names something that is not in the mesh
 inline constexpr int kBadInput = 3;     // an input file that cannot be read or is not a mesh
 inline constexpr int kUnreachable = 4;  // a target that no source reaches
+inline constexpr int kProvenWrong = 5;  // a field that is proven wrong, or farther from another than was allowed
 // Interrupted: 128 and the signal, see interrupt.h: 130 after Ctrl-C, 143 after SIGTERM.
 
 // Thrown by a verb whose answer is that there is no way: what() says to where.
@@ -65,17 +66,19 @@ class Verb {
   Parser& parser_;
 };
 
-// What shell completion needs to know about one option.
+// What shell completion and manual pages need to know about one option or argument.
 struct OptionNames {
-  std::vector<std::string> names;    // "-o", "--output"
+  std::vector<std::string> names;    // "-o", "--output"; of an argument its name
   std::vector<std::string> choices;  // where the value is one of a few words
   bool takes_value = false;
+  std::string placeholder;  // for the value
   std::string help;
 };
 
 struct VerbNames {
   std::string name, help;
-  std::vector<OptionNames> options;
+  std::vector<OptionNames> arguments, options;
+  std::string footer;  // the examples, as in --help
 };
 
 class CommandLine {
@@ -89,8 +92,10 @@ class CommandLine {
   // Parses and runs the verb. Never throws: every failure is one line on stderr and its exit code.
   int run(int argc, const char* const* argv);
 
-  // All verbs with their options, for shell completion.
+  // All verbs with their options, for shell completion and manual pages.
   std::vector<VerbNames> names() const;
+  // What stands under the program's own --help.
+  std::string footer() const;
 
  private:
   struct Implementation;
@@ -105,8 +110,11 @@ void add_path(CommandLine& command_line);
 void add_isolines(CommandLine& command_line);
 void add_render(CommandLine& command_line);
 void add_compare(CommandLine& command_line);
+void add_certify(CommandLine& command_line);
 void add_bench(CommandLine& command_line);
+void add_convert(CommandLine& command_line);
 void add_shape(CommandLine& command_line);
 void add_completion(CommandLine& command_line);
+void add_manual(CommandLine& command_line);
 
 }  // namespace brushfire::tool

@@ -1,5 +1,6 @@
 // brushfire compare: how far one field is from another.
 #include "command_line.h"
+#include "fields.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_field.h>
@@ -8,6 +9,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 namespace brushfire::tool {
 namespace {
@@ -17,24 +19,22 @@ constexpr const char* kExamples = R"(Examples:
   brushfire distance bunny.ply --source 0 --method dijkstra -o edges.npy
   brushfire compare edges.npy fast.npy
   brushfire compare edges.npy fast.npy --mesh bunny.ply --json
+  brushfire compare edges.npy fast.npy --fail-above 0.1 || echo too far apart
 
 A field is any file with one number per vertex: .npy .csv .json .txt, or a .ply or .vtk that brushfire wrote. Relative
 errors are |A - B| / |B|; vertices where B is 0 (the sources) are left out. With --mesh the means are also weighted by
-area, so that a dense corner of the mesh counts by its size and not by its vertices.
+area, so that a dense corner of the mesh counts by its size and not by its vertices. With --fail-above E the exit code
+is 5 where a relative error is greater than E, or a vertex is reached by one of the two only.
 )";
 
 struct Arguments {
   std::string field, reference, mesh;
+  std::optional<double> fail_above;
 };
 
-// A field and its mesh, or another field, come from different runs: say which file does not fit, and how.
-std::vector<double> values_of(const LoadedField& loaded, const std::string& path, std::size_t expected,
-                              const std::string& beside) {
-  if (loaded.vertices.empty() && loaded.values.size() != expected) {
-    throw Error(ErrorCode::InvalidArgument, path + ": " + counted(loaded.values.size(), "value", "values") + ", but " +
-                                                beside + " has " + std::to_string(expected));
-  }
-  return values_on_vertices(loaded, static_cast<Index>(expected), kInfinity);
+// Vertices that only one of the two reaches are infinitely far apart.
+bool is_above(const FieldComparison& c, double limit) {
+  return c.relative.max > limit || c.missing > 0 || c.surplus > 0;
 }
 
 void add_measure(Record& record, const std::string& name, const ErrorMeasure& error) {
@@ -62,6 +62,9 @@ std::string json(const Arguments& arguments, const FieldComparison& c) {
         .add("area_weighted_rms_relative", c.weighted_relative.root_mean_square)
         .add("area_weighted_mean_absolute", c.weighted_absolute.mean)
         .add("area_weighted_rms_absolute", c.weighted_absolute.root_mean_square);
+  }
+  if (arguments.fail_above) {
+    record.add("fail_above", *arguments.fail_above).add("failed", is_above(c, *arguments.fail_above));
   }
   return record.json();
 }
@@ -95,10 +98,16 @@ std::string in_words(const Arguments& arguments, const FieldComparison& c) {
   note(c.missing, "reached by the reference only");
   note(c.surplus, "not reached by the reference");
   note(c.unreached_in_both, "reached by neither");
+  if (arguments.fail_above && is_above(c, *arguments.fail_above)) {
+    text += "  farther apart than " + readable(*arguments.fail_above) + "\n";
+  }
   return text;
 }
 
 int compare(const Arguments& arguments, const Talk& talk) {
+  if (arguments.fail_above && !(*arguments.fail_above >= 0)) {
+    refuse("--fail-above " + exact(*arguments.fail_above) + " is not a number >= 0");
+  }
   const LoadedField reference = read_field(arguments.reference);
   std::size_t count = reference.values.size();
   std::string counting = arguments.reference;
@@ -112,7 +121,7 @@ int compare(const Arguments& arguments, const Talk& talk) {
   const std::vector<double> a = values_of(read_field(arguments.field), arguments.field, count, counting);
   const FieldComparison result = compare_fields(a, b, areas);
   write_stdout(talk.json ? json(arguments, result) : in_words(arguments, result));
-  return kOk;
+  return arguments.fail_above && is_above(result, *arguments.fail_above) ? kProvenWrong : kOk;
 }
 
 }  // namespace
@@ -123,6 +132,7 @@ void add_compare(CommandLine& command_line) {
     verb.argument("A", arguments->field, "The field to judge");
     verb.argument("B", arguments->reference, "The reference");
     verb.option("--mesh", arguments->mesh, "FILE", "The mesh of both: adds means weighted by area");
+    verb.option("--fail-above", arguments->fail_above, "E", "Exit code 5 where a relative error is greater than this");
     verb.talks();
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return compare(*arguments, talk); });

@@ -1,4 +1,4 @@
-// brushfire completion: scripts that make bash and zsh complete verbs, options and their values.
+// brushfire completion: scripts that make bash, zsh and fish complete verbs, options and their values.
 #include "command_line.h"
 
 #include <memory>
@@ -10,6 +10,7 @@ constexpr const char* kExamples = R"(Examples:
   source <(brushfire completion bash)
   brushfire completion bash > ~/.local/share/bash-completion/completions/brushfire
   brushfire completion zsh > "${fpath[1]}/_brushfire"
+  brushfire completion fish > ~/.config/fish/completions/brushfire.fish
 )";
 
 std::string joined(const std::vector<std::string>& words, const char* separator) {
@@ -111,15 +112,58 @@ std::string zsh(const std::vector<VerbNames>& verbs) {
          "if [ \"$funcstack[1]\" = _brushfire ]; then _brushfire \"$@\"; else compdef _brushfire brushfire; fi\n";
 }
 
+// Between single quotes, as fish reads them.
+std::string fish_quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "'";
+}
+
+std::string fish(const std::vector<VerbNames>& verbs) {
+  std::string lines =
+      "# fish completion of brushfire; made by: brushfire completion fish\n"
+      "complete -c brushfire -n __fish_use_subcommand -f -l help -d 'Print help'\n"
+      "complete -c brushfire -n __fish_use_subcommand -f -l version -d 'Print the version'\n";
+  for (const VerbNames& verb : verbs) {
+    lines +=
+        "complete -c brushfire -n __fish_use_subcommand -f -a " + verb.name + " -d " + fish_quoted(verb.help) + "\n";
+    const std::string within = "complete -c brushfire -n '__fish_seen_subcommand_from " + verb.name + "'";
+    for (const OptionNames& argument : verb.arguments) {
+      if (!argument.choices.empty()) lines += within + " -f -a " + fish_quoted(joined(argument.choices, " ")) + "\n";
+    }
+    for (const OptionNames& option : verb.options) {
+      lines += within;
+      for (const std::string& name : option.names) {
+        lines += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+      }
+      if (!option.choices.empty()) {
+        lines += " -x -a " + fish_quoted(joined(option.choices, " "));
+      } else if (option.takes_value) {
+        lines += " -r";
+      }
+      lines += " -d " + fish_quoted(option.help) + "\n";
+    }
+  }
+  return lines;
+}
+
+std::string script(const std::string& shell, const std::vector<VerbNames>& verbs) {
+  if (shell == "fish") return fish(verbs);
+  return shell == "zsh" ? zsh(verbs) : bash(verbs);
+}
+
 }  // namespace
 
 void add_completion(CommandLine& command_line) {
   const auto shell = std::make_shared<std::string>();
-  command_line.add("completion", "Print a completion script for bash or zsh", [&](Verb& verb) {
-    verb.choice("shell", *shell, {"bash", "zsh"}, "For which shell");
+  command_line.add("completion", "Print a completion script for bash, zsh or fish", [&](Verb& verb) {
+    verb.choice("shell", *shell, {"bash", "zsh", "fish"}, "For which shell");
     verb.examples(kExamples);
     verb.run([shell, &command_line](Talk&) {
-      write_stdout(*shell == "zsh" ? zsh(command_line.names()) : bash(command_line.names()));
+      write_stdout(script(*shell, command_line.names()));
       return kOk;
     });
   });

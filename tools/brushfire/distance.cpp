@@ -3,10 +3,11 @@
 #include "command_line.h"
 #include "interrupt.h"
 #include "output.h"
+#include "sources.h"
+#include "surface.h"
 #include "where.h"
 
 #include <brushfire/core/error.h>
-#include <brushfire/io/read_mesh.h>
 #include <brushfire/io/write_field.h>
 #include <brushfire/solvers/distance.h>
 
@@ -41,8 +42,10 @@ where no source reaches; the run ends once their distances are final, so that a 
 than all. Vertices that cannot be reached, or lie beyond the radius, read inf in files.)";
 
 struct Arguments {
-  std::string file, sources_file, output;
+  SurfaceArguments surface;
+  std::string sources_file, output;
   std::vector<std::string> sources, targets;
+  bool labels = false;
   Accuracy accuracy;
   std::string precision = "float32";
   std::optional<double> radius, threads, snap_within;
@@ -77,20 +80,6 @@ struct Run {
   }
 };
 
-std::vector<Where> parse_sources(const Arguments& arguments) {
-  std::vector<Where> places;
-  for (const std::string& text : split_places(arguments.sources)) places.push_back(parse_where(text));
-  if (!arguments.sources_file.empty()) {
-    for (Where& w : read_where_file(arguments.sources_file)) places.push_back(std::move(w));
-  }
-  if (places.empty()) {
-    throw Error(ErrorCode::InvalidArgument, arguments.sources_file.empty()
-                                                ? "where from? give --source or --sources"
-                                                : arguments.sources_file + ": no source in this file");
-  }
-  return places;
-}
-
 std::vector<Where> parse_targets(const Arguments& arguments) {
   std::vector<Where> places;
   for (const std::string& text : split_places(arguments.targets)) {
@@ -120,7 +109,7 @@ std::string json(const Arguments& arguments, const Run& run, const PlaceFinder& 
   const Index farthest = run.farthest();
   const std::optional<double> tolerance = promised_error(run.options);
   Record record;
-  record.add("file", arguments.file)
+  record.add("file", arguments.surface.file)
       .add("method", std::string(name_of(field.method)))
       .add("precision", arguments.precision)
       .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
@@ -156,7 +145,7 @@ std::string json(const Arguments& arguments, const Run& run, const PlaceFinder& 
 
 std::string in_words(const Arguments& arguments, const Run& run) {
   const DistanceField& field = run.field;
-  std::string text = arguments.file + ": " + counted(run.mesh.vertex_count(), "vertex", "vertices") + ", " +
+  std::string text = arguments.surface.file + ": " + counted(run.mesh.vertex_count(), "vertex", "vertices") + ", " +
                      counted(run.mesh.face_count(), "face", "faces") + "\n";
   text += std::string(name_of(field.method)) + " from " + counted(run.sources.size(), "source", "sources") +
           " reached " + counted(field.reached, "vertex", "vertices");
@@ -175,6 +164,16 @@ std::string in_words(const Arguments& arguments, const Run& run) {
   return text;
 }
 
+// On the file's own vertices, whatever was welded. GIFTI holds maps, and a second one only where it is asked for.
+void write(const Arguments& arguments, const Run& run, const Surface& surface) {
+  const std::vector<double> values = surface.on_file<double>(run.field.distance);
+  std::vector<Index> labels;
+  if (arguments.labels || !arguments.output.ends_with(".gii")) labels = surface.on_file<Index>(run.field.source);
+  write_field(arguments.output, surface.file().mesh,
+              {.values = values, .labels = labels, .structure = surface.file().structure},
+              arguments.output == "-" ? "csv" : "");
+}
+
 int distance_verb(const Arguments& arguments, const Talk& talk) {
   // What can be wrong without the mesh is said before a large file is read.
   check(arguments, talk);
@@ -182,22 +181,23 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   DistanceOptions& options = run.options;
   apply(arguments.accuracy, options);
   options.threads = static_cast<unsigned>(whole_number(arguments.threads, 0, 0, kMostThreads, "--threads"));
-  const std::vector<Where> source_places = parse_sources(arguments);
+  const std::vector<Where> source_places = parse_sources(arguments.sources, arguments.sources_file);
   run.target_places = parse_targets(arguments);
 
   const Stopwatch reading;
-  run.mesh = read_mesh(arguments.file).mesh;
+  const Surface surface(arguments.surface);
+  run.mesh = surface.mesh();
   run.read_s = reading.seconds();
   stop_if_interrupted();
 
   PlaceFinder places(run.mesh, arguments.snap_within);
-  for (const Where& w : source_places) run.sources.push_back({places.source(w), w.offset});
+  for (const Where& w : source_places) run.sources.push_back({places.source(surface.place(w)), w.offset});
 
   options.precision = arguments.precision == "float32" ? Precision::Float : Precision::Double;
   options.max_distance = arguments.radius.value_or(kInfinity);
   options.cancel = &cancel_token();
   options.progress = talk.progress("distance");
-  for (const Where& w : run.target_places) options.targets.push_back(places.target(w));
+  for (const Where& w : run.target_places) options.targets.push_back(places.target(surface.place(w)));
   places.tell(talk);
 
   const Stopwatch setting_up;
@@ -211,8 +211,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   talk.end_progress();
 
   if (!arguments.output.empty()) {
-    write_field(arguments.output, run.mesh, {.values = run.field.distance, .labels = run.field.source},
-                arguments.output == "-" ? "csv" : "");
+    write(arguments, run, surface);
   }
   if (talk.json) {
     write_stdout(json(arguments, run, places));
@@ -236,7 +235,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
 void add_distance(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("distance", "Distance of every vertex from the nearest source", [&](Verb& verb) {
-    verb.argument("FILE", arguments->file, "The mesh: PLY, OBJ, OFF; - reads standard input");
+    add_surface(verb, arguments->surface);
     verb.option("-s,--source", arguments->sources, "PLACE", "A source; may be repeated");
     verb.option("--sources", arguments->sources_file, "LIST", "File of sources, one per line, # comments");
     verb.option("-t,--target", arguments->targets, "PLACE", "Print the distance of this point; may be repeated");
@@ -245,7 +244,9 @@ void add_distance(CommandLine& command_line) {
     verb.option("-r,--radius", arguments->radius, "R", "Stop at this distance; what is farther reads inf");
     add_snap_within(verb, arguments->snap_within);
     verb.option("--threads", arguments->threads, "N", "Threads for this field; 0, the default: one per processor");
-    verb.option("-o,--output", arguments->output, "FILE", "Write the field: .ply .vtk .npy .csv ...; - prints CSV");
+    verb.option("-o,--output", arguments->output, "FILE",
+                ("Write the field: " + extensions_of(fields_written()) + "; - prints CSV").c_str());
+    verb.flag("--labels", arguments->labels, "Write the nearest source into .gii too, as other formats have it");
     verb.talks();
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return distance_verb(*arguments, talk); });

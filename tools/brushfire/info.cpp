@@ -1,7 +1,7 @@
 // brushfire info: what is in a mesh.
 #include "command_line.h"
+#include "surface.h"
 
-#include <brushfire/io/read_mesh.h>
 #include <brushfire/mesh/report.h>
 
 #include <cstdio>
@@ -14,6 +14,7 @@ constexpr const char* kExamples = R"(Examples:
   brushfire info scan.ply
   brushfire info scan.ply --json | jq .components
   zcat scan.off.gz | brushfire info -
+  brushfire info part.stl --weld 1e-6
 )";
 
 void add_counts(Record& record, const MeshReport& r) {
@@ -33,6 +34,8 @@ void add_counts(Record& record, const MeshReport& r) {
   add("repeated_index_faces", r.repeated_index_faces);
   add("duplicate_faces", r.duplicate_faces);
   add("duplicate_positions", r.duplicate_positions);
+  add("near_positions", r.near_positions);
+  record.add("near_tolerance", r.near_tolerance);
   record.add("looks_like_soup", r.looks_like_soup);
   record.add("min_edge_length", r.min_edge_length);
   record.add("mean_edge_length", r.mean_edge_length);
@@ -41,9 +44,9 @@ void add_counts(Record& record, const MeshReport& r) {
 }
 
 // The counts that say something about any mesh; the unusual ones stand in the remarks.
-std::string in_words(const std::string& file, const LoadedMesh& loaded, const std::vector<std::string>& remarks) {
-  const MeshReport& r = loaded.mesh.report();
-  std::string text = file + " (" + loaded.format + ")\n";
+std::string in_words(const std::string& file, const Surface& surface, const std::vector<std::string>& remarks) {
+  const MeshReport& r = surface.mesh().report();
+  std::string text = file + " (" + surface.file().format + ")\n";
   const auto line = [&](const char* name, const std::string& value) {
     char padded[32];
     std::snprintf(padded, sizeof padded, "  %-22s", name);
@@ -61,17 +64,17 @@ std::string in_words(const std::string& file, const LoadedMesh& loaded, const st
   return text;
 }
 
-int info(const std::string& file, const Talk& talk) {
-  const LoadedMesh loaded = read_mesh(file);
-  std::vector<std::string> remarks = loaded.remarks;
-  for (std::string& remark : loaded.mesh.report().remarks()) remarks.push_back(std::move(remark));
+int info(const SurfaceArguments& arguments, const Talk& talk) {
+  const Surface surface(arguments);
+  std::vector<std::string> remarks = surface.remarks();
+  for (std::string& remark : surface.mesh().report().remarks()) remarks.push_back(std::move(remark));
   if (!talk.json) {
-    write_stdout(in_words(file, loaded, remarks));
+    write_stdout(in_words(arguments.file, surface, remarks));
     return kOk;
   }
   Record record;
-  record.add("file", file).add("format", loaded.format);
-  add_counts(record, loaded.mesh.report());
+  record.add("file", arguments.file).add("format", surface.file().format);
+  add_counts(record, surface.mesh().report());
   record.add("remarks", remarks);
   write_stdout(record.json());
   return kOk;
@@ -80,12 +83,12 @@ int info(const std::string& file, const Talk& talk) {
 }  // namespace
 
 void add_info(CommandLine& command_line) {
-  const auto file = std::make_shared<std::string>();
+  const auto arguments = std::make_shared<SurfaceArguments>();
   command_line.add("info", "What is in a mesh: counts, sizes, and whatever is unusual", [&](Verb& verb) {
-    verb.argument("FILE", *file, "The mesh: PLY, OBJ, OFF; - reads standard input");
+    add_surface(verb, *arguments);
     verb.talks();
     verb.examples(kExamples);
-    verb.run([file](Talk& talk) { return info(*file, talk); });
+    verb.run([arguments](Talk& talk) { return info(*arguments, talk); });
   });
 }
 

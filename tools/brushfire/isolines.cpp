@@ -2,11 +2,11 @@
 #include "command_line.h"
 #include "interrupt.h"
 #include "output.h"
+#include "surface.h"
 #include "where.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_field.h>
-#include <brushfire/io/read_mesh.h>
 #include <brushfire/io/write_lines.h>
 #include <brushfire/queries/curved_isolines.h>
 #include <brushfire/queries/isolines.h>
@@ -30,7 +30,9 @@ Straight pieces between the mesh's edges, or with --curved E exact arcs within t
 and oriented: smaller values on its left. Places are written as for brushfire distance.)";
 
 struct Arguments {
-  std::string file, output, levels, scalar_file, method = "exact";
+  SurfaceArguments surface;
+  DrawingArguments drawing;
+  std::string output, levels, scalar_file, method = "exact";
   std::vector<std::string> sources;
   std::optional<double> every, count, curved, snap_within;
 };
@@ -43,8 +45,7 @@ void check(const Arguments& a) {
   if (a.curved && (!a.scalar_file.empty() || a.method != "exact"))
     refuse("--curved needs a --source and --method exact");
   check_snap_within(a.snap_within);
-  check_lines_output(a.output);
-  if (a.output.empty()) refuse("where to? give -o lines.obj, .json, .ply, .vtp, .csv or .svg");
+  if (a.output.empty()) refuse("where to? give -o lines.obj or another of " + extensions_of(lines_written()));
 }
 
 // "1,2.5,3": numbers between commas.
@@ -81,11 +82,12 @@ std::vector<double> levels_of(const Arguments& a, std::span<const double> values
   return levels_between(values, static_cast<Index>(*a.count));
 }
 
-DistanceField solve(const Arguments& a, const Mesh& mesh, PlaceFinder& places, const Talk& talk) {
+DistanceField solve(const Arguments& a, const Surface& surface, PlaceFinder& places, const Talk& talk) {
+  const Mesh& mesh = surface.mesh();
   std::vector<Source> sources;
   for (const std::string& text : split_places(a.sources)) {
     const Where where = parse_where(text);
-    sources.push_back({places.source(where), where.offset});
+    sources.push_back({places.source(surface.place(where)), where.offset});
   }
   places.tell(talk);
   DistanceOptions options;
@@ -100,14 +102,17 @@ DistanceField solve(const Arguments& a, const Mesh& mesh, PlaceFinder& places, c
 
 int isolines_verb(const Arguments& a, const Talk& talk) {
   check(a);
-  const Mesh mesh = read_mesh(a.file).mesh;
+  const LinesOptions drawing = lines_options(a.output, a.drawing);
+  const Surface surface(a.surface);
+  const Mesh& mesh = surface.mesh();
   stop_if_interrupted();
   PlaceFinder places(mesh, a.snap_within);
   DistanceField field;
   if (a.sources.empty()) {
+    if (surface.is_welded()) refuse("--scalar has values for the file's vertices: no --weld");
     field.distance = values_on_vertices(read_field(a.scalar_file), mesh.vertex_count(), kInfinity);
   } else {
-    field = solve(a, mesh, places, talk);
+    field = solve(a, surface, places, talk);
   }
   const std::vector<double> levels = levels_of(a, field.distance);
   const std::vector<Isoline> found =
@@ -120,10 +125,10 @@ int isolines_verb(const Arguments& a, const Talk& talk) {
     length += line.line.length;
     closed += line.line.closed;
   }
-  write_lines(a.output, mesh, lines, "level");
+  write_lines(a.output, mesh, lines, "level", "", drawing);
   if (talk.json) {
     Record record;
-    record.add("file", a.file)
+    record.add("file", a.surface.file)
         .add("levels", static_cast<std::int64_t>(levels.size()))
         .add("lines", static_cast<std::int64_t>(lines.size()))
         .add("closed", closed)
@@ -145,7 +150,7 @@ void add_isolines(CommandLine& command_line) {
   std::vector<std::string> methods;
   for (const Method m : all_methods()) methods.emplace_back(name_of(m));
   command_line.add("isolines", "Curves of equal distance, ordered and oriented", [&](Verb& verb) {
-    verb.argument("FILE", a->file, "The mesh; - reads standard input");
+    add_surface(verb, a->surface);
     verb.option("-s,--source", a->sources, "PLACE", "Distances from here; may be repeated");
     verb.option("--scalar", a->scalar_file, "FIELD", "These values instead, one per vertex");
     verb.option("--levels", a->levels, "L,L,...", "At these values");
@@ -154,7 +159,7 @@ void add_isolines(CommandLine& command_line) {
     verb.option("--curved", a->curved, "E", "Exact arcs, as polylines within this chord error");
     verb.choice("-m,--method", a->method, methods, "How to compute");
     add_snap_within(verb, a->snap_within);
-    verb.option("-o,--output", a->output, "FILE", "Write the curves: .obj .json .ply .vtp .csv .svg");
+    add_lines_output(verb, a->output, a->drawing);
     verb.talks();
     verb.examples(kExamples);
     verb.run([a](Talk& talk) { return isolines_verb(*a, talk); });

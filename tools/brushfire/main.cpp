@@ -10,9 +10,12 @@ int main(int argc, char** argv) {
   add_isolines(command_line);
   add_matrix(command_line);
   add_compare(command_line);
+  add_certify(command_line);
   add_render(command_line);
   add_bench(command_line);
+  add_convert(command_line);
   add_shape(command_line);
   add_completion(command_line);
+  add_manual(command_line);
   return command_line.run(argc, argv);
 }

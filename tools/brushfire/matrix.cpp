@@ -2,10 +2,10 @@
 #include "accuracy.h"
 #include "command_line.h"
 #include "interrupt.h"
+#include "surface.h"
 #include "where.h"
 
 #include <brushfire/core/error.h>
-#include <brushfire/io/read_mesh.h>
 #include <brushfire/queries/distance_matrix.h>
 
 #include <algorithm>
@@ -31,7 +31,8 @@ Examples:
 .npz (scipy.sparse.load_npz) and .mtx (MatrixMarket) hold what is within it; there, columns are all vertices.)";
 
 struct Arguments {
-  std::string file, output;
+  SurfaceArguments surface;
+  std::string output;
   std::string rows = "all", columns = "all";
   Accuracy accuracy;
   std::string type = "float32";
@@ -54,18 +55,22 @@ std::vector<Where> parse_places(const std::string& text) {
   return places;
 }
 
-// The places of a list; nullopt for all vertices.
-std::optional<std::vector<Place>> places_on(const Mesh& mesh, PlaceFinder& finder, const std::string& text) {
-  if (text == "all") return std::nullopt;
+// The places of a list; nullopt for all vertices, which are those of the file.
+std::optional<std::vector<Place>> places_on(const Surface& surface, PlaceFinder& finder, const std::string& text) {
+  if (text == "all" && !surface.is_welded()) return std::nullopt;
   std::vector<Place> places;
+  if (text == "all") {
+    for (Index v = 0; v < surface.file().mesh.vertex_count(); ++v) places.emplace_back(surface.vertex(v));
+    return places;
+  }
   for (const Where& where : parse_places(text)) {
     if (where.has_offset) throw Error(ErrorCode::InvalidArgument, "'" + where.text + "': a matrix has no offsets");
     // A vertex in no face is a legal row (of infinities), but not a point of the surface.
     const VertexPlace* vertex = std::get_if<VertexPlace>(&where.place);
-    if (vertex && vertex->index < mesh.vertex_count()) {
-      places.push_back(static_cast<Index>(vertex->index));
+    if (vertex && vertex->index < surface.file().mesh.vertex_count()) {
+      places.push_back(surface.vertex(static_cast<Index>(vertex->index)));
     } else {
-      places.push_back(finder.source(where));
+      places.push_back(finder.source(surface.place(where)));
     }
   }
   return places;
@@ -89,6 +94,11 @@ void check(const Arguments& arguments) {
   }
   if (sparse && !arguments.radius) {
     throw Error(ErrorCode::InvalidArgument, arguments.output + ": a sparse matrix needs a --radius");
+  }
+  if (sparse && arguments.surface.weld) {
+    throw Error(
+        ErrorCode::InvalidArgument,
+        arguments.output + ": its columns are the mesh's vertices: no --weld (brushfire convert writes a welded mesh)");
   }
   if (sparse && arguments.columns != "all") {
     throw Error(ErrorCode::InvalidArgument, arguments.output + ": the columns of a sparse matrix are all vertices");
@@ -114,11 +124,12 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
   options.distance.cancel = &cancel_token();
   options.distance.progress = talk.progress("matrix");
 
-  const Mesh mesh = read_mesh(arguments.file).mesh;
+  const Surface surface(arguments.surface);
+  const Mesh& mesh = surface.mesh();
   stop_if_interrupted();
   PlaceFinder finder(mesh, arguments.snap_within);
-  const std::optional<std::vector<Place>> row_places = places_on(mesh, finder, arguments.rows);
-  const std::optional<std::vector<Place>> column_places = places_on(mesh, finder, arguments.columns);
+  const std::optional<std::vector<Place>> row_places = places_on(surface, finder, arguments.rows);
+  const std::optional<std::vector<Place>> column_places = places_on(surface, finder, arguments.columns);
   finder.tell(talk);
   const Places rows = row_places ? Places(*row_places) : std::nullopt;
   const Places columns = column_places ? Places(*column_places) : std::nullopt;
@@ -141,7 +152,7 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
   const std::optional<double> tolerance = promised_error(options.distance);
   if (talk.json) {
     Record record;
-    record.add("file", arguments.file)
+    record.add("file", arguments.surface.file)
         .add("method", std::string(name_of(options.distance.method)))
         .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
         .add("vertices", std::int64_t{mesh.vertex_count()})
@@ -165,7 +176,7 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
 void add_matrix(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("matrix", "Distances from many places to many places", [&](Verb& verb) {
-    verb.argument("FILE", arguments->file, "The mesh; - reads standard input");
+    add_surface(verb, arguments->surface);
     verb.option("--rows", arguments->rows, "PLACES", "all, a list of vertices, or a file with one place per line");
     verb.option("--cols", arguments->columns, "PLACES", "The same for the columns");
     verb.option("-r,--radius", arguments->radius, "R",

@@ -3,7 +3,6 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/write_field.h>
-#include <brushfire/io/write_lines.h>
 
 namespace brushfire::tool {
 namespace {
@@ -18,14 +17,54 @@ void as_usage_error(const std::string& path, Check&& check) {
   }
 }
 
+// Words of the formats, broken into lines that fit beside the options' names.
+template <class Word>
+std::string wrapped(const std::vector<FileFormat>& formats, const char* separator, Word&& word) {
+  constexpr std::size_t kLine = 64;
+  std::string text;
+  std::size_t line = 0;
+  for (const FileFormat& f : formats) {
+    const std::string next = word(f);
+    if (!text.empty()) text += separator;
+    line += next.size() + 2;
+    if (line > kLine) {
+      text.back() = '\n';
+      line = next.size();
+    }
+    text += next;
+  }
+  return text;
+}
+
+double millimetres_of(const std::string& unit) {
+  return unit == "um" ? 1e-3 : unit == "cm" ? 10 : unit == "m" ? 1000 : unit == "in" ? 25.4 : 1;
+}
+
 }  // namespace
 
 void check_output(const std::string& path) {
   as_usage_error(path, [&] { check_field_format(path); });
 }
 
-void check_lines_output(const std::string& path) {
-  as_usage_error(path, [&] { check_lines_format(path); });
+std::string names_of(const std::vector<FileFormat>& formats) {
+  return wrapped(formats, ", ", [](const FileFormat& f) { return f.name; });
+}
+
+std::string extensions_of(const std::vector<FileFormat>& formats) {
+  return wrapped(formats, " ", [](const FileFormat& f) { return "." + f.extensions.front(); });
+}
+
+void add_lines_output(Verb& verb, std::string& output, DrawingArguments& drawing) {
+  verb.option("-o,--output", output, "FILE", ("Write the curves: " + extensions_of(lines_written())).c_str());
+  verb.choice("--unit", drawing.unit, {"mm", "um", "cm", "m", "in"}, "Of the mesh, for .svg and .dxf in real size");
+  verb.option("--view", drawing.view, "NAME", "For .svg: front, back, left, right, top or bottom");
+  verb.flag("--outline", drawing.outline, "For .svg and .dxf: the outline of the mesh too");
+}
+
+LinesOptions lines_options(const std::string& output, const DrawingArguments& drawing) {
+  const LinesOptions options{millimetres_of(drawing.unit), drawing.view, drawing.outline};
+  as_usage_error(output, [&] { check_lines_format(output, "", options); });
+  return options;
 }
 
 }  // namespace brushfire::tool

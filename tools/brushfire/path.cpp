@@ -2,10 +2,10 @@
 #include "command_line.h"
 #include "interrupt.h"
 #include "output.h"
+#include "surface.h"
 #include "where.h"
 
 #include <brushfire/core/error.h>
-#include <brushfire/io/read_mesh.h>
 #include <brushfire/io/write_lines.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/shorten.h>
@@ -29,7 +29,9 @@ holes (--from and --to stay where they are; a --closed one is held nowhere). Met
 no paths. Without -o the length is printed. Places are written as for brushfire distance. Exit code 4: no way.)";
 
 struct Arguments {
-  std::string file, from, to, output, method = "exact";
+  SurfaceArguments surface;
+  DrawingArguments drawing;
+  std::string from, to, output, method = "exact";
   std::vector<std::string> via;
   std::optional<double> snap_within;
   bool closed = false, tighten = false;
@@ -40,7 +42,6 @@ void check(const Arguments& a) {
   if (a.to.empty() && !a.closed) throw Error(ErrorCode::InvalidArgument, "where to? give --to (or --closed)");
   if (a.closed && !a.to.empty()) throw Error(ErrorCode::InvalidArgument, "a --closed path ends at --from: no --to");
   check_snap_within(a.snap_within);
-  check_lines_output(a.output);
   if (a.method != "exact" && (!a.via.empty() || a.closed || a.tighten)) {
     throw Error(ErrorCode::InvalidArgument, "--via, --closed and --tighten need --method exact");
   }
@@ -76,27 +77,29 @@ SurfacePath find(const Arguments& a, const Mesh& mesh, std::span<const SurfacePo
 
 int path_verb(const Arguments& a, const Talk& talk) {
   check(a);
+  const LinesOptions drawing = lines_options(a.output, a.drawing);
   std::vector<Where> places;
   for (const std::string& text : places_of(a)) {
     places.push_back(parse_where(text));
     if (places.back().has_offset) throw Error(ErrorCode::InvalidArgument, "'" + text + "': a path has no offset");
   }
-  const Mesh mesh = read_mesh(a.file).mesh;
+  const Surface surface(a.surface);
+  const Mesh& mesh = surface.mesh();
   stop_if_interrupted();
   PlaceFinder finder(mesh, a.snap_within);
   std::vector<SurfacePoint> points;
-  for (const Where& w : places) points.push_back(finder.target(w));
+  for (const Where& w : places) points.push_back(finder.target(surface.place(w)));
   finder.tell(talk);
 
   const SurfacePath path = find(a, mesh, points);
   if (path.points.empty()) throw Unreachable(places.back().text);
   if (!a.output.empty()) {
     const SurfaceLine line{path.points, path.closed, path.length};
-    write_lines(a.output, mesh, std::span(&line, 1), "length");
+    write_lines(a.output, mesh, std::span(&line, 1), "length", "", drawing);
   }
   if (talk.json) {
     Record record;
-    record.add("file", a.file)
+    record.add("file", a.surface.file)
         .add("method", a.method)
         .add("length", path.length)
         .add("points", static_cast<std::int64_t>(path.points.size()))
@@ -115,7 +118,7 @@ int path_verb(const Arguments& a, const Talk& talk) {
 void add_path(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("path", "Shortest path between points", [&](Verb& verb) {
-    verb.argument("FILE", arguments->file, "The mesh; - reads standard input");
+    add_surface(verb, arguments->surface);
     verb.option("--from", arguments->from, "PLACE", "Where the path begins");
     verb.option("--to", arguments->to, "PLACE", "Where it ends");
     verb.option("--via", arguments->via, "PLACE", "A point on the way; may be repeated");
@@ -123,7 +126,7 @@ void add_path(CommandLine& command_line) {
     verb.flag("--tighten", arguments->tighten, "Pull tight: no bends at --via");
     verb.choice("-m,--method", arguments->method, {"exact", "dijkstra"}, "How to compute");
     add_snap_within(verb, arguments->snap_within);
-    verb.option("-o,--output", arguments->output, "FILE", "Write the path: .json .obj .ply .vtp .csv .svg");
+    add_lines_output(verb, arguments->output, arguments->drawing);
     verb.talks();
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return path_verb(*arguments, talk); });

@@ -403,7 +403,7 @@ void add_render(CommandLine& command_line) {
     verb.flag("--ambient-occlusion", a->ambient_occlusion, "Darken crevices (where built with Embree)");
     verb.flag("--transparent", a->transparent, "Transparent background");
     verb.option("--samples", a->samples, "N", "Samples per pixel and direction, 1 to 8");
-    verb.option("--font", a->font, "TTF", "A TrueType font for the text");
+    verb.option("--font", a->font, "TTF", "A TrueType font for the text, for letters that the built-in one lacks");
     verb.option("--turntable", a->turntable, "N", "Animate: once around in N frames");
     verb.option("--wave", a->wave, "N", "Animate: the fire spreading, in N frames");
     verb.option("--frame-ms", a->frame_ms, "MS", "How long a frame of an animation is shown");

@@ -43,6 +43,11 @@ std::string printed(const char* format, double value) {
 
 }  // namespace
 
+Record& Record::add(std::string key, Value value) {
+  entries_.emplace_back(std::move(key), std::move(value));
+  return *this;
+}
+
 std::string Record::json() const {
   Record headed;
   headed.add("schema", std::int64_t{1}).add("brushfire", std::string(kVersion));

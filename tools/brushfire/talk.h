@@ -18,10 +18,7 @@ class Record {
   using Value = std::variant<std::nullptr_t, bool, std::int64_t, double, std::string, std::vector<std::string>,
                              std::vector<Record>>;
 
-  Record& add(std::string key, Value value) {
-    entries_.emplace_back(std::move(key), std::move(value));
-    return *this;
-  }
+  Record& add(std::string key, Value value);
   const std::vector<std::pair<std::string, Value>>& entries() const { return entries_; }
 
   // {"schema": 1, "brushfire": version, entries...} on several lines.

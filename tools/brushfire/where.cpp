@@ -8,15 +8,29 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <optional>
 
 namespace brushfire::tool {
 namespace {
 
+// At most forty characters, and of these no raw bytes: what was given may be a binary file.
+std::string quote(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string out = "'";
+  for (const unsigned char c : text.substr(0, kLongest)) {
+    static constexpr char kHex[] = "0123456789abcdef";
+    if (c >= 0x20 && c < 0x7f) {
+      out += static_cast<char>(c);
+    } else {
+      out += std::string("\\x") + kHex[c >> 4] + kHex[c & 15];
+    }
+  }
+  return out + (text.size() > kLongest ? "...'" : "'");
+}
+
 [[noreturn]] void refuse(std::string_view text, const char* why) {
   throw Error(ErrorCode::InvalidArgument,
-              "'" + std::string(text) + "' is no place on a mesh: " + why +
+              quote(text) + " is no place on a mesh: " + why +
                   "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2)");
 }
 
@@ -122,24 +136,45 @@ std::vector<std::string> split_places(const std::vector<std::string>& texts) {
 
 namespace {
 
-// A file or pipe line by line, as it comes: one that never ends is found wrong, or interrupted, in its midst.
+// A file or pipe line by line, as it comes: one that never ends is found wrong, or interrupted, in its midst. Lines end
+// in LF, CR LF or CR; a byte order mark in front is nothing.
 class Lines {
  public:
   explicit Lines(const std::string& path) : stream_(path, ByteStream::NamedPipes::Read) {}
 
   // False at the end. Throws Error(InvalidArgument) where the line is longer than kLongest.
   bool next(std::string& line) {
+    if (!read(line)) return false;
+    if (number_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
+    return true;
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ErrorCode::InvalidArgument, stream_.name() + ":" + std::to_string(number_) + ": " + what);
+  }
+
+ private:
+  static constexpr std::size_t kLongest = 65536;
+  static constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
+  bool read(std::string& line) {
     line.clear();
     ++number_;
     while (true) {
-      const char* const begin = block_.data() + at_;
-      const void* newline = std::memchr(begin, '\n', size_ - at_);
-      const std::size_t length =
-          newline != nullptr ? static_cast<std::size_t>(static_cast<const char*>(newline) - begin) : size_ - at_;
+      std::string_view rest(block_.data() + at_, size_ - at_);
+      if (after_cr_ && !rest.empty()) {
+        after_cr_ = false;
+        if (rest.front() == '\n') {
+          ++at_;
+          continue;
+        }
+      }
+      const std::size_t length = std::min(rest.find_first_of("\r\n"), rest.size());
       if (line.size() + length > kLongest) fail("is longer than " + std::to_string(kLongest) + " bytes");
-      line.append(begin, length);
+      line.append(rest, 0, length);
       at_ += length;
-      if (newline != nullptr) {
+      if (length < rest.size()) {
+        after_cr_ = rest[length] == '\r';
         ++at_;
         return true;
       }
@@ -149,16 +184,10 @@ class Lines {
     }
   }
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorCode::InvalidArgument, stream_.name() + ":" + std::to_string(number_) + ": " + what);
-  }
-
- private:
-  static constexpr std::size_t kLongest = 65536;
-
   ByteStream stream_;
   std::array<char, 65536> block_{};
   std::size_t at_ = 0, size_ = 0;
+  bool after_cr_ = false;  // an LF that comes now belongs to the line before
   int number_ = 0;
 };
 
@@ -185,7 +214,7 @@ SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
   const auto in_range = [&](std::uint64_t index, Index count, const char* what) {
     if (index < count) return static_cast<Index>(index);
     throw Error(ErrorCode::IndexOutOfRange,
-                "'" + where.text + "': there is no such " + what + ", the mesh has " + std::to_string(count));
+                quote(where.text) + ": there is no such " + what + ", the mesh has " + std::to_string(count));
   };
   if (const auto* vertex = std::get_if<VertexPlace>(&where.place)) {
     return target_point(mesh, in_range(vertex->index, mesh.vertex_count(), "vertex"));
@@ -203,7 +232,7 @@ SurfacePoint PlaceFinder::target(const Where& where) {
     if (!finder_) finder_.emplace(mesh_);
     const NearestPoint nearest = (*finder_)(position);
     if (within_ && nearest.distance > *within_) {
-      throw Error(ErrorCode::InvalidArgument, "'" + where.text + "' is " + readable(nearest.distance) +
+      throw Error(ErrorCode::InvalidArgument, quote(where.text) + " is " + readable(nearest.distance) +
                                                   " from the surface, farther than --snap-within " + exact(*within_));
     }
     if (known_.insert(where.text).second) snapped_.push_back({where.text, nearest.distance});
@@ -215,7 +244,7 @@ SurfacePoint PlaceFinder::source(const Where& where) {
   const SurfacePoint point = target(where);
   if (!point.is_nowhere()) return point;
   throw Error(ErrorCode::InvalidArgument,
-              "'" + where.text + "': this vertex is in no face, nothing can be reached from it");
+              quote(where.text) + ": this vertex is in no face, nothing can be reached from it");
 }
 
 void PlaceFinder::tell(const Talk& talk) const {

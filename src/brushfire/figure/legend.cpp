@@ -94,7 +94,7 @@ class Builder {
   Builder(std::span<const Panel> panels, const RenderOptions& options, const Font& font)
       : options_(options), font_(font), size_(text_height(options)) {
     const bool titled = std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return !p.title.empty(); });
-    top_ = titled && !font.empty() ? static_cast<int>(1.9 * size_) : 0;
+    top_ = titled ? static_cast<int>(1.9 * size_) : 0;
     layout_.height = options.height + top_;
   }
 

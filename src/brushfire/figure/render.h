@@ -62,14 +62,14 @@ struct RenderOptions {
   double dot_size = 13;      // pixels
   int samples = 3;           // per pixel and direction, 1 to 8
   unsigned threads = 0;      // 0: one per processor; the pixels are the same for any number
-  std::string font;          // a TrueType file; empty: DejaVu Sans or the like, where the system has one
+  std::string font;          // a TrueType file; empty: the built-in part of DejaVu Sans (Latin, Greek, Cyrillic)
 };
 
 // The panels side by side in one picture. Those of one scale share a range of colours and a colour bar, which stands
 // after the last of them: (paper, exact, error) with scales 0, 0, 1 has the bar of the distances after the second panel
 // and the bar of the error after the third. The same input gives the same pixels. Throws Error(InvalidArgument) for
 // sizes that do not match the mesh or lie out of range, a scale that is not there, a mesh without positions, and a font
-// that cannot be read; a system without any font gives a picture without text.
+// that cannot be read. No font of the system is looked for.
 // O(faces + pixels) time; 36 bytes a sample for a strip of the picture, not the whole.
 Image render(std::span<const Panel> panels, const RenderOptions& options = {});
 

@@ -1,7 +1,9 @@
 // Text by stb_truetype.
 #include <brushfire/figure/detail/text.h>
 
+#include <brushfire/core/detail/base64.h>
 #include <brushfire/core/error.h>
+#include <brushfire/figure/detail/font_data.h>
 
 #include <algorithm>
 #include <array>
@@ -31,14 +33,12 @@ std::vector<unsigned char> read_file(const std::string& name) {
   return bytes;
 }
 
-// Sans-serif fonts where systems keep them; the first one is in Debian's fonts-dejavu-core.
-constexpr std::array kUsualPlaces{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-                                  "/usr/share/fonts/TTF/DejaVuSans.ttf",
-                                  "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-                                  "/Library/Fonts/Arial.ttf",
-                                  "/System/Library/Fonts/Supplemental/Arial.ttf",
-                                  "C:/Windows/Fonts/arial.ttf"};
+std::vector<unsigned char> built_in_font() {
+  std::string text;
+  for (const std::string_view line : font_in_base64()) text += line;
+  const std::vector<char> bytes = decode_base64(text).bytes;
+  return {bytes.begin(), bytes.end()};
+}
 
 // The next character; a byte that is not UTF-8 reads as itself (Latin-1).
 int next_code_point(std::string_view& text) {
@@ -84,32 +84,23 @@ struct Font::State {
   }
 };
 
-Font::Font(const std::string& file) {
-  auto state = std::make_unique<State>();
-  if (!file.empty()) {
-    state->bytes = read_file(file);
-    if (state->bytes.empty()) throw Error(ErrorCode::FileNotReadable, file + ": cannot be read as a font");
-  }
-  for (std::size_t i = 0; i < kUsualPlaces.size() && state->bytes.empty(); ++i)
-    state->bytes = read_file(kUsualPlaces[i]);
-  if (state->bytes.empty()) return;
-  const int offset = stbtt_GetFontOffsetForIndex(state->bytes.data(), 0);
-  if (offset < 0 || stbtt_InitFont(&state->info, state->bytes.data(), offset) == 0) {
-    if (file.empty()) return;
+Font::Font(const std::string& file) : state_(std::make_unique<State>()) {
+  state_->bytes = file.empty() ? built_in_font() : read_file(file);
+  if (state_->bytes.empty()) throw Error(ErrorCode::FileNotReadable, file + ": cannot be read as a font");
+  const int offset = stbtt_GetFontOffsetForIndex(state_->bytes.data(), 0);
+  if (offset < 0 || stbtt_InitFont(&state_->info, state_->bytes.data(), offset) == 0) {
     throw Error(ErrorCode::FileMalformed, file + ": not a TrueType font");
   }
-  state_ = std::move(state);
 }
 
 Font::~Font() = default;
 Font::Font(Font&&) noexcept = default;
 
 double Font::width(std::string_view utf8, double height) const {
-  return empty() ? 0 : state_->layout(utf8, state_->scale(height), [](int, double) {});
+  return state_->layout(utf8, state_->scale(height), [](int, double) {});
 }
 
 void Font::write(Image& picture, double x, double y, double height, std::string_view utf8, Color color) const {
-  if (empty()) return;
   const double scale = state_->scale(height);
   std::vector<unsigned char> coverage;
   state_->layout(utf8, scale, [&](int code, double along) {

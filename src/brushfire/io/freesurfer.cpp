@@ -148,6 +148,27 @@ MeshParts read_freesurfer(const Input& input) {
   return parts;
 }
 
+// Text of mris_convert: a comment, the numbers of vertices and faces, "x y z 0" and "a b c 0" each.
+MeshParts read_freesurfer_text(const Input& input) {
+  TextCursor text(input, input.bytes(), 1, '#');
+  constexpr std::size_t kShortestRow = 8;  // "0 0 0 0\n"
+  const std::size_t vertices = text.count("the number of vertices", kShortestRow);
+  const std::size_t faces = text.count("the number of faces", kShortestRow);
+  MeshParts parts;
+  parts.positions.reserve(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    parts.positions.push_back(text.point());
+    text.number("a mark");
+  }
+  parts.faces.reserve(faces);
+  for (std::size_t f = 0; f < faces; ++f) {
+    const Index a = text.index(0), b = text.index(0), c = text.index(0);
+    parts.faces.add_triangle(a, b, c, text.line());
+    text.number("a mark");
+  }
+  return parts;
+}
+
 // New files: magic, vertices, faces, values per vertex, floats. Old ones: vertices, faces, hundredths in 16 bits.
 LoadedField read_freesurfer_curv(const Input& input, const std::string&) {
   Bytes bytes(input);

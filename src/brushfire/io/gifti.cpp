@@ -29,6 +29,7 @@ struct GiftiArray {
 };
 
 struct GiftiFile {
+  std::string structure;  // AnatomicalStructurePrimary, of the file or its points
   std::vector<GiftiArray> arrays;
   std::vector<LoadedField::Label> labels;
 };
@@ -56,10 +57,11 @@ class GiftiParser {
       array_.end = e.text_end;
       array_.has_data = true;
     } else if (e.name == "Name" && parent == "MD") {
-      name_is_next_ = text(e) == "Name";
-    } else if (e.name == "Value" && parent == "MD" && name_is_next_ && path.size() > 3 &&
-               path[path.size() - 4].name == "DataArray") {
-      array_.name = text(e);
+      key_ = text(e);
+    } else if (e.name == "Value" && parent == "MD") {
+      const bool is_of_array = path.size() > 3 && path[path.size() - 4].name == "DataArray";
+      if (key_ == "Name" && is_of_array) array_.name = text(e);
+      if (key_ == "AnatomicalStructurePrimary") file.structure = text(e);
     } else if (e.name == "Label" && parent == "LabelTable") {
       add_label(e);
     }
@@ -91,7 +93,6 @@ class GiftiParser {
   void finish_array(const XmlElement& e) {
     GiftiArray a = std::move(array_);
     array_ = {};
-    name_is_next_ = false;
     a.line = e.line;
     a.intent = e.attribute("Intent");
     a.encoding = e.attribute("Encoding");
@@ -128,8 +129,17 @@ class GiftiParser {
 
   const Input* input_;
   GiftiArray array_;
-  bool name_is_next_ = false;
+  std::string key_;  // of the metadata at hand
 };
+
+// A matrix of so many rows and columns, in row order, turned.
+std::vector<double> transposed(const std::vector<double>& values, std::size_t rows, std::size_t columns) {
+  std::vector<double> turned(values.size());
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (std::size_t c = 0; c < columns; ++c) turned[c * rows + r] = values[r * columns + c];
+  }
+  return turned;
+}
 
 // The values of an array in row order.
 std::vector<double> values_of(const Input& input, const GiftiArray& a) {
@@ -176,11 +186,7 @@ std::vector<double> values_of(const Input& input, const GiftiArray& a) {
     input.fail_line(a.line, "data of encoding " + quote(a.encoding) + " is not read");
   }
   if (a.column_major && a.columns > 1) {
-    std::vector<double> rows(values.size());
-    for (std::size_t r = 0; r < a.rows; ++r) {
-      for (std::size_t c = 0; c < a.columns; ++c) rows[r * a.columns + c] = values[c * a.rows + r];
-    }
-    values = std::move(rows);
+    values = transposed(values, a.columns, a.rows);
   }
   return values;
 }
@@ -191,6 +197,19 @@ void need_columns(const Input& input, const GiftiArray& a, std::uint64_t columns
                                 std::to_string(columns));
   }
 }
+
+// Points and triangles: three to a row. Some programs write them as the columns of three rows.
+std::vector<double> triples_of(const Input& input, GiftiArray a, bool are_columns) {
+  std::vector<double> values = values_of(input, a);
+  if (are_columns && a.rows == 3) {
+    values = transposed(values, a.rows, a.columns);
+    std::swap(a.rows, a.columns);
+  }
+  need_columns(input, a, 3);
+  return values;
+}
+
+bool has_three_rows_only(const GiftiArray& a) { return a.rows == 3 && a.columns != 3; }
 
 }  // namespace
 
@@ -209,9 +228,9 @@ MeshParts read_gifti(const Input& input) {
   if (points == nullptr) input.fail("has no array of points: no surface");
   if (triangles == nullptr) input.fail("has no array of triangles: no surface");
   if (others) parts.remarks.push_back("several surfaces, of which the first was read");
-  need_columns(input, *points, 3);
-  need_columns(input, *triangles, 3);
-  const std::vector<double> xyz = values_of(input, *points);
+  parts.structure = file.structure;
+  const bool are_columns = has_three_rows_only(*points) || has_three_rows_only(*triangles);
+  const std::vector<double> xyz = triples_of(input, *points, are_columns);
   parts.positions.resize(xyz.size() / 3);
   for (std::size_t v = 0; v < parts.positions.size(); ++v) {
     parts.positions[v] = {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
@@ -219,7 +238,7 @@ MeshParts read_gifti(const Input& input) {
       input.fail_line(points->line, "point " + std::to_string(v) + " has a coordinate that is not finite");
     }
   }
-  const std::vector<double> corners = values_of(input, *triangles);
+  const std::vector<double> corners = triples_of(input, *triangles, are_columns);
   parts.faces.reserve(corners.size() / 3);
   for (std::size_t f = 0; f + 2 < corners.size(); f += 3) {
     for (std::size_t k = f; k < f + 3; ++k) {
@@ -239,7 +258,7 @@ LoadedField read_gifti_field(const Input& input, const std::string& name) {
   for (const GiftiArray& a : file.arrays) {
     if (a.intent == "NIFTI_INTENT_POINTSET" || a.intent == "NIFTI_INTENT_TRIANGLE") continue;
     if (!name.empty() && a.name != name) continue;
-    need_columns(input, a, 1);
+    if (a.rows != 1) need_columns(input, a, 1);
     LoadedField field;
     field.values = values_of(input, a);
     field.name = a.name;
@@ -251,18 +270,46 @@ LoadedField read_gifti_field(const Input& input, const std::string& name) {
 
 namespace {
 
+std::string metadata(const std::string& name, const std::string& value) {
+  return "<MD><Name><![CDATA[" + name + "]]></Name><Value><![CDATA[" + value + "]]></Value></MD>";
+}
+
+// What the surface calls itself; nothing where that would end the CDATA section it stands in.
+std::string structure_metadata(const std::string& structure) {
+  if (structure.empty() || structure.find("]]>") != std::string::npos) return {};
+  return metadata("AnatomicalStructurePrimary", printable(structure));
+}
+
+void write_gifti_start(Output& out, int arrays, const std::string& metadata) {
+  out.write(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE GIFTI SYSTEM "
+      "\"http://www.nitrc.org/frs/download.php/115/gifti.dtd\">\n");
+  out.write("<GIFTI Version=\"1.0\" NumberOfDataArrays=\"" + std::to_string(arrays) + "\">\n<MetaData>" + metadata +
+            "</MetaData>\n<LabelTable/>\n");
+}
+
+// `columns` 0: one dimension.
 template <class T>
-void write_gifti_array(Output& out, const std::string& name, const char* intent, const char* type,
-                       std::span<const T> values) {
+void write_gifti_array(Output& out, const std::string& metadata, const char* intent, const char* type,
+                       std::span<const T> values, std::size_t columns = 0) {
   std::string raw(values.size() * sizeof(T), '\0');
   for (std::size_t k = 0; k < values.size(); ++k) store(values[k], raw.data() + k * sizeof(T), std::endian::little);
   const std::string compressed = deflate(raw);
+  const std::string dimensions = columns == 0 ? "\"1\" Dim0=\"" + std::to_string(values.size()) + "\""
+                                              : "\"2\" Dim0=\"" + std::to_string(values.size() / columns) +
+                                                    "\" Dim1=\"" + std::to_string(columns) + "\"";
   out.write("<DataArray Intent=\"" + std::string(intent) + "\" DataType=\"" + type +
-            "\" ArrayIndexingOrder=\"RowMajorOrder\" Dimensionality=\"1\" Dim0=\"" + std::to_string(values.size()) +
-            "\" Encoding=\"" + (compressed.empty() ? "Base64Binary" : "GZipBase64Binary") +
-            "\" Endian=\"LittleEndian\" ExternalFileName=\"\" "
-            "ExternalFileOffset=\"\">\n<MetaData><MD><Name><![CDATA[Name]]></Name><Value><![CDATA[" +
-            name + "]]></Value></MD></MetaData>\n<Data>");
+            "\" ArrayIndexingOrder=\"RowMajorOrder\" Dimensionality=" + dimensions + " Encoding=\"" +
+            (compressed.empty() ? "Base64Binary" : "GZipBase64Binary") +
+            "\" Endian=\"LittleEndian\" ExternalFileName=\"\" ExternalFileOffset=\"\">\n<MetaData>" + metadata +
+            "</MetaData>\n");
+  if (columns == 3 && std::string_view(intent) == "NIFTI_INTENT_POINTSET") {
+    out.write(
+        "<CoordinateSystemTransformMatrix><DataSpace><![CDATA[NIFTI_XFORM_UNKNOWN]]></DataSpace><TransformedSpace>"
+        "<![CDATA[NIFTI_XFORM_UNKNOWN]]></TransformedSpace><MatrixData>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</MatrixData>"
+        "</CoordinateSystemTransformMatrix>\n");
+  }
+  out.write("<Data>");
   out.write(encode_base64(compressed.empty() ? raw : compressed));
   out.write("</Data>\n</DataArray>\n");
 }
@@ -270,20 +317,31 @@ void write_gifti_array(Output& out, const std::string& name, const char* intent,
 }  // namespace
 
 void write_gifti(Output& out, const Mesh&, const FieldView& field) {
-  const int arrays = (field.values.empty() ? 0 : 1) + (field.labels.empty() ? 0 : 1);
-  out.write(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE GIFTI SYSTEM "
-      "\"http://www.nitrc.org/frs/download.php/115/gifti.dtd\">\n");
-  out.write("<GIFTI Version=\"1.0\" NumberOfDataArrays=\"" + std::to_string(arrays) +
-            "\">\n<MetaData/>\n<LabelTable/>\n");
+  write_gifti_start(out, (field.values.empty() ? 0 : 1) + (field.labels.empty() ? 0 : 1),
+                    structure_metadata(field.structure));
   if (!field.values.empty()) {
     const std::vector<float> narrow(field.values.begin(), field.values.end());
-    write_gifti_array<float>(out, field.name, "NIFTI_INTENT_NONE", "NIFTI_TYPE_FLOAT32", narrow);
+    write_gifti_array<float>(out, metadata("Name", field.name), "NIFTI_INTENT_NONE", "NIFTI_TYPE_FLOAT32", narrow);
   }
   if (!field.labels.empty()) {
     const std::vector<std::int32_t> keys(field.labels.begin(), field.labels.end());
-    write_gifti_array<std::int32_t>(out, field.label_name, "NIFTI_INTENT_NONE", "NIFTI_TYPE_INT32", keys);
+    write_gifti_array<std::int32_t>(out, metadata("Name", field.label_name), "NIFTI_INTENT_NONE", "NIFTI_TYPE_INT32",
+                                    keys);
   }
+  out.write("</GIFTI>\n");
+}
+
+void write_gifti_surface(Output& out, const Mesh& mesh, const std::string& structure) {
+  std::vector<float> points;
+  for (const Vec3& p : mesh.positions()) {
+    for (const double x : {p.x, p.y, p.z}) points.push_back(static_cast<float>(x));
+  }
+  std::vector<std::int32_t> corners;
+  for (const Face& f : mesh.faces()) corners.insert(corners.end(), f.begin(), f.end());
+  write_gifti_start(out, 2, "");
+  write_gifti_array<float>(out, structure_metadata(structure), "NIFTI_INTENT_POINTSET", "NIFTI_TYPE_FLOAT32", points,
+                           3);
+  write_gifti_array<std::int32_t>(out, "", "NIFTI_INTENT_TRIANGLE", "NIFTI_TYPE_INT32", corners, 3);
   out.write("</GIFTI>\n");
 }
 

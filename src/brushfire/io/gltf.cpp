@@ -4,19 +4,22 @@
 // as everywhere but in STL, nothing is welded.
 #include <brushfire/core/detail/base64.h>
 #include <brushfire/core/error.h>
+#include <brushfire/io/detail/draco.h>
 #include <brushfire/io/detail/formats.h>
+#include <brushfire/io/detail/json.h>
+#include <brushfire/io/detail/meshopt.h>
 #include <brushfire/io/detail/numbers.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <map>
+#include <numeric>
 #include <optional>
 
 namespace brushfire::detail {
 
 namespace {
-
-using Json = nlohmann::json;
 
 using Matrix = std::array<double, 16>;  // column by column, as in the file
 constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -66,26 +69,13 @@ Chunks split_glb(const Input& input) {
   return chunks;
 }
 
-Json parse_json(const Input& input, const Chunks& chunks) {
-  constexpr int kDeepest = 64;
-  const auto callback = [&](int depth, Json::parse_event_t, Json&) {
-    // Thrown through the parser, which holds nothing that would leak.
-    if (depth > kDeepest) input.fail_byte(chunks.json_begin, "JSON is nested more than 64 deep");
-    return true;
-  };
-  try {
-    return Json::parse(chunks.json.begin(), chunks.json.end(), callback);
-  } catch (const Json::parse_error& e) {
-    input.fail_byte(chunks.json_begin + (e.byte > 0 ? e.byte - 1 : 0), "not JSON");
-  } catch (const Json::exception&) {
-    input.fail_byte(chunks.json_begin, "JSON with a number that no double holds");
-  }
-}
-
 class GltfReader {
  public:
   explicit GltfReader(const Input& input)
-      : input_(&input), chunks_(split_glb(input)), json_(parse_json(input, chunks_)), budget_(input.inflate_budget()) {}
+      : input_(&input),
+        chunks_(split_glb(input)),
+        json_(parse_json(input, chunks_.json, chunks_.json_begin)),
+        budget_(input.inflate_budget()) {}
 
   MeshParts read() {
     try {
@@ -127,6 +117,7 @@ class GltfReader {
   MeshParts read_scene() {
     parts_.places_are_lines = false;
     if (!json_.is_object()) fail("not as glTF says: no object at the top");
+    check_version();
     check_extensions();
     const std::size_t nodes = json_.contains("nodes") ? json_.at("nodes").size() : 0;
     visited_.assign(nodes, false);
@@ -147,13 +138,37 @@ class GltfReader {
     return std::move(parts_);
   }
 
-  void check_extensions() const {
-    if (!json_.contains("extensionsRequired")) return;
-    for (const Json& e : json_.at("extensionsRequired")) {
-      const auto name = e.get<std::string>();
-      if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression") {
-        fail("uses the extension " + name + ", which is not read");
+  // glTF 1.0 is another format under the same names.
+  void check_version() const {
+    const auto asset = json_.find("asset");
+    if (asset == json_.end() || !asset->is_object() || !asset->contains("version")) return;
+    const auto version = asset->at("version").get<std::string>();
+    if (version.substr(0, 2) != "2.") fail("glTF " + printable(version) + " is not read, only 2.0");
+  }
+
+  // What a file requires must be known: it may change the shape. These change its looks only, or the types of numbers
+  // that are read anyway.
+  void check_extensions() {
+    static constexpr std::string_view kHarmless[]{
+        "KHR_mesh_quantization", "KHR_texture_transform",  "KHR_texture_basisu",
+        "KHR_lights_punctual",   "KHR_xmp_json_ld",        "KHR_xmp",
+        "EXT_texture_webp",      "EXT_texture_avif",       "MSFT_texture_dds",
+        "KHR_animation_pointer", "EXT_lights_image_based", "EXT_lights_ies"};
+    const auto is_harmless = [](std::string_view name) {
+      return name.substr(0, 14) == "KHR_materials_" || (name == "EXT_meshopt_compression" && has_meshopt()) ||
+             (name == "KHR_draco_mesh_compression" && has_draco()) ||
+             std::find(std::begin(kHarmless), std::end(kHarmless), name) != std::end(kHarmless);
+    };
+    if (json_.contains("extensionsRequired")) {
+      for (const Json& e : json_.at("extensionsRequired")) {
+        const auto name = e.get<std::string>();
+        if (!is_harmless(name)) fail("requires the extension " + quote(name) + ", which is not read");
       }
+    }
+    // What is used without being required may be left out, as the format says; instances are worth a word.
+    if (!json_.contains("extensionsUsed")) return;
+    for (const Json& e : json_.at("extensionsUsed")) {
+      if (e.get<std::string>() == "EXT_mesh_gpu_instancing") parts_.remarks.emplace_back("instances left out");
     }
   }
 
@@ -241,6 +256,29 @@ class GltfReader {
     for (const Json& primitive : mesh.at("primitives")) add_primitive(primitive, transform);
   }
 
+  DracoMesh from_accessors(const Json& primitive) {
+    DracoMesh data;
+    data.positions = accessor(needed(primitive.at("attributes"), "POSITION"), 3);
+    if (const std::optional<std::size_t> indices = number(primitive, "indices")) {
+      data.corners = accessor(*indices, 1);
+    } else {
+      data.corners.resize(data.positions.size() / 3);
+      std::iota(data.corners.begin(), data.corners.end(), 0.0);
+    }
+    return data;
+  }
+
+  DracoMesh unpacked(const Json& extension) {
+    DracoMesh data;
+    const std::size_t position = needed(extension.at("attributes"), "POSITION");
+    const std::string_view packed = range_of(item("bufferViews", needed(extension, "bufferView")));
+    constexpr std::size_t kEach = 6 * sizeof(double);  // three coordinates, three corners
+    const std::string error = unpack_draco(packed, static_cast<std::uint32_t>(position), budget_ / kEach, data);
+    if (!error.empty()) fail("a primitive packed by Draco " + error);
+    budget_ -= std::min(budget_, (data.positions.size() + data.corners.size()) * sizeof(double));
+    return data;
+  }
+
   void add_primitive(const Json& primitive, const Matrix& transform) {
     constexpr std::size_t kTriangles = 4, kStrip = 5, kFan = 6;
     const std::size_t mode = number(primitive, "mode").value_or(kTriangles);
@@ -250,10 +288,11 @@ class GltfReader {
       return;
     }
     ++primitives_;
-    if (primitive.contains("extensions") && (primitive.at("extensions").contains("KHR_draco_mesh_compression"))) {
-      fail("uses the extension KHR_draco_mesh_compression, which is not read");
-    }
-    const std::vector<double> xyz = accessor(needed(primitive.at("attributes"), "POSITION"), 3);
+    const bool is_packed =
+        primitive.contains("extensions") && primitive.at("extensions").contains("KHR_draco_mesh_compression");
+    const DracoMesh data =
+        is_packed ? unpacked(primitive.at("extensions").at("KHR_draco_mesh_compression")) : from_accessors(primitive);
+    const std::vector<double>&xyz = data.positions, &corners = data.corners;
     const auto first = parts_.positions.size();
     const std::size_t count = xyz.size() / 3;
     if (first + count >= kNoIndex)
@@ -265,13 +304,6 @@ class GltfReader {
       }
       parts_.positions.push_back(p);
     }
-    std::vector<double> corners;
-    if (const std::optional<std::size_t> indices = number(primitive, "indices")) {
-      corners = accessor(*indices, 1);
-    } else {
-      corners.resize(count);
-      for (std::size_t k = 0; k < count; ++k) corners[k] = static_cast<double>(k);
-    }
     for (const double v : corners) {
       if (!(v >= 0) || v >= static_cast<double>(count) || v != std::floor(v)) {
         fail("a primitive names vertex " + std::to_string(static_cast<std::int64_t>(v)) + ", but has " +
@@ -279,7 +311,7 @@ class GltfReader {
       }
     }
     const auto corner = [&](std::size_t k) { return static_cast<Index>(first + static_cast<std::size_t>(corners[k])); };
-    if (mode == kTriangles) {
+    if (mode == kTriangles || is_packed) {
       for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
         parts_.faces.add_triangle(corner(k), corner(k + 1), corner(k + 2), 0);
       return;
@@ -296,7 +328,6 @@ class GltfReader {
   std::vector<double> accessor(std::size_t index, std::size_t components) {
     const Json& a = item("accessors", index);
     const std::string name = "accessor " + std::to_string(index);
-    if (a.contains("sparse")) fail(name + " is sparse, which is not read");
     if (a.at("type").get<std::string>() != (components == 3 ? "VEC3" : "SCALAR")) fail(name + " has the wrong type");
     const NumberType type = component_type(needed(a, "componentType"));
     const std::size_t count = needed(a, "count");
@@ -304,24 +335,59 @@ class GltfReader {
     if (count > budget_ / (components * sizeof(double)))
       fail("the accessors come to far more than the file's size: refused");
     budget_ -= count * components * sizeof(double);
-    if (!a.contains("bufferView")) return std::vector<double>(count * components, 0.0);
-    const Json& view = item("bufferViews", needed(a, "bufferView"));
-    const std::string_view bytes = view_bytes(view);
-    const std::size_t element = components * size_of(type), stride = number(view, "byteStride").value_or(element);
-    const std::size_t offset = number(a, "byteOffset").value_or(0);
-    const bool fits = offset <= bytes.size() &&
-                      (count == 0 || (element <= bytes.size() - offset &&
-                                      (stride == 0 || count - 1 <= (bytes.size() - offset - element) / stride)));
-    if (!fits) fail(name + " reaches beyond its buffer view of " + std::to_string(bytes.size()) + " bytes");
-    std::vector<double> values(count * components);
     const double scale = a.contains("normalized") && a.at("normalized").get<bool>() ? largest(type) : 1;
-    for (std::size_t e = 0; e < count; ++e) {
-      for (std::size_t k = 0; k < components; ++k) {
-        const double v = load_number(type, bytes.data() + offset + e * stride + k * size_of(type), std::endian::little);
-        values[e * components + k] = scale == 1 ? v : std::max(v / scale, -1.0);
+    std::vector<double> values(count * components, 0.0);
+    if (a.contains("bufferView")) {
+      const std::size_t stride = number(item("bufferViews", needed(a, "bufferView")), "byteStride").value_or(0);
+      read_elements(a, name, {type, count, components, stride}, scale, values.data());
+    }
+    if (a.contains("sparse")) apply_sparse(a.at("sparse"), name, {type, count, components, 0}, scale, values);
+    return values;
+  }
+
+  // How numbers stand in a buffer view; stride 0: one element after the other.
+  struct Layout {
+    NumberType type;
+    std::size_t count, components, stride;
+  };
+
+  // The elements of the buffer view that `object` names.
+  void read_elements(const Json& object, const std::string& name, const Layout& layout, double scale, double* out) {
+    const std::string_view bytes = view_bytes(item("bufferViews", needed(object, "bufferView")));
+    const std::size_t element = layout.components * size_of(layout.type);
+    const std::size_t stride = layout.stride != 0 ? layout.stride : element;
+    const std::size_t offset = number(object, "byteOffset").value_or(0);
+    const bool fits = offset <= bytes.size() &&
+                      (layout.count == 0 || (element <= bytes.size() - offset &&
+                                             layout.count - 1 <= (bytes.size() - offset - element) / stride));
+    if (!fits) fail(name + " reaches beyond its buffer view of " + std::to_string(bytes.size()) + " bytes");
+    for (std::size_t e = 0; e < layout.count; ++e) {
+      for (std::size_t k = 0; k < layout.components; ++k) {
+        const char* p = bytes.data() + offset + e * stride + k * size_of(layout.type);
+        const double v = load_number(layout.type, p, std::endian::little);
+        *out++ = scale == 1 ? v : std::max(v / scale, -1.0);
       }
     }
-    return values;
+  }
+
+  // Some elements of an accessor have values of their own.
+  void apply_sparse(const Json& sparse, const std::string& name, Layout layout, double scale,
+                    std::vector<double>& values) {
+    const std::size_t count = needed(sparse, "count");
+    if (count > layout.count) fail(name + " has more sparse elements than elements");
+    layout.count = count;
+    const Json& where = sparse.at("indices");
+    std::vector<double> index(count), replaced(count * layout.components);
+    read_elements(where, name, {component_type(needed(where, "componentType")), count, 1, 0}, 1, index.data());
+    read_elements(sparse.at("values"), name, layout, scale, replaced.data());
+    for (std::size_t e = 0; e < count; ++e) {
+      const double at = index[e];
+      if (!(at >= 0) || at != std::floor(at) || at >= static_cast<double>(values.size() / layout.components)) {
+        fail(name + " has a sparse element beyond its end");
+      }
+      std::copy_n(replaced.begin() + static_cast<std::ptrdiff_t>(e * layout.components), layout.components,
+                  values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(at) * layout.components));
+    }
   }
 
   NumberType component_type(std::size_t code) const {
@@ -349,7 +415,31 @@ class GltfReader {
     }
   }
 
+  // The bytes of a buffer view, unpacked where they are packed.
   std::string_view view_bytes(const Json& view) {
+    constexpr const char* kExtension = "EXT_meshopt_compression";
+    const bool is_packed = view.contains("extensions") && view.at("extensions").contains(kExtension);
+    if (!is_packed) return range_of(view);
+    const auto found = unpacked_.find(&view);
+    if (found != unpacked_.end()) return {found->second.data(), found->second.size()};
+    const Json& extension = view.at("extensions").at(kExtension);
+    MeshoptView packed;
+    packed.mode = extension.at("mode").get<std::string>();
+    packed.filter = extension.value("filter", "NONE");
+    packed.count = needed(extension, "count");
+    packed.stride = needed(extension, "byteStride");
+    if (packed.stride == 0 || packed.count > budget_ / packed.stride) {
+      fail("a buffer view unpacks to far more than the file's size: refused");
+    }
+    budget_ -= packed.count * packed.stride;
+    std::vector<char>& out = unpacked_[&view];
+    out.resize(packed.count * packed.stride);
+    const std::string error = unpack_meshopt(packed, range_of(extension), out);
+    if (!error.empty()) fail("a buffer view " + error);
+    return {out.data(), out.size()};
+  }
+
+  std::string_view range_of(const Json& view) {
     const std::string_view buffer = buffer_bytes(needed(view, "buffer"));
     const std::size_t offset = number(view, "byteOffset").value_or(0), size = needed(view, "byteLength");
     if (offset > buffer.size() || size > buffer.size() - offset) {
@@ -417,6 +507,7 @@ class GltfReader {
   MeshParts parts_;
   std::vector<bool> visited_;
   std::vector<Buffer> buffers_;
+  std::map<const Json*, std::vector<char>> unpacked_;  // buffer views
   std::size_t primitives_ = 0, left_out_ = 0;
 };
 

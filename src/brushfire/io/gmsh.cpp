@@ -83,7 +83,15 @@ class GmshReader {
     if (found != word) fail(quote(found) + " where " + word + " is expected");
   }
 
+  // What a section holds that is not needed may be binary, without a line end before its mark.
   void skip_section(const std::string& end) {
+    if (binary_) {
+      const std::string_view rest(text_.position(), text_.left());
+      const std::size_t found = rest.find(end);
+      if (found == std::string_view::npos) fail("the file ends before " + end);
+      text_.take(found + end.size(), 1);
+      return;
+    }
     do {
       if (!text_.next_line()) fail("the file ends before " + end);
     } while (text_.rest_of_line() != end);

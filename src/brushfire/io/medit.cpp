@@ -15,6 +15,7 @@ class MeditReader {
   explicit MeditReader(const Input& input) : text_(input, input.bytes(), 1, '#') {}
 
   MeshParts read() {
+    parts_.counts_from = 1;
     if (text_.word() != "MeshVersionFormatted") text_.fail("the file does not start with MeshVersionFormatted");
     text_.integer("a version");
     while (text_.to_word()) {

@@ -12,10 +12,12 @@ class ObjReader {
   explicit ObjReader(const Input& input) : text_(input, input.bytes(), 1, '#') {}
 
   MeshParts read() {
+    parts_.counts_from = 1;
     while (true) {
       if (text_.to_word_on_line()) read_line();
       if (!text_.next_line()) break;
     }
+    if (is_planar_) parts_.remarks.push_back(kPlanarRemark);
     if (lines_ != 0)
       parts_.remarks.push_back(counted(lines_, "line or point element", "line and point elements") + " left out");
     return std::move(parts_);
@@ -33,12 +35,17 @@ class ObjReader {
     }
   }
 
-  // What follows the three coordinates is a weight for curves or a colour.
+  // What follows the three coordinates is a weight for curves or a colour. Vertices of two coordinates lie in the
+  // plane, where all of them do; a single one is a line that was cut.
   void read_vertex() {
-    double c[3];
-    for (double& x : c) {
-      to_word_of_statement();
-      x = text_.coordinate_here();
+    double c[3]{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!to_word_of_statement() && k == 2 && (is_planar_ || parts_.positions.empty())) {
+        is_planar_ = true;
+        break;
+      }
+      c[k] = text_.coordinate_here();
+      if (k == 2 && is_planar_) text_.fail("three coordinates, but the vertices before have two");
     }
     parts_.positions.push_back({c[0], c[1], c[2]});
   }
@@ -87,6 +94,7 @@ class ObjReader {
   MeshParts parts_;
   std::vector<Index> corners_;
   std::size_t lines_ = 0;
+  bool is_planar_ = false;
 };
 
 }  // namespace

@@ -20,15 +20,21 @@ std::optional<Type> type_of(std::string_view name) {
     std::string_view name;
     Type type;
   };
-  static constexpr Name kNames[]{
-      {"char", Type::Int8},     {"int8", Type::Int8},       {"uchar", Type::UInt8},    {"uint8", Type::UInt8},
-      {"short", Type::Int16},   {"int16", Type::Int16},     {"ushort", Type::UInt16},  {"uint16", Type::UInt16},
-      {"int", Type::Int32},     {"int32", Type::Int32},     {"uint", Type::UInt32},    {"uint32", Type::UInt32},
-      {"float", Type::Float32}, {"float32", Type::Float32}, {"double", Type::Float64}, {"float64", Type::Float64}};
+  static constexpr Name kNames[]{{"char", Type::Int8},       {"int8", Type::Int8},      {"uchar", Type::UInt8},
+                                 {"uint8", Type::UInt8},     {"short", Type::Int16},    {"int16", Type::Int16},
+                                 {"ushort", Type::UInt16},   {"uint16", Type::UInt16},  {"int", Type::Int32},
+                                 {"int32", Type::Int32},     {"uint", Type::UInt32},    {"uint32", Type::UInt32},
+                                 {"int64", Type::Int64},     {"uint64", Type::UInt64},  {"float", Type::Float32},
+                                 {"float32", Type::Float32}, {"double", Type::Float64}, {"float64", Type::Float64}};
   for (const Name& n : kNames) {
     if (n.name == name) return n.type;
   }
   return std::nullopt;
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return text;
 }
 
 Type read_type(TextCursor& text) {
@@ -68,11 +74,23 @@ Encoding read_encoding(TextCursor& text) {
   here.fail_word("ascii, binary_little_endian or binary_big_endian");
 }
 
+// How long the line end behind the header is, of which `left` bytes are left. Where lines end in CR alone, a line feed
+// behind the last one is data.
+std::size_t line_end_size(std::string_view bytes, std::size_t left) {
+  const std::size_t first = bytes.find_first_of("\r\n");
+  const bool ends_in_cr_lf = first != std::string_view::npos && bytes.substr(first, 2) == "\r\n";
+  return std::min<std::size_t>(left, ends_in_cr_lf ? 2 : 1);
+}
+
 }  // namespace
 
 const Property* Element::find(std::string_view property) const {
   for (const Property& p : properties) {
     if (p.name == property) return &p;
+  }
+  // Some programs write X, Y, Z and the like.
+  for (const Property& p : properties) {
+    if (lower(p.name) == property) return &p;
   }
   return nullptr;
 }
@@ -108,9 +126,10 @@ Header read_header(const Input& input) {
     }
   }
   if (!has_format) text.fail("the header has no format line");
-  if (!text.next_line()) text.skip_to_end_of_line();
-  header.size = static_cast<std::size_t>(text.position() - input.bytes().data());
-  header.lines = text.line() - 1;
+  text.skip_to_end_of_line();
+  header.size =
+      static_cast<std::size_t>(text.position() - input.bytes().data()) + line_end_size(input.bytes(), text.left());
+  header.lines = text.line();
   return header;
 }
 
@@ -162,6 +181,11 @@ class BinaryRows {
   }
   static std::size_t shortest(const Property& p) { return size_of(p.is_list ? p.count_type : p.type); }
 
+  void begin_row(const Element&, std::uint64_t) {}
+  void end_row() {}
+  std::size_t rows_with_more() const { return 0; }
+  bool has_rest() const { return !text_start(input_->bytes().substr(at_)).empty(); }
+
   [[noreturn]] void fail(std::size_t place, const std::string& cause) const { input_->fail_byte(place, cause); }
 
  private:
@@ -170,17 +194,31 @@ class BinaryRows {
   std::size_t at_;
 };
 
-// The same over text.
+// The same over text, where every row is a line.
 class AsciiRows {
  public:
   AsciiRows(const Input& input, const Header& header)
       : input_(&input), text_(input, input.bytes().substr(header.size), header.lines + 1) {}
 
-  std::size_t place() {  // where the next number stands
-    text_.to_word();
-    return text_.line();
+  std::size_t place() const { return text_.line(); }
+
+  // To the line of the next row.
+  void begin_row(const Element& e, std::uint64_t row) {
+    if (!text_.to_word()) text_.fail("the file ends before " + row_name(e, row));
   }
-  double number(Type, const Element&, std::uint64_t) { return text_.number("a number"); }
+  double number(Type, const Element& e, std::uint64_t row) {
+    if (!text_.to_word_on_line()) text_.fail("the line ends within " + row_name(e, row));
+    return text_.number_here("a number");
+  }
+  // What stands in the line behind the row's values belongs to no property.
+  void end_row() {
+    if (!text_.to_word_on_line()) return;
+    ++rows_with_more_;
+    text_.skip_to_end_of_line();
+  }
+  std::size_t rows_with_more() const { return rows_with_more_; }
+  // Whether something follows the last row.
+  bool has_rest() { return text_.to_word(); }
 
   void check_promise(const Element& e, std::size_t shortest_row) const {
     if (shortest_row != 0 && e.count > (text_.left() + 1) / shortest_row) {
@@ -193,8 +231,13 @@ class AsciiRows {
   [[noreturn]] void fail(std::size_t place, const std::string& cause) const { input_->fail_line(place, cause); }
 
  private:
+  static std::string row_name(const Element& e, std::uint64_t row) {
+    return "row " + std::to_string(row) + " of the " + std::to_string(e.count) + " of element " + quote(e.name);
+  }
+
   const Input* input_;
   TextCursor text_;
+  std::size_t rows_with_more_ = 0;
 };
 
 template <class Rows>
@@ -219,6 +262,11 @@ class PlyReader {
       }
     }
     if (!has_vertices) rows_.fail(rows_.place(), "the file has no vertices");
+    if (rows_.rows_with_more() != 0) {
+      parts_.remarks.push_back(counted(rows_.rows_with_more(), "row has", "rows have") +
+                               " more values than the header names: left out");
+    }
+    if (rows_.has_rest()) parts_.remarks.emplace_back("more follows the last row than the header names: left out");
     return std::move(parts_);
   }
 
@@ -238,7 +286,78 @@ class PlyReader {
     rows_.fail(rows_.place(), "the vertices have no scalar" + (name.empty() ? std::string() : " " + quote(name)));
   }
 
+  // Edges in the order of the file: one that starts where the last one ended goes on with its line. A vertex in no edge
+  // is a line of one point.
+  LoadedLines read_lines() {
+    std::vector<std::array<Index, 2>> edges;
+    for (const Element& e : header_->elements) {
+      if (check_rows(e) == 0) continue;
+      if (e.name == "vertex") {
+        read_vertices(e);
+      } else if (e.name == "edge") {
+        read_edges(e, edges);
+      } else {
+        skip(e);
+      }
+    }
+    return chained(edges);
+  }
+
  private:
+  void read_edges(const Element& e, std::vector<std::array<Index, 2>>& edges) {
+    const Property *first = e.find("vertex1"), *second = e.find("vertex2");
+    if (first == nullptr || second == nullptr || first->is_list || second->is_list) {
+      rows_.fail(rows_.place(), "the edges have no properties vertex1 and vertex2");
+    }
+    for (std::uint64_t row = 0; row < e.count; ++row) {
+      rows_.begin_row(e, row);
+      const std::size_t place = rows_.place();
+      std::array<Index, 2>& edge = edges.emplace_back();
+      for (const Property& p : e.properties) {
+        if (&p != first && &p != second) {
+          skip_property(e, row, p);
+          continue;
+        }
+        const double v = rows_.number(p.type, e, row);
+        if (!(v >= 0) || v != std::floor(v) || v >= static_cast<double>(parts_.positions.size())) {
+          rows_.fail(place, "edge " + std::to_string(row) + " names vertex " + text_of(v) + ", but there are " +
+                                std::to_string(parts_.positions.size()) + " before it");
+        }
+        edge[&p == first ? 0 : 1] = static_cast<Index>(v);
+      }
+      rows_.end_row();
+    }
+  }
+
+  LoadedLines chained(const std::vector<std::array<Index, 2>>& edges) const {
+    struct Chain {
+      Index first;  // vertex: lines come in the order of their first vertices
+      LoadedLine line;
+    };
+    std::vector<Chain> chains;
+    std::vector<bool> is_used(parts_.positions.size(), false);
+    Index last = kNoIndex;
+    for (const auto& [a, b] : edges) {
+      is_used[a] = is_used[b] = true;
+      if (a != last) chains.push_back({a, {{parts_.positions[a]}, {}, false, std::nan("")}});
+      Chain& chain = chains.back();
+      if (b == chain.first && chain.line.positions.size() > 1) {
+        chain.line.closed = true;
+        last = kNoIndex;
+      } else {
+        chain.line.positions.push_back(parts_.positions[b]);
+        last = b;
+      }
+    }
+    for (Index v = 0; v < is_used.size(); ++v) {
+      if (!is_used[v]) chains.push_back({v, {{parts_.positions[v]}, {}, false, std::nan("")}});
+    }
+    std::stable_sort(chains.begin(), chains.end(), [](const Chain& a, const Chain& b) { return a.first < b.first; });
+    LoadedLines loaded;
+    for (Chain& chain : chains) loaded.lines.push_back(std::move(chain.line));
+    return loaded;
+  }
+
   static const Property* scalar(const Element& e, const std::string& name) {
     const Property* p = e.find(name.empty() ? "quality" : name);
     if (p != nullptr) return p->is_list ? nullptr : p;
@@ -279,6 +398,7 @@ class PlyReader {
     }
     std::vector<double> row(e.properties.size());
     for (std::uint64_t v = 0; v < e.count; ++v) {
+      rows_.begin_row(e, v);
       const std::size_t place = rows_.place();
       for (std::size_t k = 0; k < row.size(); ++k) {
         if (e.properties[k].is_list) {
@@ -287,6 +407,7 @@ class PlyReader {
           row[k] = rows_.number(e.properties[k].type, e, v);
         }
       }
+      rows_.end_row();
       add_vertex({row[axis[0]], row[axis[1]], row[axis[2]]}, place);
     }
   }
@@ -379,6 +500,7 @@ class PlyReader {
   // One number of every row.
   void read_column(const Element& e, const Property& wanted, std::vector<double>& values) {
     for (std::uint64_t row = 0; row < e.count; ++row) {
+      rows_.begin_row(e, row);
       for (const Property& p : e.properties) {
         if (&p == &wanted) {
           values.push_back(rows_.number(p.type, e, row));
@@ -386,12 +508,15 @@ class PlyReader {
           skip_property(e, row, p);
         }
       }
+      rows_.end_row();
     }
   }
 
   void skip(const Element& e) {
     for (std::uint64_t row = 0; row < e.count; ++row) {
+      rows_.begin_row(e, row);
       for (const Property& p : e.properties) skip_property(e, row, p);
+      rows_.end_row();
     }
   }
 
@@ -400,6 +525,7 @@ class PlyReader {
   void for_each_list(const Element& e, const Property& wanted, double lowest, Use use) {
     std::vector<double> entries;
     for (std::uint64_t row = 0; row < e.count; ++row) {
+      rows_.begin_row(e, row);
       const std::size_t place = rows_.place();
       for (const Property& p : e.properties) {
         if (&p != &wanted) {
@@ -418,6 +544,7 @@ class PlyReader {
         }
         use(entries, place);
       }
+      rows_.end_row();
     }
   }
 
@@ -494,6 +621,12 @@ LoadedField read_ply_field(const Input& input, const std::string& name) {
   const Header header = ply::read_header(input);
   if (header.encoding == Encoding::Ascii) return PlyReader<AsciiRows>(input, header).read_field(name);
   return PlyReader<BinaryRows>(input, header).read_field(name);
+}
+
+LoadedLines read_ply_lines(const Input& input) {
+  const Header header = ply::read_header(input);
+  if (header.encoding == Encoding::Ascii) return PlyReader<AsciiRows>(input, header).read_lines();
+  return PlyReader<BinaryRows>(input, header).read_lines();
 }
 
 // Binary, little-endian. MeshLab reads `quality` and the colours.

@@ -1,7 +1,9 @@
 // Which format a field has, and the formats that hold numbers only: .npy, CSV, text, JSON.
 #include <brushfire/core/error.h>
+#include <brushfire/io/detail/csv.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/text.h>
+#include <brushfire/io/formats.h>
 #include <brushfire/io/npy.h>
 #include <brushfire/io/read_field.h>
 
@@ -33,67 +35,6 @@ LoadedField read_text_field(const Input& input, const std::string&) {
 }
 
 namespace {
-
-// One line of a CSV file at a time, cut into cells.
-class CsvRows {
- public:
-  explicit CsvRows(const Input& input) : input_(&input), text_(input, input.bytes()) {
-    const std::string_view first = input.bytes().substr(0, input.bytes().find('\n'));
-    for (const char c : {',', ';', '\t'}) {
-      if (first.find(c) != std::string_view::npos) {
-        separator_ = c;
-        break;
-      }
-    }
-  }
-
-  // The next line that is not empty.
-  bool next(std::vector<std::string_view>& cells) {
-    while (!text_.at_end()) {
-      line_ = text_.line();
-      const char* begin = text_.position();
-      text_.skip_to_end_of_line();
-      std::string_view row(begin, static_cast<std::size_t>(text_.position() - begin));
-      text_.next_line();
-      if (!row.empty() && row.back() == '\r') row.remove_suffix(1);
-      if (row.find_first_not_of(" \t") == std::string_view::npos || row[0] == '#') continue;
-      cells.clear();
-      while (true) {
-        const std::size_t end = row.find(separator_);
-        cells.push_back(trimmed(row.substr(0, end)));
-        if (end == std::string_view::npos) return true;
-        row.remove_prefix(end + 1);
-      }
-    }
-    return false;
-  }
-
-  bool is_number(std::string_view cell, double& value) const {
-    if (!cell.empty() && cell[0] == '+') cell.remove_prefix(1);
-    const auto result = fast_float::from_chars(cell.data(), cell.data() + cell.size(), value);
-    return result.ec == std::errc() && result.ptr == cell.data() + cell.size();
-  }
-  double number(std::string_view cell) const {
-    double value = 0;
-    if (!is_number(cell, value)) fail(quote(cell) + " where a number is expected");
-    return value;
-  }
-  [[noreturn]] void fail(const std::string& cause) const { input_->fail_line(line_, cause); }
-
- private:
-  static std::string_view trimmed(std::string_view cell) {
-    const std::size_t begin = cell.find_first_not_of(" \t");
-    if (begin == std::string_view::npos) return {};
-    cell = cell.substr(begin, cell.find_last_not_of(" \t") - begin + 1);
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-    return cell;
-  }
-
-  const Input* input_;
-  TextCursor text_;
-  char separator_ = ',';
-  std::size_t line_ = 1;
-};
 
 constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
 
@@ -243,6 +184,7 @@ const FieldFormat kFormats[]{
     {"PLY", {"ply"}, read_ply_field},
     {"VTK", {"vtk"}, read_vtk_field},
     {"VTP", {"vtp"}, read_vtp_field},
+    {"VTU", {"vtu"}, read_vtp_field},
 };
 
 const FieldFormat* format_named(std::string_view name) {
@@ -255,28 +197,31 @@ const FieldFormat* format_named(std::string_view name) {
 const FieldFormat* format_by_content(std::string_view bytes) {
   if (starts_with(bytes, "\x93NUMPY")) return format_named("NPY");
   if (starts_with(bytes, "\xff\xff\xff")) return format_named("FreeSurfer curvature");
-  if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return format_named("PLY");
-  if (starts_with(bytes, "# vtk DataFile")) return format_named("VTK");
-  if (starts_with(bytes, "<")) {
-    const std::string_view head = bytes.substr(0, 1024);
+  const std::string_view text = text_start(bytes);
+  if (starts_with(text, "ply\n") || starts_with(text, "ply\r")) return format_named("PLY");
+  if (starts_with(text, "# vtk DataFile")) return format_named("VTK");
+  if (starts_with(text, "<")) {
+    const std::string_view head = text.substr(0, 1024);
     if (head.find("<GIFTI") != std::string_view::npos) return format_named("GIFTI");
-    if (head.find("<VTKFile") != std::string_view::npos) return format_named("VTP");
+    if (head.find("<VTKFile") != std::string_view::npos)
+      return format_named(head.find("\"UnstructuredGrid\"") != std::string_view::npos ? "VTU" : "VTP");
   }
   return nullptr;
 }
 
 // For files without a telling name, as on standard input.
 const FieldFormat* format_by_look(std::string_view bytes) {
-  const std::string_view line = bytes.substr(0, bytes.find('\n'));
+  const std::string_view text = text_start(bytes), line = text.substr(0, text.find_first_of("\r\n"));
   if (starts_with(line, "#!ascii label")) return format_named("FreeSurfer label");
   if (starts_with(line, "{") || starts_with(line, "[")) return format_named("JSON");
-  if (starts_with(line, "vertex") || line.find_first_not_of("0123456789+-.eEinfan,; \t\r") == std::string_view::npos) {
+  if (starts_with(line, "vertex") || line.find_first_not_of("0123456789+-.eEdDinfan,; \t") == std::string_view::npos) {
     return format_named(line.find_first_of(",;") != std::string_view::npos ? "CSV" : "text");
   }
   return starts_with(line, "#") ? format_named("text") : nullptr;
 }
 
-LoadedField read(const Input& input, const std::string& name) {
+LoadedField read(Input input, const std::string& name) {
+  input.drop_byte_order_mark();
   if (input.size() == 0) input.fail("the file is empty");
   const FieldFormat* format = format_by_content(input.bytes());
   const std::string extension = input.extension();
@@ -300,6 +245,14 @@ LoadedField read(const Input& input, const std::string& name) {
 }  // namespace
 
 }  // namespace detail
+
+std::vector<FileFormat> fields_read() {
+  std::vector<FileFormat> formats;
+  for (const detail::FieldFormat& f : detail::kFormats) {
+    formats.push_back({f.name, {f.extensions.begin(), f.extensions.end()}});
+  }
+  return formats;
+}
 
 LoadedField read_field(const std::string& path, const std::string& name) {
   return detail::read(detail::Input::from_file(path), name);

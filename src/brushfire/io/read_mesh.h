@@ -27,6 +27,9 @@ struct LoadedMesh {
   // The name of the format that was read: "PLY", "OBJ", ...
   std::string format;
 
+  // What GIFTI calls AnatomicalStructurePrimary ("CortexLeft"); empty where the file does not say.
+  std::string structure;
+
   // Sentences about what was left out or is worth knowing ("3 faces of fewer than three corners left out").
   std::vector<std::string> remarks;
 };

@@ -81,13 +81,21 @@ std::size_t triangles_of_binary(std::string_view bytes) {
   return bytes.size() < kHeader ? 0 : load<std::uint32_t>(bytes.data() + 80, std::endian::little);
 }
 
-bool has_binary_size(std::string_view bytes) {
-  return bytes.size() >= kHeader && (bytes.size() - kHeader) / kRow == triangles_of_binary(bytes) &&
-         (bytes.size() - kHeader) % kRow == 0;
+// Some programs leave a few bytes behind the last triangle. Text cannot be mistaken for that: its bytes 80 to 83 would
+// promise more than a hundred million triangles.
+constexpr std::size_t kMostTrailing = 84;
+
+bool has_binary_size(std::string_view bytes, std::size_t most_trailing) {
+  if (bytes.size() < kHeader) return false;
+  const std::size_t there = bytes.size() - kHeader, promised = triangles_of_binary(bytes) * kRow;
+  return promised <= there && there - promised <= most_trailing;
 }
 
 bool starts_with_solid(std::string_view bytes) {
-  return bytes.substr(0, 5) == "solid" && bytes.size() > 5 && TextCursor::is_space(bytes[5]);
+  const std::string_view text = text_start(bytes);
+  std::string word(text.substr(0, 5));
+  for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return word == "solid" && text.size() > 5 && TextCursor::is_space(text[5]);
 }
 
 MeshParts read_binary(const Input& input) {
@@ -153,13 +161,14 @@ class AsciiReader {
  private:
   void read_facets() {
     while (true) {
-      const std::string_view word = next_word();
+      const std::string_view word = next_word("endsolid");
       if (word == "endsolid") break;
       if (word != "facet") text_.fail(quote(word) + " where facet or endsolid is expected");
       const std::size_t line = text_.line();
-      expect("normal");
-      for (int k = 0; k < 3; ++k) text_.number("a number");  // it may be wrong, and is not needed
-      expect("outer");
+      // The normal may be wrong or no number at all, and is not needed.
+      while (next_word("outer") != "outer") {
+        if (word_ == "vertex" || word_ == "endfacet") text_.fail(quote(word_) + " where outer is expected");
+      }
       expect("loop");
       std::array<Index, 3> corner;
       for (Index& v : corner) {
@@ -176,15 +185,14 @@ class AsciiReader {
   }
 
   // Keywords are lower case in the format's description, and upper case in some files.
-  std::string_view next_word() {
+  std::string_view next_word(const char* expected) {
     word_ = text_.word();
     for (char& c : word_) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-    if (word_.empty()) text_.fail_end("endsolid");
+    if (word_.empty()) text_.fail_end(expected);
     return word_;
   }
   void expect(const char* keyword) {
-    if (!text_.to_word()) text_.fail_end(keyword);
-    const std::string_view word = next_word();
+    const std::string_view word = next_word(keyword);
     if (word != keyword) text_.fail(quote(word) + " where " + keyword + " is expected");
   }
 
@@ -196,13 +204,15 @@ class AsciiReader {
 
 }  // namespace
 
-bool is_stl(std::string_view bytes) {
-  return starts_with_solid(bytes) || (has_binary_size(bytes) && triangles_of_binary(bytes) != 0);
-}
+bool is_binary_stl(std::string_view bytes) { return has_binary_size(bytes, 0) && triangles_of_binary(bytes) != 0; }
+
+bool is_stl(std::string_view bytes) { return starts_with_solid(bytes) || is_binary_stl(bytes); }
 
 // Some binary files start with "solid" too: the size decides.
 MeshParts read_stl(const Input& input) {
-  if (!has_binary_size(input.bytes()) && starts_with_solid(input.bytes())) return AsciiReader(input).read();
+  if (!has_binary_size(input.bytes(), kMostTrailing) && starts_with_solid(input.bytes())) {
+    return AsciiReader(input).read();
+  }
   return read_binary(input);
 }
 

@@ -67,6 +67,7 @@ class VtkReader {
   enum class Kind { PolyData, Grid };
 
   void read_preamble() {
+    text_.to_word();
     const std::string_view first = text_.rest_of_line();
     if (first.substr(0, 14) != "# vtk DataFile") text_.fail("the file does not start with '# vtk DataFile'");
     text_.next_line();
@@ -99,13 +100,14 @@ class VtkReader {
     } else if (keyword_ == "TRIANGLE_STRIPS") {
       read_cells([this](std::span<const double> v, std::size_t place) { cells_.add_strip(*input_, v, place, parts_); });
     } else if (keyword_ == "VERTICES" || keyword_ == "LINES") {
-      read_cells([this](std::span<const double>, std::size_t) { cells_.leave_out(); });
+      const std::uint8_t type = keyword_ == "LINES" ? VtkCells::kPolyline : VtkCells::kVertices;
+      read_cells([&](std::span<const double>, std::size_t) { cells_.leave_out(type); });
     } else if (keyword_ == "CELLS") {
       read_grid_cells();
     } else if (keyword_ == "CELL_TYPES") {
       grid_types_ = read_array(NumberType::Int32, text_.count("the number of cells", 1));
     } else if (keyword_ == "POINT_DATA" || keyword_ == "CELL_DATA") {
-      attributes_of_ = text_.count("the number of tuples", 1);
+      attributes_of_ = count_of_tuples();
       point_data_ = keyword_ == "POINT_DATA";
     } else if (keyword_ == "METADATA") {
       while (text_.next_line() && text_.to_word_on_line()) {
@@ -192,7 +194,7 @@ class VtkReader {
   void read_attribute() {
     if (keyword_ == "SCALARS") {
       const std::string name(one_word("a name"));
-      const NumberType type = read_type();
+      const std::string type = type_name();
       std::size_t components = 1;
       if (text_.to_word_on_line()) components = text_.count("the number of components", 1);
       TextCursor ahead = text_;
@@ -201,7 +203,7 @@ class VtkReader {
         ahead.word_here();
         text_ = ahead;
       }
-      keep(name, components, read_array(type, checked_product(attributes_of_, components)));
+      keep(name, components, read_attribute_array(type, checked_product(attributes_of_, components)));
     } else if (keyword_ == "VECTORS" || keyword_ == "NORMALS") {
       skip_attribute(3);
     } else if (keyword_ == "TENSORS") {
@@ -228,7 +230,8 @@ class VtkReader {
 
   void skip_attribute(std::size_t components) {
     one_word("a name");
-    read_array(read_type(), checked_product(attributes_of_, components));
+    const std::string type = type_name();
+    read_attribute_array(type, checked_product(attributes_of_, components));
   }
 
   void read_field_arrays() {
@@ -242,14 +245,15 @@ class VtkReader {
         name = one_word("a name");
       }
       const std::size_t components = text_.count("the number of components", 1);
-      const std::size_t tuples = text_.count("the number of tuples", 1);
-      const std::vector<double> values = read_array(read_type(), checked_product(tuples, components));
+      const std::size_t tuples = count_of_tuples();
+      const std::string type = type_name();
+      const std::vector<double> values = read_attribute_array(type, checked_product(tuples, components));
       if (tuples == attributes_of_) keep(name, components, values);
     }
   }
 
   void keep(const std::string& name, std::size_t components, const std::vector<double>& values) {
-    if (wanted_ == nullptr || !point_data_ || field_ || components != 1) return;
+    if (wanted_ == nullptr || !point_data_ || field_ || components != 1 || values.size() != attributes_of_) return;
     if (!wanted_->empty() && *wanted_ != name) return;
     field_.emplace();
     field_->name = name;
@@ -261,15 +265,61 @@ class VtkReader {
     return text_.word_here();
   }
 
-  NumberType read_type() {
-    const std::string_view name = one_word("a type");
+  std::string type_name() { return std::string(one_word("a type")); }
+
+  NumberType read_type(const std::string& name) const {
     const std::optional<NumberType> type = type_of(name);
     if (!type) fail("numbers of type " + quote(name) + " are not read");
     return *type;
   }
+  NumberType read_type() { return read_type(type_name()); }
+
+  // Attributes may also be bits or strings, which are passed over: empty.
+  std::vector<double> read_attribute_array(const std::string& type, std::size_t n) {
+    if (type == "bit" && binary_) {
+      text_.next_line();
+      take_bytes((n + 7) / 8);
+    } else if (type == "string" || type == "utf8_string") {
+      text_.next_line();
+      for (std::size_t k = 0; k < n; ++k) skip_string();
+    } else {
+      return read_array(type == "bit" ? NumberType::UInt8 : read_type(type), n);
+    }
+    return {};
+  }
+
+  // A line of text; in binary files bytes behind their number, whose own size stands in its two highest bits.
+  void skip_string() {
+    if (!binary_) {
+      if (!text_.next_line()) text_.fail_end("a string");
+      return;
+    }
+    constexpr std::size_t kBytes[]{8, 4, 2, 1};
+    if (text_.left() == 0) fail("the file ends within the strings");
+    const auto first = static_cast<unsigned char>(text_.peek());
+    std::uint64_t length = 0;
+    for (const char c : take_bytes(kBytes[first >> 6])) length = length << 8 | static_cast<unsigned char>(c);
+    take_bytes(length & (~std::uint64_t{0} >> (64 - (8 * kBytes[first >> 6] - 2))));
+  }
+
+  std::string_view take_bytes(std::size_t size) {
+    if (size > text_.left())
+      fail(std::to_string(size) + " bytes are promised, but only " + std::to_string(text_.left()) + " follow");
+    return text_.take(size, 1);
+  }
+
+  // Tuples of bits take less than a byte each.
+  std::size_t count_of_tuples() {
+    const std::int64_t n = text_.integer("the number of tuples");
+    if (n < 0 || static_cast<std::uint64_t>(n) / 8 > text_.left()) {
+      fail("the number of tuples is " + std::to_string(n) + ", but only " + std::to_string(text_.left()) +
+           " bytes follow");
+    }
+    return static_cast<std::size_t>(n);
+  }
 
   std::size_t checked_product(std::size_t a, std::size_t b) const {
-    if (b != 0 && a > text_.left() / b + 1) {
+    if (b != 0 && a / 8 > text_.left() / b + 1) {
       fail(std::to_string(a) + " times " + std::to_string(b) + " numbers are promised, but only " +
            std::to_string(text_.left()) + " bytes follow");
     }

@@ -1,4 +1,5 @@
-// VTK XML PolyData (.vtp): ascii, base64 and appended data, raw or compressed with zlib.
+// VTK XML: PolyData (.vtp) and the faces of UnstructuredGrid (.vtu); ascii, base64 and appended data, raw or
+// compressed.
 #include <brushfire/core/detail/base64.h>
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/formats.h>
@@ -8,6 +9,7 @@
 #include <brushfire/io/detail/vtk_cells.h>
 #include <brushfire/io/detail/xml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -28,11 +30,15 @@ struct Piece {
   std::uint64_t points = 0;
   std::size_t line = 0;
   std::optional<ArrayPlace> positions, poly_connectivity, poly_offsets, strip_connectivity, strip_offsets;
-  std::vector<ArrayPlace> point_data;
-  std::uint64_t left_out = 0;  // vertices and lines
+  std::optional<ArrayPlace> cell_connectivity, cell_offsets, cell_types;  // of an unstructured grid
+  std::optional<ArrayPlace> line_connectivity, line_offsets;
+  std::vector<ArrayPlace> point_data, cell_data;
+  std::uint64_t vertices = 0, lines = 0;
 };
 
-NumberType type_of(const Input& input, const XmlElement& e) {
+enum class Compressor : std::uint8_t { None, Zlib, Lz4, Xz };
+
+std::optional<NumberType> type_of(const XmlElement& e) {
   struct Name {
     std::string_view name;
     NumberType type;
@@ -45,14 +51,14 @@ NumberType type_of(const Input& input, const XmlElement& e) {
   for (const Name& n : kNames) {
     if (n.name == e.attribute("type")) return n.type;
   }
-  input.fail_line(e.line, "numbers of type " + quote(e.attribute("type")) + " are not read");
+  return std::nullopt;
 }
 
 class VtpReader {
  public:
   explicit VtpReader(const Input& input) : input_(&input), budget_(input.inflate_budget()) {
     appended_ = parse_xml(input, "AppendedData", [this](std::span<const XmlElement> path) { element(path); });
-    if (!is_poly_data_) input.fail("has no <VTKFile type=\"PolyData\">");
+    if (type_.empty()) input.fail("has no <VTKFile>");
     if (pieces_.empty()) input.fail("has no <Piece>");
     find_appended();
   }
@@ -85,6 +91,37 @@ class VtpReader {
     return field;
   }
 
+  // The values of lines stand behind those of vertices, in the first scalar of the cells.
+  LoadedLines lines() {
+    LoadedLines loaded;
+    for (const Piece& piece : pieces_) {
+      MeshParts parts;
+      check_points(piece);
+      read_points(piece, parts);
+      const std::size_t first_line = loaded.lines.size();
+      read_cells(piece.line_connectivity, piece.line_offsets, piece, 0,
+                 [&](std::span<const double> corners, std::size_t) {
+                   LoadedLine& line = loaded.lines.emplace_back();
+                   line.value = std::nan("");
+                   line.closed = corners.size() > 2 && corners.front() == corners.back();
+                   for (const double v : line.closed ? corners.first(corners.size() - 1) : corners) {
+                     if (v != std::floor(v)) input_->fail_line(piece.line, "a line names point " + std::to_string(v));
+                     line.positions.push_back(parts.positions[static_cast<std::size_t>(v)]);
+                   }
+                 });
+      const auto scalar = std::find_if(piece.cell_data.begin(), piece.cell_data.end(),
+                                       [](const ArrayPlace& a) { return a.components == 1; });
+      if (scalar == piece.cell_data.end()) continue;
+      loaded.value_name = scalar->name;
+      const std::vector<double> values = numbers(*scalar);
+      for (std::size_t k = first_line; k < loaded.lines.size(); ++k) {
+        const std::size_t at = piece.vertices + k - first_line;
+        if (at < values.size()) loaded.lines[k].value = values[at];
+      }
+    }
+    return loaded;
+  }
+
  private:
   void element(std::span<const XmlElement> path) {
     const XmlElement& e = path.back();
@@ -95,38 +132,60 @@ class VtpReader {
     if (e.name != "DataArray" || path.size() < 3) return;
     const std::string& section = path[path.size() - 2].name;
     const std::string_view name = e.attribute("Name");
+    struct Slot {
+      std::string_view section, name;
+      std::optional<ArrayPlace> Piece::* array;
+    };
+    static constexpr Slot kSlots[]{{"Polys", "connectivity", &Piece::poly_connectivity},
+                                   {"Polys", "offsets", &Piece::poly_offsets},
+                                   {"Strips", "connectivity", &Piece::strip_connectivity},
+                                   {"Strips", "offsets", &Piece::strip_offsets},
+                                   {"Lines", "connectivity", &Piece::line_connectivity},
+                                   {"Lines", "offsets", &Piece::line_offsets},
+                                   {"Cells", "connectivity", &Piece::cell_connectivity},
+                                   {"Cells", "offsets", &Piece::cell_offsets},
+                                   {"Cells", "types", &Piece::cell_types}};
+    for (const Slot& slot : kSlots) {
+      if (section == slot.section && name == slot.name) piece_.*slot.array = place_of(e);
+    }
     if (section == "Points") {
       piece_.positions = place_of(e);
-    } else if (section == "Polys" && name == "connectivity") {
-      piece_.poly_connectivity = place_of(e);
-    } else if (section == "Polys" && name == "offsets") {
-      piece_.poly_offsets = place_of(e);
-    } else if (section == "Strips" && name == "connectivity") {
-      piece_.strip_connectivity = place_of(e);
-    } else if (section == "Strips" && name == "offsets") {
-      piece_.strip_offsets = place_of(e);
-    } else if (section == "PointData" && e.attribute("type") != "String") {
+    } else if (section == "PointData" && type_of(e)) {  // strings and bits are passed over
       piece_.point_data.push_back(place_of(e));
+    } else if (section == "CellData" && type_of(e)) {
+      piece_.cell_data.push_back(place_of(e));
     }
   }
 
   void read_root(const XmlElement& root) {
-    is_poly_data_ = root.name == "VTKFile" && root.attribute("type") == "PolyData";
+    if (root.name != "VTKFile") return;
+    type_ = root.attribute("type");
+    if (type_ != "PolyData" && type_ != "UnstructuredGrid") {
+      input_->fail_line(root.line,
+                        "VTK XML of type " + quote(type_) + " is not read, only PolyData and UnstructuredGrid");
+    }
     order_ = root.attribute("byte_order") == "BigEndian" ? std::endian::big : std::endian::little;
     header_is_64_ = root.attribute("header_type") == "UInt64";
-    const std::string_view compressor = root.attribute("compressor");
-    compressed_ = !compressor.empty();
-    if (compressed_ && compressor != "vtkZLibDataCompressor") {
-      input_->fail_line(root.line, "compressor " + quote(compressor) + " is not read, only vtkZLibDataCompressor");
-    }
+    compressor_ = compressor_of(root);
+  }
+
+  Compressor compressor_of(const XmlElement& root) const {
+    const std::string_view name = root.attribute("compressor");
+    if (name.empty()) return Compressor::None;
+    if (name == "vtkZLibDataCompressor") return Compressor::Zlib;
+    if (name == "vtkLZ4DataCompressor") return Compressor::Lz4;
+    if (name == "vtkLZMADataCompressor") return Compressor::Xz;
+    input_->fail_line(root.line, "compressor " + quote(name) + " is not read, only those of zlib, LZ4 and LZMA");
   }
 
   void finish_piece(const XmlElement& e) {
     piece_.points = e.count(*input_, "NumberOfPoints");
-    piece_.left_out = e.count(*input_, "NumberOfVerts") + e.count(*input_, "NumberOfLines");
+    piece_.vertices = e.count(*input_, "NumberOfVerts");
+    piece_.lines = e.count(*input_, "NumberOfLines");
     piece_.line = e.line;
     if (e.count(*input_, "NumberOfPolys") == 0) piece_.poly_connectivity.reset();
     if (e.count(*input_, "NumberOfStrips") == 0) piece_.strip_connectivity.reset();
+    if (e.count(*input_, "NumberOfCells") == 0) piece_.cell_connectivity.reset();
     constexpr std::size_t kMostPieces = 65536;
     if (pieces_.size() == kMostPieces) input_->fail_line(e.line, "more than 65536 pieces");
     pieces_.push_back(std::move(piece_));
@@ -137,7 +196,9 @@ class VtpReader {
     ArrayPlace a;
     a.name = e.attribute("Name");
     a.format = e.attribute("format");
-    a.type = type_of(*input_, e);
+    const std::optional<NumberType> type = type_of(e);
+    if (!type) input_->fail_line(e.line, "numbers of type " + quote(e.attribute("type")) + " are not read");
+    a.type = *type;
     a.line = e.line;
     a.components = e.count(*input_, "NumberOfComponents", 1);
     a.begin = a.format == "appended" ? e.count(*input_, "offset") : e.text_begin;
@@ -155,10 +216,38 @@ class VtpReader {
   }
 
   void read_piece(const Piece& piece, VtkCells& cells, MeshParts& parts) {
+    check_points(piece);
+    const std::size_t first = parts.positions.size();
+    read_points(piece, parts);
+    const auto first_point = static_cast<double>(first);
+    read_cells(
+        piece.poly_connectivity, piece.poly_offsets, piece, first_point,
+        [&](std::span<const double> corners, std::size_t line) { cells.add_polygon(*input_, corners, line, parts); });
+    read_cells(
+        piece.strip_connectivity, piece.strip_offsets, piece, first_point,
+        [&](std::span<const double> corners, std::size_t line) { cells.add_strip(*input_, corners, line, parts); });
+    cells.leave_out(VtkCells::kVertices, piece.vertices);
+    cells.leave_out(VtkCells::kPolyline, piece.lines);
+    if (!piece.cell_connectivity) return;
+    if (!piece.cell_types) input_->fail_line(piece.line, "cells without an array of types");
+    const std::vector<double> types = numbers(*piece.cell_types);
+    std::vector<double> offset{0}, connectivity;
+    read_cells(piece.cell_connectivity, piece.cell_offsets, piece, first_point,
+               [&](std::span<const double> corners, std::size_t) {
+                 connectivity.insert(connectivity.end(), corners.begin(), corners.end());
+                 offset.push_back(static_cast<double>(connectivity.size()));
+               });
+    cells.add_grid(*input_, offset, connectivity, types, piece.cell_connectivity->line, parts);
+  }
+
+  void check_points(const Piece& piece) const {
     if (piece.points > input_->inflate_budget()) {
       input_->fail_line(piece.line,
                         "NumberOfPoints is " + std::to_string(piece.points) + ", beyond what the file can hold");
     }
+  }
+
+  void read_points(const Piece& piece, MeshParts& parts) {
     const std::size_t first = parts.positions.size();
     if (piece.positions) {
       const std::vector<double> xyz = numbers(*piece.positions, 3 * piece.points);
@@ -174,14 +263,6 @@ class VtpReader {
     } else if (piece.points != 0) {
       input_->fail_line(piece.line, "the piece has no <Points>");
     }
-    const auto first_point = static_cast<double>(first);
-    read_cells(
-        piece.poly_connectivity, piece.poly_offsets, piece, first_point,
-        [&](std::span<const double> corners, std::size_t line) { cells.add_polygon(*input_, corners, line, parts); });
-    read_cells(
-        piece.strip_connectivity, piece.strip_offsets, piece, first_point,
-        [&](std::span<const double> corners, std::size_t line) { cells.add_strip(*input_, corners, line, parts); });
-    cells.leave_out(piece.left_out);
   }
 
   template <class Use>
@@ -252,7 +333,7 @@ class VtpReader {
 
   // Raw bytes: [size] data, or [blocks][block size][last block size][compressed sizes...] data.
   std::vector<char> unpack(const ArrayPlace& a, std::string_view bytes) {
-    if (!compressed_) {
+    if (compressor_ == Compressor::None) {
       if (bytes.size() < header_size()) fail_short(a);
       const std::uint64_t size = header_word(bytes, 0);
       bytes.remove_prefix(header_size());
@@ -270,6 +351,18 @@ class VtpReader {
     return (3 + blocks) * header_size();
   }
 
+  // One block of compressed data into `size` bytes at `target`; an empty string, or what is wrong.
+  std::string expand(std::string_view block, char* target, std::size_t size) const {
+    if (compressor_ == Compressor::Lz4) return expand_lz4(block, target, size);
+    if (compressor_ == Compressor::Xz) return expand_xz(block, target, size);
+    return inflate_exactly(block, target, size);
+  }
+
+  // Neither deflate nor LZ4 does better than 1032 to 1; for xz there is no such bound but what the file may inflate to.
+  bool can_expand_to(std::size_t size, std::string_view block) const {
+    return compressor_ == Compressor::Xz || can_inflate_to(size, block);
+  }
+
   std::vector<char> inflate_blocks(const ArrayPlace& a, std::string_view header, std::string_view data) {
     const std::uint64_t blocks = header_word(header, 0), size = header_word(header, 1), last = header_word(header, 2);
     const std::uint64_t whole = blocks == 0 ? 0 : last == 0 ? blocks : blocks - 1;
@@ -282,49 +375,41 @@ class VtpReader {
       if (length > data.size()) fail_short(a);
       const std::uint64_t wanted = b + 1 == blocks && last != 0 ? last : size;
       const std::size_t at = out.size();
-      if (!can_inflate_to(wanted, data.substr(0, length))) fail_short(a);
+      if (!can_expand_to(wanted, data.substr(0, length))) fail_short(a);
       out.resize(at + wanted);
-      const std::string error = inflate_exactly(data.substr(0, length), out.data() + at, wanted);
+      const std::string error = expand(data.substr(0, length), out.data() + at, wanted);
       if (!error.empty()) input_->fail_line(a.line, "block " + std::to_string(b) + " of the array: " + error);
       data.remove_prefix(length);
     }
     return out;
   }
 
-  // The header of compressed data is a base64 stream of its own.
+  // The header of compressed data is a base64 stream of its own. What follows an array in appended data is the next
+  // array or the end of the file, so only what is needed is decoded.
   std::vector<char> decode_base64_block(const ArrayPlace& a, std::string_view text) {
     const auto view = [](const std::vector<char>& bytes) { return std::string_view(bytes.data(), bytes.size()); };
-    if (!compressed_) {
-      const std::vector<char> head = checked(a, decode_base64(text, 9)).bytes;
-      if (head.size() < header_size()) fail_short(a);
-      const std::uint64_t size = header_word(view(head), 0);
-      if (size > text.size()) fail_short(a);
-      return unpack(a, view(checked(a, decode_base64(text, size + header_size() + 3)).bytes));
+    const std::vector<char> start = decode_some(a, text, header_size()).bytes;
+    const std::uint64_t first = header_word(view(start), 0);
+    if (first > text.size()) fail_short(a);  // bytes of data, or blocks
+    if (compressor_ == Compressor::None) return unpack(a, view(decode_some(a, text, header_size() + first).bytes));
+    const std::size_t size = static_cast<std::size_t>(3 + first) * header_size();
+    const Base64Result header = decode_some(a, text, size);
+    std::size_t compressed = 0;
+    for (std::uint64_t b = 0; b < first; ++b) {
+      const std::uint64_t length = header_word(view(header.bytes), 3 + b);
+      if (length > text.size() - compressed) fail_short(a);
+      compressed += length;
     }
-    const std::vector<char> start = checked(a, decode_base64(text, 9)).bytes;
-    if (start.size() < header_size()) fail_short(a);
-    const std::uint64_t blocks = header_word(view(start), 0);
-    if (blocks > text.size() / header_size()) fail_short(a);
-    const std::size_t size = static_cast<std::size_t>(3 + blocks) * header_size();
-    const std::size_t characters = base64_characters(text, size);
-    const Base64Result header = checked(a, decode_base64(text.substr(0, characters)));
-    if (header.bytes.size() < size) fail_short(a);
-    const Base64Result data = checked(a, decode_base64(text.substr(header.consumed)));
+    const Base64Result data = decode_some(a, text.substr(header.consumed), compressed);
     return inflate_blocks(a, view(header.bytes).substr(0, size), view(data.bytes));
   }
 
-  // How much of `text` encodes `size` bytes, padding included.
-  static std::size_t base64_characters(std::string_view text, std::size_t size) {
-    const std::size_t wanted = (size + 2) / 3 * 4;
-    std::size_t have = 0, k = 0;
-    for (; k < text.size() && have < wanted; ++k) have += TextCursor::is_space(text[k]) ? 0 : 1;
-    return k;
-  }
-
-  // What follows an array in appended base64 data is the next array, so only what is needed is looked at.
-  Base64Result checked(const ArrayPlace& a, Base64Result result) const {
+  // At least `size` bytes from the start of the text.
+  Base64Result decode_some(const ArrayPlace& a, std::string_view text, std::size_t size) const {
+    Base64Result result = decode_base64(text, size);
+    if (result.bytes.size() >= size) return result;
     if (!result.ok) input_->fail_line(a.line, "the array's data is not base64");
-    return result;
+    fail_short(a);
   }
 
   [[noreturn]] void fail_short(const ArrayPlace& a) const { input_->fail_line(a.line, "the array's data ends early"); }
@@ -332,7 +417,9 @@ class VtpReader {
   const Input* input_;
   std::size_t budget_;
   std::size_t appended_ = 0;
-  bool is_poly_data_ = false, header_is_64_ = false, compressed_ = false, appended_is_base64_ = false;
+  std::string type_;
+  bool header_is_64_ = false, appended_is_base64_ = false;
+  Compressor compressor_ = Compressor::None;
   std::endian order_ = std::endian::little;
   Piece piece_;
   std::vector<Piece> pieces_;
@@ -343,6 +430,8 @@ class VtpReader {
 MeshParts read_vtp(const Input& input) { return VtpReader(input).read(); }
 
 LoadedField read_vtp_field(const Input& input, const std::string& name) { return VtpReader(input).field(name); }
+
+LoadedLines read_vtp_lines(const Input& input) { return VtpReader(input).lines(); }
 
 // Appended raw data, each array behind its size in 64 bits.
 void write_vtp(Output& out, const Mesh& mesh, const FieldView& field) {

@@ -1,12 +1,15 @@
 // Which writer a name asks for, and the formats that hold numbers only.
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/formats.h>
+#include <brushfire/io/detail/names.h>
+#include <brushfire/io/formats.h>
 #include <brushfire/io/npy.h>
 #include <brushfire/io/write_field.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <limits>
+#include <vector>
 
 namespace brushfire {
 
@@ -61,6 +64,7 @@ void write_json(Output& out, const Mesh& mesh, const FieldView& field) {
 namespace {
 
 struct Writer {
+  const char* name;
   std::string_view extension;
   bool needs_positions;
   void (*write)(Output& out, const Mesh& mesh, const FieldView& field);
@@ -68,27 +72,26 @@ struct Writer {
 
 // A new writer is one line here.
 constexpr Writer kWriters[]{
-    {"ply", true, write_ply},  {"vtk", true, write_vtk},    {"vtp", true, write_vtp},
-    {"obj", true, write_obj},  {"gii", false, write_gifti}, {"curv", false, write_freesurfer_curv},
-    {"csv", false, write_csv}, {"json", false, write_json},
+    {"PLY", "ply", true, write_ply},      {"VTK", "vtk", true, write_vtk},
+    {"VTP", "vtp", true, write_vtp},      {"OBJ (colours)", "obj", true, write_obj},
+    {"GIFTI", "gii", false, write_gifti}, {"FreeSurfer curvature", "curv", false, write_freesurfer_curv},
+    {"CSV", "csv", false, write_csv},     {"JSON", "json", false, write_json},
 };
-
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return extension;
-}
 
 // The extension that decides; throws where nothing is written as that.
 std::string known_extension(const std::string& path, const std::string& format) {
-  const std::string extension = format.empty() && path != "-" ? extension_of(path) : format;
+  const std::string extension = extension_or(format, path);
   std::string known = "npy";
   if (extension == known) return extension;
   for (const Writer& w : kWriters) {
     if (w.extension == extension) return extension;
     known += ", " + std::string(w.extension);
+  }
+  if (extension == "nii") {
+    throw Error(ErrorCode::UnknownFormat,
+                printable(path) +
+                    ": CIFTI-2 is not written here: write .shape.gii for each hemisphere and join them with "
+                    "wb_command -cifti-create-dense-scalar, or use brushfire.write of the Python package");
   }
   throw Error(ErrorCode::UnknownFormat,
               printable(path) + ": nothing is written as " + quote(extension) + " (known: " + known + ")");
@@ -110,6 +113,25 @@ void check_name(const std::string& name) {
   throw Error(ErrorCode::InvalidArgument, quote(name) + " is no name for an array: letters, digits, _ - . only");
 }
 
+// The field with nothing outside its mask.
+struct Masked {
+  explicit Masked(const FieldView& given) : field(given) {
+    if (given.mask.empty()) return;
+    values.assign(given.values.begin(), given.values.end());
+    labels.assign(given.labels.begin(), given.labels.end());
+    for (std::size_t v = 0; v < given.mask.size(); ++v) {
+      if (given.mask[v] != 0) continue;
+      if (!values.empty()) values[v] = std::numeric_limits<double>::quiet_NaN();
+      if (!labels.empty()) labels[v] = kNoIndex;
+    }
+    field.values = values;
+    field.labels = labels;
+  }
+  FieldView field;
+  std::vector<double> values;
+  std::vector<Index> labels;
+};
+
 void write_npy_field(const std::string& path, const FieldView& field) {
   if (!field.values.empty() || field.labels.empty()) {
     write_npy(path, field.values);
@@ -122,15 +144,24 @@ void write_npy_field(const std::string& path, const FieldView& field) {
 
 }  // namespace detail
 
+std::vector<FileFormat> fields_written() {
+  std::vector<FileFormat> formats{{"NPY", {"npy"}}};
+  for (const detail::Writer& w : detail::kWriters) formats.push_back({w.name, {std::string(w.extension)}});
+  return formats;
+}
+
 void check_field_format(const std::string& path, const std::string& format) { detail::known_extension(path, format); }
 
-void write_field(const std::string& path, const Mesh& mesh, const FieldView& field, const std::string& format) {
+void write_field(const std::string& path, const Mesh& mesh, const FieldView& given, const std::string& format) {
   using namespace detail;
-  check_size(field.values.size(), mesh, "values");
-  check_size(field.labels.size(), mesh, "labels");
-  check_name(field.name);
-  check_name(field.label_name);
+  check_size(given.values.size(), mesh, "values");
+  check_size(given.labels.size(), mesh, "labels");
+  check_size(given.mask.size(), mesh, "entries of the mask");
+  check_name(given.name);
+  check_name(given.label_name);
   const std::string extension = known_extension(path, format);
+  const Masked masked(given);
+  const FieldView& field = masked.field;
   if (extension == "npy") return write_npy_field(path, field);
   for (const Writer& w : kWriters) {
     if (w.extension != extension) continue;

@@ -3,6 +3,7 @@
 
 #include <brushfire/mesh/mesh.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -10,10 +11,13 @@ namespace brushfire {
 
 // What to write beside the mesh. Everything is [vertex_count] or empty.
 struct FieldView {
-  std::span<const double> values;  // infinity where unreachable
-  std::span<const Index> labels;   // kNoIndex is written as -1
-  std::string name = "distance";   // what the values are called where the format has names
+  std::span<const double> values = {};  // infinity where unreachable
+  std::span<const Index> labels = {};   // kNoIndex is written as -1
+  std::string name = "distance";        // what the values are called where the format has names
   std::string label_name = "source";
+  // Where 0, values are written as NaN (null in json) and labels as -1: outside a mask. [vertex_count] or empty.
+  std::span<const std::uint8_t> mask = {};
+  std::string structure = "";  // LoadedMesh::structure, which GIFTI keeps
 };
 
 // Whether write_field() knows this format, for those who want to say so before they compute what is to be written.

@@ -3,11 +3,14 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/io/detail/input.h>
+#include <brushfire/io/detail/names.h>
 #include <brushfire/io/detail/output.h>
+#include <brushfire/io/formats.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <filesystem>
 
 namespace brushfire {
 namespace {
@@ -19,6 +22,7 @@ struct Drawing {
   const Mesh& mesh;
   std::span<const SurfaceLine> lines;
   const std::string& value_name;
+  const LinesOptions& options;
   std::vector<std::vector<Vec3>> positions;  // [lines][points]
 
   std::size_t point_count() const {
@@ -28,24 +32,15 @@ struct Drawing {
   }
 };
 
-void write_numbers(Output& out, std::initializer_list<double> numbers, char separator) {
-  bool first = true;
-  for (const double x : numbers) {
-    if (!first) out.write(separator);
-    out.number(x);
-    first = false;
-  }
-}
-
 void write_point(Output& out, const SurfacePoint& p, const Vec3* position) {
   out.write("{\"face\": ");
   out.number(p.face);
   out.write(", \"weights\": [");
-  write_numbers(out, {p.weights[0], p.weights[1], p.weights[2]}, ',');
+  out.numbers({p.weights[0], p.weights[1], p.weights[2]}, ',');
   out.write("]");
   if (position) {
     out.write(", \"position\": [");
-    write_numbers(out, {position->x, position->y, position->z}, ',');
+    out.numbers({position->x, position->y, position->z}, ',');
     out.write("]");
   }
   out.write("}");
@@ -92,7 +87,7 @@ void write_obj(Output& out, const Drawing& d) {
   for (const auto& positions : d.positions) {
     for (const Vec3& p : positions) {
       out.write("v ");
-      write_numbers(out, {p.x, p.y, p.z}, ' ');
+      out.numbers({p.x, p.y, p.z}, ' ');
       out.write('\n');
     }
   }
@@ -124,7 +119,7 @@ void write_ply(Output& out, const Drawing& d) {
             "\nproperty int vertex1\nproperty int vertex2\nend_header\n");
   for (const auto& positions : d.positions) {
     for (const Vec3& p : positions) {
-      write_numbers(out, {p.x, p.y, p.z}, ' ');
+      out.numbers({p.x, p.y, p.z}, ' ');
       out.write('\n');
     }
   }
@@ -155,7 +150,7 @@ void write_vtp(Output& out, const Drawing& d) {
   open_array(out, "Float64", "Points", 3);
   for (const auto& positions : d.positions) {
     for (const Vec3& p : positions) {
-      write_numbers(out, {p.x, p.y, p.z}, ' ');
+      out.numbers({p.x, p.y, p.z}, ' ');
       out.write('\n');
     }
   }
@@ -197,7 +192,7 @@ void write_vtp(Output& out, const Drawing& d) {
 }
 
 void write_csv(Output& out, const Drawing& d) {
-  out.write("line," + d.value_name + ",point,x,y,z,face,w0,w1,w2\n");
+  out.write("line," + d.value_name + ",point,x,y,z,face,w0,w1,w2,closed\n");
   for (std::size_t i = 0; i < d.lines.size(); ++i) {
     for (std::size_t k = 0; k < d.lines[i].points.size(); ++k) {
       const SurfacePoint& s = d.lines[i].points[k];
@@ -208,95 +203,262 @@ void write_csv(Output& out, const Drawing& d) {
       out.write(',');
       out.number(static_cast<std::int64_t>(k));
       out.write(',');
-      write_numbers(out, {p.x, p.y, p.z}, ',');
+      out.numbers({p.x, p.y, p.z}, ',');
       out.write(',');
       out.number(s.face);
       out.write(',');
-      write_numbers(out, {s.weights[0], s.weights[1], s.weights[2]}, ',');
-      out.write('\n');
+      out.numbers({s.weights[0], s.weights[1], s.weights[2]}, ',');
+      out.write(d.lines[i].closed ? ",1\n" : ",0\n");
     }
   }
 }
 
-void write_svg(Output& out, const Drawing& d) {
-  std::array<double, 3> low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
-  const auto axis = [](const Vec3& p, std::size_t k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; };
-  for (const auto& positions : d.positions) {
-    for (const Vec3& p : positions) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], axis(p, k));
-        high[k] = std::max(high[k], axis(p, k));
-      }
+// Millimetres on paper: to the right and down.
+using PaperPoint = std::array<double, 2>;
+
+struct Box2 {
+  PaperPoint low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  void add(const PaperPoint& p) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
     }
   }
-  if (d.point_count() == 0) low = high = {0, 0, 0};
-  std::size_t thin = 2;  // ties: seen along z
-  for (const std::size_t k : {std::size_t{1}, std::size_t{0}}) {
-    if (high[k] - low[k] < high[thin] - low[thin]) thin = k;
+};
+
+double along(const Vec3& p, std::size_t axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+// An orthographic view: which way is right, and which way is up.
+struct View {
+  const char* name;
+  Vec3 right, up;
+};
+constexpr View kViews[]{{"front", {1, 0, 0}, {0, 0, 1}}, {"back", {-1, 0, 0}, {0, 0, 1}},
+                        {"left", {0, -1, 0}, {0, 0, 1}}, {"right", {0, 1, 0}, {0, 0, 1}},
+                        {"top", {1, 0, 0}, {0, 1, 0}},   {"bottom", {1, 0, 0}, {0, -1, 0}}};
+
+// Along the shortest side of the box around the curves; of equal ones from above.
+const View& flattest_view(const Drawing& d) {
+  Box box;
+  for (const auto& positions : d.positions) {
+    for (const Vec3& p : positions) {
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    }
   }
-  const std::size_t across = thin == 0 ? 1 : 0, up = thin == 2 ? 1 : 2;
-  const double width = high[across] - low[across], height = high[up] - low[up];
+  const auto side = [&](std::size_t axis) { return along(box.high, axis) - along(box.low, axis); };
+  std::size_t thin = 2;
+  if (d.point_count() != 0) {
+    for (const std::size_t axis : {std::size_t{1}, std::size_t{0}}) {
+      if (side(axis) < side(thin)) thin = axis;
+    }
+  }
+  return kViews[thin == 2 ? 4 : thin == 1 ? 0 : 3];
+}
+
+const View& view_named(const std::string& name) {
+  std::string known;
+  for (const View& v : kViews) {
+    if (v.name == name) return v;
+    known += std::string(known.empty() ? "" : ", ") + v.name;
+  }
+  throw Error(ErrorCode::InvalidArgument, detail::quote(name) + " is no view (known: " + known + ")");
+}
+
+// Edges of the mesh that bound it: those of one face, and, seen along `towards`, those between faces that look towards
+// the viewer and away. Without `towards` the former only.
+std::vector<std::array<Vec3, 2>> outline(const Mesh& mesh, const Vec3* towards) {
+  const auto opposite = mesh.opposite();
+  const auto positions = mesh.positions();
+  const auto looks_here = [&](Index h) {
+    const Face& f = mesh.faces()[Mesh::face_of(h)];
+    return dot(cross(positions[f[1]] - positions[f[0]], positions[f[2]] - positions[f[0]]), *towards) > 0;
+  };
+  std::vector<std::array<Vec3, 2>> edges;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (!mesh.is_face_usable(Mesh::face_of(h))) continue;
+    const Index g = opposite[h];
+    const bool is_boundary = g == h;
+    const bool is_mirrored = mesh.from(g) == mesh.from(h);  // the other face is oriented the other way round
+    const bool is_silhouette = towards != nullptr && g > h && looks_here(h) != (looks_here(g) != is_mirrored);
+    if (is_boundary || is_silhouette) edges.push_back({positions[mesh.from(h)], positions[mesh.to(h)]});
+  }
+  return edges;
+}
+
+// Real size: one unit of the drawing is a millimetre.
+void write_svg(Output& out, const Drawing& d) {
+  const View& view = d.options.view.empty() ? flattest_view(d) : view_named(d.options.view);
+  const double scale = d.options.millimetres;
+  // 0.0 - : no minus zero.
+  const auto on_paper = [&](const Vec3& p) -> PaperPoint {
+    return {scale * dot(p, view.right), 0.0 - scale * dot(p, view.up)};
+  };
+  std::vector<std::array<PaperPoint, 2>> edges;
+  Box2 box;
+  if (d.options.outline) {
+    const Vec3 towards = cross(view.right, view.up);
+    for (const auto& [a, b] : outline(d.mesh, &towards)) {
+      edges.push_back({on_paper(a), on_paper(b)});
+      for (const PaperPoint& p : edges.back()) box.add(p);
+    }
+  }
+  for (const auto& positions : d.positions) {
+    for (const Vec3& p : positions) box.add(on_paper(p));
+  }
+  if (!(box.low[0] <= box.high[0])) box = {{0, 0}, {0, 0}};
+  const double width = box.high[0] - box.low[0], height = box.high[1] - box.low[1];
   const double stroke = 0.002 * std::max(width, height), pad = 2 * stroke;
-  out.write("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"");
-  write_numbers(out, {low[across] - pad, -high[up] - pad, width + 2 * pad, height + 2 * pad}, ' ');
+  out.write("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"");
+  out.number(width + 2 * pad);
+  out.write("mm\" height=\"");
+  out.number(height + 2 * pad);
+  out.write("mm\" viewBox=\"");
+  out.numbers({box.low[0] - pad, box.low[1] - pad, width + 2 * pad, height + 2 * pad}, ' ');
   out.write("\" fill=\"none\" stroke=\"black\" stroke-linejoin=\"round\" stroke-width=\"");
   out.number(stroke);
   out.write("\">\n");
+  const auto move_to = [&](char command, const PaperPoint& p) {
+    out.write(command);
+    out.numbers({p[0], p[1]}, ' ');
+  };
+  if (!edges.empty()) {
+    out.write("<path id=\"outline\" stroke=\"gray\" d=\"");
+    for (const auto& [a, b] : edges) {
+      move_to('M', a);
+      move_to('L', b);
+    }
+    out.write("\"/>\n");
+  }
   for (std::size_t i = 0; i < d.lines.size(); ++i) {
     if (d.positions[i].empty()) continue;
     out.write("<path data-" + d.value_name + "=\"");
     out.number(d.lines[i].value);
     out.write("\" d=\"");
-    for (std::size_t k = 0; k < d.positions[i].size(); ++k) {
-      out.write(k == 0 ? "M" : "L");
-      write_numbers(out, {axis(d.positions[i][k], across), 0.0 - axis(d.positions[i][k], up)}, ' ');
-    }
+    for (std::size_t k = 0; k < d.positions[i].size(); ++k) move_to(k == 0 ? 'M' : 'L', on_paper(d.positions[i][k]));
     out.write(d.lines[i].closed ? "Z\"/>\n" : "\"/>\n");
   }
   out.write("</svg>\n");
 }
 
+// DXF of release 12, which every CAD program reads: lines of a group code and a value.
+class Dxf {
+ public:
+  explicit Dxf(Output& out) : out_(&out) {}
+  void group(int code, std::string_view value) {
+    out_->number(static_cast<std::int64_t>(code));
+    out_->write("\n");
+    out_->write(value);
+    out_->write("\n");
+  }
+  void number(int code, double value) {
+    out_->number(static_cast<std::int64_t>(code));
+    out_->write("\n");
+    out_->number(value);
+    out_->write("\n");
+  }
+  void point(const Vec3& p) {
+    number(10, p.x);
+    number(20, p.y);
+    number(30, p.z);
+  }
+  void polyline(const std::string& layer, std::span<const Vec3> points, bool closed) {
+    constexpr const char *kSpatial = "8", *kSpatialClosed = "9", *kSpatialVertex = "32";
+    group(0, "POLYLINE");
+    group(8, layer);
+    group(66, "1");  // vertices follow
+    point({0, 0, 0});
+    group(70, closed ? kSpatialClosed : kSpatial);
+    for (const Vec3& p : points) {
+      group(0, "VERTEX");
+      group(8, layer);
+      point(p);
+      group(70, kSpatialVertex);
+    }
+    group(0, "SEQEND");
+    group(8, layer);
+  }
+
+ private:
+  Output* out_;
+};
+
+void write_dxf(Output& out, const Drawing& d) {
+  Dxf dxf(out);
+  for (const char* text : {"SECTION", "HEADER"}) dxf.group(text[0] == 'S' ? 0 : 2, text);
+  dxf.group(9, "$ACADVER");
+  dxf.group(1, "AC1009");
+  dxf.group(9, "$INSUNITS");
+  dxf.group(70, "4");  // millimetres
+  dxf.group(0, "ENDSEC");
+  for (const char* text : {"SECTION", "ENTITIES"}) dxf.group(text[0] == 'S' ? 0 : 2, text);
+  const double scale = d.options.millimetres;
+  if (d.options.outline) {
+    for (const auto& [a, b] : outline(d.mesh, nullptr)) {
+      const Vec3 ends[]{scale * a, scale * b};
+      dxf.polyline("outline", ends, false);
+    }
+  }
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < d.lines.size(); ++i) {
+    if (d.positions[i].empty()) continue;
+    points.clear();
+    for (const Vec3& p : d.positions[i]) points.push_back(scale * p);
+    dxf.polyline(d.value_name, points, d.lines[i].closed);
+  }
+  dxf.group(0, "ENDSEC");
+  dxf.group(0, "EOF");
+}
+
 struct Writer {
+  const char* name;
   std::string_view extension;
   bool needs_positions;
   void (*write)(Output& out, const Drawing& drawing);
 };
 
 // A new format is one line here.
-constexpr Writer kWriters[]{{"json", false, write_json}, {"obj", true, write_obj}, {"ply", true, write_ply},
-                            {"vtp", true, write_vtp},    {"csv", true, write_csv}, {"svg", true, write_svg}};
-
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
-  return extension;
-}
+constexpr Writer kWriters[]{{"JSON", "json", false, write_json}, {"OBJ", "obj", true, write_obj},
+                            {"PLY", "ply", true, write_ply},     {"VTP", "vtp", true, write_vtp},
+                            {"CSV", "csv", true, write_csv},     {"SVG", "svg", true, write_svg},
+                            {"DXF", "dxf", true, write_dxf}};
 
 const Writer& writer_for(const std::string& path, const std::string& format) {
-  const std::string extension = format.empty() ? extension_of(path) : format;
+  const std::string extension = detail::extension_or(format, path);
   const auto writer =
       std::find_if(std::begin(kWriters), std::end(kWriters), [&](const Writer& w) { return w.extension == extension; });
   if (writer == std::end(kWriters)) {
     throw Error(ErrorCode::UnknownFormat,
-                path + ": curves are written as json, obj, ply, vtp, csv or svg, not as '" + extension + "'");
+                path + ": curves are written as json, obj, ply, vtp, csv, svg or dxf, not as '" + extension + "'");
   }
   return *writer;
 }
 
 }  // namespace
 
-void check_lines_format(const std::string& path, const std::string& format) { writer_for(path, format); }
+std::vector<FileFormat> lines_written() {
+  std::vector<FileFormat> formats;
+  for (const Writer& w : kWriters) formats.push_back({w.name, {std::string(w.extension)}});
+  return formats;
+}
+
+void check_lines_format(const std::string& path, const std::string& format, const LinesOptions& options) {
+  writer_for(path, format);
+  if (!options.view.empty()) view_named(options.view);
+  if (!(options.millimetres > 0) || options.millimetres == kInfinity) {
+    throw Error(ErrorCode::InvalidArgument, "a unit of the mesh must be some millimetres long");
+  }
+}
 
 void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfaceLine> lines,
-                 const std::string& value_name, const std::string& format) {
+                 const std::string& value_name, const std::string& format, const LinesOptions& options) {
+  check_lines_format(path, format, options);
   const Writer& writer = writer_for(path, format);
   if (writer.needs_positions && !mesh.has_positions()) {
     throw Error(ErrorCode::InvalidArgument, path + ": a mesh without positions has no place in ." +
                                                 std::string(writer.extension) + " files: write json");
   }
-  Drawing drawing{mesh, lines, value_name, {}};
+  Drawing drawing{mesh, lines, value_name, options, {}};
   Poll poll;
   if (mesh.has_positions()) {
     for (const SurfaceLine& line : lines) {

@@ -1,4 +1,5 @@
 // Counts what is in a mesh, and says it.
+#include <brushfire/mesh/detail/point_grid.h>
 #include <brushfire/mesh/detail/report.h>
 
 #include <brushfire/core/cancel.h>
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -57,6 +59,53 @@ Index count_duplicate_positions(const Mesh& mesh) {
   Index count = 0;
   for (std::size_t v = 1; v < keys.size(); ++v) count += keys[v] == keys[v - 1];
   return count;
+}
+
+// What lies nearer than this part of an edge is meant to be one place: files cut their digits, and CAD programs mesh
+// each sheet on its own.
+constexpr double kNear = 1e-3;
+
+double shortest_edge_at(const Mesh& mesh, Index v) {
+  double shortest = kInfinity;
+  for (const Index h : mesh.corners(v)) {
+    for (const Index side : {h, Mesh::previous(h)}) {
+      const double length = mesh.length(side);
+      if (length > 0) shortest = std::min(shortest, length);
+    }
+  }
+  return shortest * mesh.unit();
+}
+
+bool are_joined(const Mesh& mesh, Index v, Index w) {
+  const auto corners = mesh.corners(v);
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](Index h) { return mesh.to(h) == w || mesh.from(Mesh::previous(h)) == w; });
+}
+
+void count_near_positions(const Mesh& mesh, MeshReport& r) {
+  if (!mesh.has_positions() || r.boundary_edges == 0 || r.looks_like_soup) return;
+  const auto opposite = mesh.opposite();
+  std::vector<bool> is_boundary(mesh.vertex_count(), false);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (opposite[h] == h && mesh.is_face_usable(Mesh::face_of(h))) {
+      is_boundary[mesh.from(h)] = is_boundary[mesh.to(h)] = true;
+    }
+  }
+  detail::PointGrid grid(mesh.positions(), kNear * r.mean_edge_length);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (is_boundary[v]) grid.add(v);
+  }
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (!is_boundary[v]) continue;
+    double nearest = kInfinity;
+    grid.for_each_near(mesh.positions()[v], [&](Index w, double d) {
+      if (d == 0 || d >= nearest || are_joined(mesh, v, w)) return;
+      if (d < kNear * std::min(shortest_edge_at(mesh, v), shortest_edge_at(mesh, w))) nearest = d;
+    });
+    if (nearest == kInfinity) continue;
+    ++r.near_positions;
+    r.near_tolerance = std::max(r.near_tolerance, nearest);
+  }
 }
 
 void count_edges(const Mesh& mesh, MeshReport& r) {
@@ -116,6 +165,17 @@ void measure_geometry(const Mesh& mesh, MeshReport& r) {
       mesh.has_positions() ? kPrecisionWithPositions : 64 * std::numeric_limits<double>::epsilon() / flattest;
 }
 
+// Two digits, and no less than the value.
+std::string rounded_up(double value) {
+  char text[32];
+  for (double v = value;; v *= 1.02) {
+    const auto end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, 2).ptr;
+    double read = 0;
+    std::from_chars(text, end, read);
+    if (read >= value) return {text, end};
+  }
+}
+
 std::string counted(Index n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
@@ -140,6 +200,7 @@ MeshReport build_report(const Mesh& mesh) {
   r.duplicate_faces = count_duplicate_faces(mesh);
   r.duplicate_positions = count_duplicate_positions(mesh);
   r.looks_like_soup = 2 * r.boundary_edges > r.edges && 2 * r.duplicate_positions > r.vertices;
+  count_near_positions(mesh, r);
   r.euler_characteristic = static_cast<long long>(r.vertices - isolated) - static_cast<long long>(r.edges) +
                            static_cast<long long>(r.faces - r.repeated_index_faces);
   return r;
@@ -152,7 +213,7 @@ std::vector<std::string> MeshReport::remarks() const {
   if (faces == 0) out.emplace_back("no faces: every distance is infinite");
   if (looks_like_soup) {
     out.emplace_back("looks like triangle soup (" + std::to_string(duplicate_positions) +
-                     " vertices repeat a position): weld equal positions first, or nothing is connected");
+                     " vertices repeat a position): weld equal positions first (--weld 0), or nothing is connected");
   }
   if (components > 1) {
     out.push_back(std::to_string(components) + " components: distances between them are infinite");
@@ -177,7 +238,13 @@ std::vector<std::string> MeshReport::remarks() const {
   if (zero_area_faces > 0) out.push_back(counted(zero_area_faces, "face has", "faces have") + " no area");
   if (zero_length_edges > 0) out.push_back(counted(zero_length_edges, "edge has", "edges have") + " no length");
   if (!looks_like_soup && duplicate_positions > 0) {
-    out.push_back(counted(duplicate_positions, "vertex repeats", "vertices repeat") + " the position of another");
+    out.push_back(counted(duplicate_positions, "vertex repeats", "vertices repeat") +
+                  " the position of another (--weld 0 joins them)");
+  }
+  if (near_positions > 0) {
+    const std::string tolerance = rounded_up(near_tolerance);
+    out.push_back(counted(near_positions, "boundary vertex lies", "boundary vertices lie") + " within " + tolerance +
+                  " of another without being joined: no way leads across there (--weld " + tolerance + " joins them)");
   }
   constexpr double kUnevenEdges = 1e6;
   if (min_edge_length > 0 && max_edge_length > kUnevenEdges * min_edge_length) {

@@ -23,7 +23,11 @@ struct MeshReport {
   Index zero_length_edges = 0;     // two distinct vertices at the same place
   Index duplicate_faces = 0;       // the same three vertices as an earlier face
   Index duplicate_positions = 0;   // vertices at exactly the place of an earlier one
-  bool looks_like_soup = false;    // unwelded: most edges are boundary and most positions repeat
+  // Boundary vertices that all but touch another one which no edge joins them to: nearer than a thousandth of the edges
+  // at either. weld() with near_tolerance, the largest of these distances, joins them. 0 where it looks like soup.
+  Index near_positions = 0;
+  double near_tolerance = 0;
+  bool looks_like_soup = false;  // unwelded: most edges are boundary and most positions repeat
   double min_edge_length = 0, mean_edge_length = 0, max_edge_length = 0;  // units of the input
   double area = 0;                                                        // units of the input, squared
   long long euler_characteristic = 0;                                     // referenced vertices - edges + faces

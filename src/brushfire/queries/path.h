@@ -21,8 +21,9 @@ SurfacePath path_to(const WindowField& field, const SurfacePoint& target);
 SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index target);
 
 // The shortest path from one point to the other, to rounding, none from or to a point that is nowhere (see
-// target_point()); with the workspace of a solver that may serve for other things, too. The front stops as soon as it has reached its target: after the first call a short path costs little
-// however large the mesh is. Throws as distance() does.
+// target_point()); with the workspace of a solver that may serve for other things, too. The front stops as soon as it
+// has reached its target: after the first call a short path costs little however large the mesh is. Throws as
+// distance() does.
 SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
                          const CancelToken* cancel = nullptr);
 

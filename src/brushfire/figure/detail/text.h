@@ -10,16 +10,16 @@
 
 namespace brushfire::detail {
 
-// A TrueType font, or none: then nothing is written and every text is empty.
+// A TrueType font.
 class Font {
  public:
-  // The file named, or the first of a list of usual places; none there: an empty font. Throws Error(FileNotReadable)
-  // or Error(FileMalformed) for a file that was named and cannot be used.
+  // The file named, or, where the name is empty, the built-in one: a part of DejaVu Sans (Latin, Greek, Cyrillic), so
+  // that pictures are the same on every machine. Throws Error(FileNotReadable) or Error(FileMalformed) for a file that
+  // cannot be used.
   explicit Font(const std::string& file);
   ~Font();
   Font(Font&&) noexcept;
 
-  bool empty() const { return state_ == nullptr; }
   double width(std::string_view utf8, double height) const;  // pixels
   // Writes with the baseline's left end at (x, y); anti-aliased, over what is there.
   void write(Image& picture, double x, double y, double height, std::string_view utf8, Color color) const;

@@ -1,4 +1,4 @@
-// zlib's streams, and what to say without them.
+// What zlib, LZ4 and xz unpack, and what to say without them.
 #include <brushfire/io/detail/inflate.h>
 
 #include <brushfire/core/cancel.h>
@@ -8,6 +8,12 @@
 
 #ifdef BRUSHFIRE_HAS_ZLIB
 #include <zlib.h>
+#endif
+#ifdef BRUSHFIRE_HAS_LZ4
+#include <lz4.h>
+#endif
+#ifdef BRUSHFIRE_HAS_LZMA
+#include <lzma.h>
 #endif
 
 namespace brushfire::detail {
@@ -110,6 +116,46 @@ Inflater::~Inflater() = default;
 std::size_t Inflater::read(char*, std::size_t) { return 0; }
 bool Inflater::ended() { return true; }
 std::string deflate(std::string_view) { return {}; }
+
+#endif
+
+#ifdef BRUSHFIRE_HAS_LZ4
+
+std::string expand_lz4(std::string_view compressed, char* target, std::size_t expected) {
+  constexpr std::size_t kMost = LZ4_MAX_INPUT_SIZE;  // it counts in int
+  if (compressed.size() > kMost || expected > kMost) return "is larger than a block of LZ4 may be";
+  const int done =
+      LZ4_decompress_safe(compressed.data(), target, static_cast<int>(compressed.size()), static_cast<int>(expected));
+  if (done < 0 || static_cast<std::size_t>(done) != expected) return "compressed data is damaged";
+  return {};
+}
+
+#else
+
+std::string expand_lz4(std::string_view, char*, std::size_t) {
+  return "is compressed with LZ4, but this program was built without it";
+}
+
+#endif
+
+#ifdef BRUSHFIRE_HAS_LZMA
+
+std::string expand_xz(std::string_view compressed, char* target, std::size_t expected) {
+  std::uint64_t memory = std::uint64_t{128} << 20;  // the largest preset asks for 65 MiB
+  std::size_t in = 0, out = 0;
+  const lzma_ret status =
+      lzma_stream_buffer_decode(&memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(compressed.data()), &in,
+                                compressed.size(), reinterpret_cast<std::uint8_t*>(target), &out, expected);
+  if (status == LZMA_MEMLIMIT_ERROR) return "asks for too much memory to be unpacked";
+  if (status != LZMA_OK || out != expected) return "compressed data is damaged";
+  return {};
+}
+
+#else
+
+std::string expand_xz(std::string_view, char*, std::size_t) {
+  return "is compressed with LZMA, but this program was built without it";
+}
 
 #endif
 

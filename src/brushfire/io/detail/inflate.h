@@ -40,6 +40,11 @@ constexpr bool can_inflate_to(std::size_t size, std::string_view compressed) {
 // Inflates a zlib or gzip stream into exactly `expected` bytes at `target`. Returns an empty string or what is wrong.
 std::string inflate_exactly(std::string_view compressed, char* target, std::size_t expected);
 
+// One block of LZ4, or one .xz stream, into exactly `expected` bytes at `target`. Return an empty string or what is
+// wrong, which may be that the library was built without them.
+std::string expand_lz4(std::string_view compressed, char* target, std::size_t expected);
+std::string expand_xz(std::string_view compressed, char* target, std::size_t expected);
+
 // A zlib stream of the bytes; empty where the library was built without zlib.
 std::string deflate(std::string_view bytes);
 

@@ -118,6 +118,12 @@ Input Input::from_memory(std::string_view bytes, const std::string& name) {
   return input;
 }
 
+void Input::drop_byte_order_mark() {
+  const std::string_view start = bytes_.substr(0, 2);
+  if (start == "\xff\xfe" || start == "\xfe\xff") fail("is text in UTF-16, which is not read: save it as UTF-8");
+  if (bytes_.substr(0, 3) == "\xef\xbb\xbf") bytes_.remove_prefix(3);
+}
+
 std::string Input::extension() const {
   const auto lower = [](std::string s) {
     std::transform(s.begin(), s.end(), s.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });

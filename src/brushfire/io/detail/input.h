@@ -25,6 +25,9 @@ class Input {
   std::string extension() const;                              // lower case, without dot and without a final .gz
   std::size_t inflate_budget() const noexcept { return inflate_budget_; }
 
+  // Drops a UTF-8 byte order mark in front, and refuses text in UTF-16 by name. For content that is not binary.
+  void drop_byte_order_mark();
+
   // A file that this one refers to; `line` is where. Refused unless it lies in the same folder or below.
   Input companion(const std::string& relative, std::size_t line) const;
 

@@ -44,11 +44,13 @@ void FaceList::leave_fast_path() {
   triangles_ = {};
 }
 
-void FaceList::finish(const Input& input, bool places_are_lines, std::span<const Vec3> positions,
+void FaceList::finish(const Input& input, bool places_are_lines, Index counts_from, std::span<const Vec3> positions,
                       std::vector<Face>& faces, std::vector<Index>& face_origin, std::vector<std::string>& remarks) {
   if (count_ != left_out_ && largest_ >= positions.size()) {
-    const std::string cause = "face " + std::to_string(largest_face_) + " names vertex " + std::to_string(largest_) +
-                              ", but there are " + std::to_string(positions.size()) + " vertices";
+    const std::string cause = "face " + std::to_string(largest_face_ + counts_from) + " names vertex " +
+                              std::to_string(std::uint64_t{largest_} + counts_from) + ", but there are " +
+                              std::to_string(positions.size()) + " vertices" +
+                              (counts_from != 0 ? ", counted from " + std::to_string(counts_from) : "");
     if (places_are_lines) input.fail_line(largest_place_, cause);
     input.fail_byte(largest_place_, cause);
   }
@@ -72,7 +74,8 @@ void FaceList::finish(const Input& input, bool places_are_lines, std::span<const
 LoadedMesh finish(const Input& input, MeshParts&& parts, const char* format) {
   LoadedMesh loaded;
   std::vector<Face> faces;
-  parts.faces.finish(input, parts.places_are_lines, parts.positions, faces, loaded.face_origin, parts.remarks);
+  parts.faces.finish(input, parts.places_are_lines, parts.counts_from, parts.positions, faces, loaded.face_origin,
+                     parts.remarks);
   try {
     loaded.mesh = Mesh(parts.positions, faces);
   } catch (const Error& e) {
@@ -80,6 +83,7 @@ LoadedMesh finish(const Input& input, MeshParts&& parts, const char* format) {
                 printable(input.name()) + ": " + e.what());
   }
   loaded.vertex_map = std::move(parts.vertex_map);
+  loaded.structure = std::move(parts.structure);
   loaded.remarks = std::move(parts.remarks);
   loaded.format = format;
   return loaded;

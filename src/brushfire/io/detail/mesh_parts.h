@@ -32,9 +32,9 @@ class FaceList {
   std::size_t count() const { return count_; }
 
   // Triangles for all faces; face_origin stays empty where triangles are all there was. Throws where a face names a
-  // vertex that is not there: `places_are_lines` says how to word it.
-  void finish(const Input& input, bool places_are_lines, std::span<const Vec3> positions, std::vector<Face>& faces,
-              std::vector<Index>& face_origin, std::vector<std::string>& remarks);
+  // vertex that is not there: `places_are_lines` says how to word it, `counts_from` (0 or 1) how the file counts.
+  void finish(const Input& input, bool places_are_lines, Index counts_from, std::span<const Vec3> positions,
+              std::vector<Face>& faces, std::vector<Index>& face_origin, std::vector<std::string>& remarks);
 
  private:
   void note(Index largest, std::size_t place) {
@@ -65,9 +65,14 @@ struct MeshParts {
   std::vector<Vec3> positions;
   FaceList faces;
   bool places_are_lines = true;
+  Index counts_from = 0;  // the number of the file's first vertex, for messages
   std::vector<Index> vertex_map;
+  std::string structure;
   std::vector<std::string> remarks;
 };
+
+// For files whose vertices all have two coordinates.
+inline constexpr const char* kPlanarRemark = "the vertices have two coordinates: z is 0";
 
 LoadedMesh finish(const Input& input, MeshParts&& parts, const char* format);
 

@@ -112,6 +112,15 @@ void Output::number(std::int64_t value) {
   write({text, static_cast<std::size_t>(result.ptr - text)});
 }
 
+void Output::numbers(std::initializer_list<double> values, char separator) {
+  bool is_first = true;
+  for (const double x : values) {
+    if (!is_first) write(separator);
+    number(x);
+    is_first = false;
+  }
+}
+
 void Output::commit() {
   flush();
   if (is_stdout_) return;

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +33,7 @@ class Output {
   void number(std::int64_t value);
   void number(std::uint32_t value) { number(static_cast<std::int64_t>(value)); }
   void number(std::int32_t value) { number(static_cast<std::int64_t>(value)); }
+  void numbers(std::initializer_list<double> values, char separator);
 
   // Values as bytes in the given order.
   template <class T>

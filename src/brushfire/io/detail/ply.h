@@ -26,6 +26,7 @@ struct Element {
   std::size_t line = 0;  // of the header
   std::vector<Property> properties;
 
+  // `property` in lower case; the file may write it in capitals.
   const Property* find(std::string_view property) const;
 };
 

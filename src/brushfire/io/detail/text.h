@@ -6,15 +6,24 @@
 #include <brushfire/io/detail/input.h>
 
 #include <fast_float/fast_float.h>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 
 namespace brushfire::detail {
 
-// Walks over text that is in memory: nothing is copied, and a line may be of any length.
+// The content from its first character that is no white space: where a text says what it is.
+inline std::string_view text_start(std::string_view bytes) {
+  return bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n\v\f"), bytes.size()));
+}
+
+// A number in a spelling that C++ does not know: Fortran's exponents (3.0D+00), and Microsoft's names for what is no
+// number (-1.#IND, 1.#QNAN, 1.#INF). False where the word is no number at all.
+bool read_foreign_number(std::string_view word, double& value);
+
+// Walks over text that is in memory: nothing is copied, and a line may be of any length. Lines end in LF, CR LF or CR.
 class TextCursor {
  public:
   // `comment`: the character that starts a comment up to the end of the line; 0 for none.
@@ -25,35 +34,35 @@ class TextCursor {
   const char* position() const { return at_; }
   std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
 
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-  static bool is_space(char c) { return is_blank(c) || c == '\n'; }
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+  static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+  static bool is_space(char c) { return is_blank(c) || is_line_end(c); }
 
   // To the next word on this line; false at its end.
   bool to_word_on_line() {
     while (at_ != end_ && is_blank(*at_)) ++at_;
     if (at_ != end_ && comment_ != 0 && *at_ == comment_) skip_to_end_of_line();
-    return at_ != end_ && *at_ != '\n';
+    return at_ != end_ && !is_line_end(*at_);
   }
 
   // To the next word, on whatever line; false at the end of the text.
   bool to_word() {
     while (!to_word_on_line()) {
       if (at_ == end_) return false;
-      end_line();
+      pass_line_end();
     }
     return true;
   }
 
   void skip_to_end_of_line() {
-    const void* newline = left() != 0 ? std::memchr(at_, '\n', left()) : nullptr;
-    at_ = newline != nullptr ? static_cast<const char*>(newline) : end_;
+    while (at_ != end_ && !is_line_end(*at_)) ++at_;
   }
 
   // Past the end of this line; false where it was the last.
   bool next_line() {
     skip_to_end_of_line();
     if (at_ == end_) return false;
-    end_line();
+    pass_line_end();
     return true;
   }
 
@@ -90,8 +99,15 @@ class TextCursor {
     const char* begin = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
     double value = 0;
     const auto result = fast_float::from_chars(begin, end_, value);
-    if (result.ec != std::errc() || (result.ptr != end_ && !is_space(*result.ptr))) fail_word(what);
-    at_ = result.ptr;
+    if (result.ec == std::errc() && (result.ptr == end_ || is_space(*result.ptr))) {
+      at_ = result.ptr;
+      return value;
+    }
+    begin = at_;
+    if (!read_foreign_number(word_here(), value)) {
+      at_ = begin;
+      fail_word(what);
+    }
     return value;
   }
 
@@ -200,14 +216,14 @@ class TextCursor {
   }
   [[noreturn]] void fail_word(const char* what) {
     if (at_ == end_) fail_end(what);
-    if (*at_ == '\n') fail(std::string("the line ends where ") + what + " is expected");
+    if (is_line_end(*at_)) fail(std::string("the line ends where ") + what + " is expected");
     fail(quote(word_here()) + " where " + what + " is expected");
   }
 
  private:
-  void end_line() {
+  void pass_line_end() {
     poll_();
-    ++at_;
+    at_ += *at_ == '\r' && left() > 1 && at_[1] == '\n' ? 2 : 1;
     ++line_;
   }
 

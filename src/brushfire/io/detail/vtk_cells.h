@@ -3,15 +3,20 @@
 
 #include <brushfire/io/detail/mesh_parts.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace brushfire::detail {
 
 class VtkCells {
  public:
+  static constexpr std::uint8_t kVertices = 2, kPolyline = 4;
+
   void add_polygon(const Input& input, std::span<const double> corners, std::size_t place, MeshParts& parts) {
     take(input, corners, place, parts);
     parts.faces.add(corners_, place);
@@ -27,7 +32,8 @@ class VtkCells {
     }
   }
 
-  void leave_out(std::uint64_t cells = 1) { left_out_ += cells; }
+  // Cells of this type of VTK's that are no faces.
+  void leave_out(std::uint8_t type, std::uint64_t cells = 1) { left_out_[type] += cells; }
 
   // Cells of an unstructured grid by their type; what is no face is left out.
   void add_grid(const Input& input, std::span<const double> offset, std::span<const double> connectivity,
@@ -43,22 +49,64 @@ class VtkCells {
   }
 
   void remark(MeshParts& parts) const {
-    if (left_out_ != 0)
-      parts.remarks.push_back(counted(left_out_, "cell that is no face", "cells that are no faces") + " left out");
+    std::uint64_t total = 0;
+    std::string names;
+    for (const auto& [type, cells] : left_out_) {
+      if (cells == 0) continue;
+      total += cells;
+      names += (names.empty() ? "" : ", ") + name_of(type) + ": " + std::to_string(cells);
+    }
+    if (total != 0) {
+      parts.remarks.push_back(counted(total, "cell that is no face", "cells that are no faces") + " left out (" +
+                              names + ")");
+    }
     if (curved_ != 0) {
       parts.remarks.push_back(counted(curved_, "curved face", "curved faces") + " read as flat, by the corners");
     }
   }
 
  private:
+  static constexpr int kStrip = 6, kPolygon = 7, kPixel = 8;
+
+  static std::string name_of(std::uint8_t type) {
+    static constexpr std::pair<std::uint8_t, const char*> kNames[]{{1, "vertex"},
+                                                                   {2, "vertices"},
+                                                                   {3, "line"},
+                                                                   {4, "polyline"},
+                                                                   {10, "tetrahedron"},
+                                                                   {11, "voxel"},
+                                                                   {12, "hexahedron"},
+                                                                   {13, "wedge"},
+                                                                   {14, "pyramid"},
+                                                                   {21, "curved line"},
+                                                                   {24, "curved tetrahedron"},
+                                                                   {25, "curved hexahedron"},
+                                                                   {42, "polyhedron"}};
+    for (const auto& [number, name] : kNames) {
+      if (number == type) return name;
+    }
+    return "type " + std::to_string(type);
+  }
+
+  struct Shape {
+    std::size_t corners = 0;  // 0: no face of a fixed number of corners
+    bool is_curved = false;
+  };
+  // The corners of a curved face stand before its other points.
+  static Shape shape_of(int type) {
+    constexpr int kFlat[]{5, 9}, kCurvedTriangles[]{22, 34, 69, 76}, kCurvedQuads[]{23, 28, 30, 70, 77};
+    const auto is_in = [&](const auto& types) {
+      return std::find(std::begin(types), std::end(types), type) != std::end(types);
+    };
+    if (is_in(kFlat)) return {type == 5 ? std::size_t{3} : std::size_t{4}, false};
+    if (is_in(kCurvedTriangles)) return {3, true};
+    return is_in(kCurvedQuads) ? Shape{4, true} : Shape{};
+  }
+
   void add_cell(const Input& input, double type, std::span<const double> corners, std::size_t place, MeshParts& parts) {
-    constexpr int kStrip = 6, kPolygon = 7, kPixel = 8, kTriangle = 5, kQuad = 9, kQuadraticTriangle = 22,
-                  kQuadraticQuad = 23;
     const int t = type >= 0 && type < 256 ? static_cast<int>(type) : 0;
-    const std::size_t n = t == kTriangle || t == kQuadraticTriangle          ? 3
-                          : t == kQuad || t == kPixel || t == kQuadraticQuad ? 4
-                                                                             : corners.size();
-    if (n > corners.size()) {
+    const Shape shape = shape_of(t);
+    if (corners.size() < (t == kPixel ? 4 : shape.corners)) {
       fail(input, place, parts,
            "a cell of type " + std::to_string(t) + " has " + std::to_string(corners.size()) + " corners");
     }
@@ -67,11 +115,11 @@ class VtkCells {
     } else if (t == kPixel) {
       const double turned[]{corners[0], corners[1], corners[3], corners[2]};
       add_polygon(input, turned, place, parts);
-    } else if (t == kTriangle || t == kPolygon || t == kQuad || t == kQuadraticTriangle || t == kQuadraticQuad) {
-      if (t == kQuadraticTriangle || t == kQuadraticQuad) ++curved_;
-      add_polygon(input, corners.first(n), place, parts);
+    } else if (t == kPolygon || shape.corners != 0) {
+      curved_ += shape.is_curved;
+      add_polygon(input, t == kPolygon ? corners : corners.first(shape.corners), place, parts);
     } else {
-      ++left_out_;
+      leave_out(static_cast<std::uint8_t>(t));
     }
   }
 
@@ -92,7 +140,8 @@ class VtkCells {
   }
 
   std::vector<Index> corners_;
-  std::uint64_t left_out_ = 0, curved_ = 0;
+  std::map<std::uint8_t, std::uint64_t> left_out_;  // cells by type
+  std::uint64_t curved_ = 0;
 };
 
 }  // namespace brushfire::detail

@@ -37,11 +37,44 @@ namespace {
 
 constexpr std::size_t kDeepest = 64;
 
+// Places in the input. Newer expats have functions of 64 bits on every machine and deprecate the others, whatever their
+// version number says (distributions backport them): `requires` looks whether they are there.
+template <class Parser>
+std::size_t line_number(Parser* parser) {
+  if constexpr (requires { XML_GetCurrentLineNumber64(parser); }) {
+    return static_cast<std::size_t>(XML_GetCurrentLineNumber64(parser));
+  } else {
+    return static_cast<std::size_t>(XML_GetCurrentLineNumber(parser));
+  }
+}
+
+template <class Parser>
+std::size_t byte_index(Parser* parser) {
+  if constexpr (requires { XML_GetCurrentByteIndex64(parser); }) {
+    return static_cast<std::size_t>(XML_GetCurrentByteIndex64(parser));
+  } else {
+    return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser));
+  }
+}
+
+template <class Parser>
+std::size_t byte_count(Parser* parser) {
+  if constexpr (requires { XML_GetCurrentByteCount64(parser); }) {
+    return static_cast<std::size_t>(XML_GetCurrentByteCount64(parser));
+  } else {
+    return static_cast<std::size_t>(XML_GetCurrentByteCount(parser));
+  }
+}
+
 class XmlStream {
  public:
   XmlStream(const Input& input, std::string_view stop_at,
             const std::function<void(std::span<const XmlElement>)>& finished)
-      : input_(&input), stop_at_(stop_at), finished_(&finished), parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
+      : input_(&input),
+        begin_(std::min(input.bytes().find_first_not_of(" \t\r\n"), input.size())),
+        stop_at_(stop_at),
+        finished_(&finished),
+        parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
     if (!parser_) throw std::bad_alloc();
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), start, end);
@@ -51,7 +84,7 @@ class XmlStream {
   std::size_t parse() {
     constexpr std::size_t kChunk = std::size_t{1} << 30;  // expat counts in int
     const std::string_view bytes = input_->bytes();
-    for (std::size_t at = 0; !stopped_;) {
+    for (std::size_t at = begin_; !stopped_;) {
       const std::size_t size = std::min(kChunk, bytes.size() - at);
       const bool last = at + size == bytes.size();
       const XML_Status status = XML_Parse(parser_.get(), bytes.data() + at, static_cast<int>(size), last);
@@ -77,18 +110,25 @@ class XmlStream {
     }
   }
 
-  std::size_t line() const { return static_cast<std::size_t>(XML_GetCurrentLineNumber(parser_.get())); }
-  std::size_t byte() const { return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get())); }
+  std::size_t line() const {
+    const std::string_view before = input_->bytes().substr(0, begin_);
+    return line_number(parser_.get()) + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+  }
+  std::size_t byte() const { return begin_ + byte_index(parser_.get()); }
 
   static void XMLCALL start(void* self, const XML_Char* name, const XML_Char** attributes) {
     auto& s = *static_cast<XmlStream*>(self);
     if (s.error_ || s.stopped_) return;
     s.guarded([&] {
       if (s.path_.size() == kDeepest) s.input_->fail_line(s.line(), "elements are nested more than 64 deep");
+      if (!s.path_.empty() && !s.path_.back().has_children) {
+        s.path_.back().has_children = true;
+        s.path_.back().text_end = s.byte();
+      }
       XmlElement e;
       e.name = name;
       e.line = s.line();
-      e.text_begin = s.byte() + static_cast<std::size_t>(XML_GetCurrentByteCount(s.parser_.get()));
+      e.text_begin = s.byte() + byte_count(s.parser_.get());
       for (; *attributes != nullptr; attributes += 2) e.attributes.emplace_back(attributes[0], attributes[1]);
       s.path_.push_back(std::move(e));
       if (s.path_.back().name == s.stop_at_) {
@@ -104,7 +144,8 @@ class XmlStream {
     auto& s = *static_cast<XmlStream*>(self);
     if (s.error_ || s.stopped_ || s.path_.empty()) return;
     s.guarded([&] {
-      s.path_.back().text_end = std::max(s.byte(), s.path_.back().text_begin);  // <a/> ends where it starts
+      XmlElement& e = s.path_.back();
+      if (!e.has_children) e.text_end = std::max(s.byte(), e.text_begin);  // <a/> ends where it starts
       (*s.finished_)(s.path_);
       s.path_.pop_back();
     });
@@ -117,6 +158,7 @@ class XmlStream {
   }
 
   const Input* input_;
+  std::size_t begin_;  // of what XML calls the document: some files have white space before it
   std::string_view stop_at_;
   const std::function<void(std::span<const XmlElement>)>* finished_;
   std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;

@@ -17,8 +17,9 @@ struct XmlElement {
   std::string name;
   std::vector<std::pair<std::string, std::string>> attributes;
   std::size_t line = 0;        // of the start tag
-  std::size_t text_begin = 0;  // bytes between the tags
+  std::size_t text_begin = 0;  // bytes between the start tag and the end tag, or the first child if there is one
   std::size_t text_end = 0;
+  bool has_children = false;
 
   // Empty where there is no such attribute.
   std::string_view attribute(std::string_view key) const;

@@ -1,0 +1,383 @@
+// Answers of the solvers beside those of the oracle.
+#include "corpus/check.h"
+
+#include <brushfire/core/error.h>
+#include <brushfire/queries/path.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace brushfire::corpus {
+namespace {
+
+using oracle::Arithmetic;
+using oracle::kFar;
+using oracle::Real;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// The truth itself is rounded, to 64 bits.
+constexpr Real kTruthRounding = 0x1p-63L;
+// Quad was right where 237 bits say the same to this share.
+constexpr Real kSure = 1e-15L;
+// With 237 bits a window takes a tenth of a millisecond and more: beyond so many the quad's word is taken.
+constexpr std::uint64_t kMostWindowsOfOctuple = 200'000;
+
+// Of so many cases one is asked about with 237 bits whether or not anything seems wrong.
+constexpr std::uint64_t kOctupleEvery = 16;
+
+constexpr double kSolveSeconds = 2, kTruthSeconds = 5, kOctupleSeconds = 120;
+
+// A value, what it should be, the length of the path to it (without an offset) and the bound that came along (infinity:
+// none).
+struct Value {
+  double got;
+  Real truth, length;
+  double bound;
+};
+
+std::string off(const Value& v, const std::string& where) {
+  char text[200];
+  const Real error = std::abs(v.got - v.truth);
+  std::snprintf(text, sizeof text, "%s reads %.17g, is %.19Lg, off by %.2Lg (%.2Lg of it), bound %.2g", where.c_str(),
+                v.got, v.truth, error, v.length > 0 ? error / v.length : 0, v.bound);
+  return text;
+}
+
+bool same_reach(const Value& v, const std::string& where, Outcome& out) {
+  ++out.compared;
+  if (!std::isnan(v.got) && (v.got == kInfinity) == (v.truth == kFar)) return v.truth < kFar;
+  ++out.beyond;
+  out.worst = kInfinity;
+  out.complain(off(v, where));
+  return false;
+}
+
+// The exact method's promise.
+void hold_exact(const Value& v, const std::string& where, Outcome& out) {
+  if (!same_reach(v, where, out)) return;
+  const Real error = std::abs(v.got - v.truth);
+  const Real room = std::max({Real{kExactPromise} * v.length, Real{2 * kEpsilon} * std::abs(v.truth),
+                              v.bound < kInfinity ? Real{v.bound} : Real{0}});
+  if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(error / v.length));
+  if (error > room) ++out.beyond;
+  if (error > v.bound * (1 + kTruthRounding)) ++out.unbound;
+  if (error > room || error > v.bound) out.complain(off(v, where));
+}
+
+// A bound's promise. `offsets`: the largest of the sources, whose rounding a bound may hold.
+void hold_bound(const Value& v, double tolerance, double offsets, const std::string& where, Outcome& out) {
+  if (!same_reach(v, where, out)) return;
+  const Real error = std::abs(v.got - v.truth);
+  if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(error / v.length));
+  const bool too_wide = v.bound > tolerance * v.length + 16 * kEpsilon * (std::abs(v.got) + offsets);
+  if (error > v.bound + kTruthRounding * std::abs(v.truth)) {
+    ++out.unbound;
+    out.complain(off(v, where));
+  } else if (too_wide) {
+    ++out.beyond;
+    out.complain("bound beyond the tolerance: " + off(v, where));
+  }
+}
+
+// One side of the truth.
+void hold_side(const Value& v, bool below, const std::string& where, Outcome& out) {
+  if (!same_reach(v, where, out)) return;
+  const Real rounding = kTruthRounding * std::abs(v.truth);
+  const bool wrong = below ? v.got > v.truth + rounding : v.got < v.truth - rounding;
+  if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(std::abs(v.got - v.truth) / v.length));
+  if (!wrong) return;
+  ++out.beyond;
+  out.complain(off(v, where));
+}
+
+std::string vertex_text(Index v) { return "vertex " + std::to_string(v); }
+std::string target_text(const SurfacePoint& p) { return "target " + place_text(p); }
+
+DistanceOptions options_of(const Task& task) {
+  DistanceOptions options;
+  options.method = task.method;
+  options.tolerance = task.tolerance;
+  if (task.kind == Task::Kind::Lower) options.bound = Bound::Lower;
+  if (task.kind == Task::Kind::Upper) options.bound = Bound::Upper;
+  return options;
+}
+
+double bound_of(const DistanceField& field, Index v) {
+  return field.error_bound.empty() ? kInfinity : field.error_bound[v];
+}
+
+}  // namespace
+
+std::string Task::name() const {
+  char text[40];
+  switch (kind) {
+    case Kind::Truth:
+      return "oracle";
+    case Kind::Paths:
+      return "paths";
+    case Kind::Targets:
+      return "targets";
+    case Kind::Radius:
+      return "radius";
+    case Kind::Windows:
+    case Kind::Lower:
+    case Kind::Upper:
+      std::snprintf(text, sizeof text, "%s %g",
+                    kind == Kind::Windows ? "windows"
+                    : kind == Kind::Lower ? "lower"
+                                          : "upper",
+                    tolerance);
+      return text;
+    case Kind::Exact:
+    case Kind::Other:
+      break;
+  }
+  return std::string(name_of(method));
+}
+
+double seconds_for(const Task& task) { return task.kind == Task::Kind::Truth ? kTruthSeconds : kSolveSeconds; }
+
+std::vector<Task> tasks_of(const std::vector<std::string>& methods, const std::vector<double>& tolerances) {
+  using Kind = Task::Kind;
+  std::vector<Task> all{{Kind::Truth, 0, Method::Exact},
+                        {Kind::Exact, 0, Method::Exact},
+                        {Kind::Paths, 0, Method::Exact},
+                        {Kind::Targets, 0, Method::Exact},
+                        {Kind::Radius, 0, Method::Exact}};
+  for (const Kind kind : {Kind::Windows, Kind::Lower, Kind::Upper}) {
+    for (const double t : tolerances) all.push_back({kind, t, Method::Windows});
+  }
+  for (const Method m : all_methods()) {
+    if (m != Method::Exact && m != Method::Windows) all.push_back({Kind::Other, 0, m});
+  }
+  if (methods.empty()) return all;
+  const auto is_called = [](const Task& task, const std::string& word) {
+    return task.name().substr(0, task.name().find(' ')) == word;
+  };
+  std::vector<Task> chosen{all.front()};
+  for (const std::string& word : methods) {
+    const std::size_t before = chosen.size();
+    for (const Task& task : all) {
+      if (task.kind != Kind::Truth && is_called(task, word)) chosen.push_back(task);
+    }
+    if (chosen.size() == before) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "'" + word + "' is no method, and not paths, targets, radius, lower, upper");
+    }
+  }
+  return chosen;
+}
+
+void Examination::turn_to(std::uint64_t index, std::size_t start) {
+  if (index != index_) case_ = make_case(family_, seed_, index);
+  if (index != index_ || start != start_) has_truth_ = false;
+  index_ = index;
+  start_ = start;
+}
+
+const oracle::Truth& Examination::truth() {
+  if (has_truth_) return truth_;
+  limit_processor_time(kTruthSeconds);
+  arithmetic_ = Arithmetic::Quad;
+  truth_ = oracle::polyhedral_distance(case_.plain, case_.starts[start_], kFar, case_.targets, arithmetic_);
+  has_truth_ = true;
+  limit_processor_time(kSolveSeconds);
+  return truth_;
+}
+
+// Gives the truth twice the digits, where that is to be had; whether it makes a difference.
+bool Examination::more_digits_differ() {
+  if (arithmetic_ == Arithmetic::Octuple || truth().windows > kMostWindowsOfOctuple) return false;
+  limit_processor_time(kOctupleSeconds);
+  arithmetic_ = Arithmetic::Octuple;
+  const std::vector<Real> before = truth_.distance;
+  truth_ = oracle::polyhedral_distance(case_.plain, case_.starts[start_], kFar, case_.targets, arithmetic_);
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    const Real after = truth_.distance[v];
+    if (before[v] != after && !(std::abs(before[v] - after) <= kSure * std::abs(after))) return true;
+  }
+  return false;
+}
+
+Outcome Examination::run(std::uint64_t index, std::size_t start, const Task& task) {
+  turn_to(index, start);
+  if (start >= case_.starts.size()) return {};
+  truth();
+  const auto once = [&] {
+    switch (task.kind) {
+      case Task::Kind::Truth:
+        return Outcome{};
+      case Task::Kind::Exact:
+        return exact(options_of(task));
+      case Task::Kind::Paths:
+        return paths();
+      case Task::Kind::Targets:
+        return targets();
+      case Task::Kind::Radius:
+        return radius();
+      case Task::Kind::Windows:
+      case Task::Kind::Lower:
+      case Task::Kind::Upper:
+        return windows(task);
+      case Task::Kind::Other:
+        break;
+    }
+    return other(task);
+  };
+  Outcome outcome = once();
+  if (task.kind == Task::Kind::Truth && index % kOctupleEvery == 0) outcome.unsure = more_digits_differ();
+  const bool last_bits = task.kind == Task::Kind::Lower || task.kind == Task::Kind::Upper;
+  if (outcome.good() || last_bits) return outcome;
+  // Before a solver is blamed, the oracle is asked again with twice the digits.
+  const bool changed = more_digits_differ();
+  limit_processor_time(kSolveSeconds);
+  outcome = once();
+  outcome.unsure = changed;
+  return outcome;
+}
+
+namespace {
+
+// What the value at v is made of: the path's length is what remains without the offset of its source.
+Value value_at(const DistanceField& field, std::span<const Source> sources, const std::vector<Real>& truth, Index v) {
+  const double offset = field.source[v] < sources.size() ? sources[field.source[v]].offset : 0;
+  return {field.distance[v], truth[v], std::abs(truth[v] - offset), bound_of(field, v)};
+}
+
+}  // namespace
+
+Outcome Examination::exact(const DistanceOptions& options) {
+  Outcome out;
+  const std::vector<Source>& sources = case_.starts[start_];
+  const DistanceField field = distance(case_.mesh, sources, options);
+  for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
+    hold_exact(value_at(field, sources, truth().distance, v), vertex_text(v), out);
+  }
+  return out;
+}
+
+Outcome Examination::targets() {
+  Outcome out;
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.targets = case_.targets;
+  const std::vector<Source>& sources = case_.starts[start_];
+  const DistanceField field = distance(case_.mesh, sources, options);
+  for (std::size_t i = 0; i < case_.targets.size(); ++i) {
+    const Index source = field.target_source[i];
+    const double offset = source < sources.size() ? sources[source].offset : 0;
+    const Real truth = truth_.target[i];
+    hold_exact({field.target_distance[i], truth, std::abs(truth - offset), kInfinity}, target_text(case_.targets[i]),
+               out);
+  }
+  return out;
+}
+
+// Half of the vertices are within the radius, which lies between two values.
+Outcome Examination::radius() {
+  Outcome out;
+  std::vector<Real> values;
+  for (const Real d : truth().distance) {
+    if (d < kFar && d >= 0) values.push_back(d);
+  }
+  if (values.empty()) return out;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  const Real middle = values[values.size() / 2];
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.max_distance = static_cast<double>(middle) * (1 + 1e-9);
+  const std::vector<Source>& sources = case_.starts[start_];
+  const DistanceField field = distance(case_.mesh, sources, options);
+  for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
+    Value value = value_at(field, sources, truth().distance, v);
+    // What is at the radius itself may fall on either side.
+    const Real room = std::max(Real{1e-8} * std::abs(middle), Real{1e-12} * value.length);
+    if (std::abs(value.truth - options.max_distance) <= room) continue;
+    if (value.truth > options.max_distance) value.truth = kFar;
+    hold_exact(value, vertex_text(v), out);
+  }
+  return out;
+}
+
+Outcome Examination::windows(const Task& task) {
+  Outcome out;
+  const std::vector<Source>& sources = case_.starts[start_];
+  double offsets = 0;
+  for (const Source& s : sources) offsets = std::max(offsets, std::abs(s.offset));
+  const DistanceField field = distance(case_.mesh, sources, options_of(task));
+  for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
+    const Value value = value_at(field, sources, truth().distance, v);
+    if (task.kind == Task::Kind::Windows) {
+      hold_bound(value, task.tolerance, offsets, vertex_text(v), out);
+    } else {
+      hold_side(value, task.kind == Task::Kind::Lower, vertex_text(v), out);
+    }
+  }
+  return out;
+}
+
+Outcome Examination::other(const Task& task) {
+  Outcome out;
+  const std::vector<Source>& sources = case_.starts[start_];
+  const DistanceField field = distance(case_.mesh, sources, options_of(task));
+  for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
+    const Value value = value_at(field, sources, truth().distance, v);
+    if (!same_reach(value, vertex_text(v), out)) continue;
+    const bool too_short = task.method == Method::Dijkstra && value.got < value.truth - kExactPromise * value.length -
+                                                                              2 * kEpsilon * std::abs(value.truth);
+    if (!too_short) continue;
+    ++out.beyond;
+    out.complain(off(value, vertex_text(v)));
+  }
+  return out;
+}
+
+Outcome Examination::paths() {
+  Outcome out;
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_windows = true;
+  const std::vector<Source>& sources = case_.starts[start_];
+  const DistanceField field = distance(case_.mesh, sources, options);
+  const auto hold = [&](const SurfacePoint& to, const std::string& where) {
+    const WindowField::Value value = field.windows->value(to);
+    const double d = value.distance - (value.source < sources.size() ? sources[value.source].offset : 0);
+    ++out.compared;
+    SurfacePath path;
+    try {
+      path = path_to(*field.windows, to);
+    } catch (const Error& e) {
+      ++out.lost;
+      return out.complain("to " + where + ": " + e.what());
+    }
+    if ((path.length == kInfinity) != (d == kInfinity) || path.points.empty() != (d == kInfinity)) {
+      ++out.lost;
+      return out.complain("to " + where + ": no way, and the field says " + std::to_string(d));
+    }
+    if (d == kInfinity) return;
+    const double error = std::abs(path.length - d);
+    const double rounding = 2 * kEpsilon * std::abs(value.distance);  // of the offset
+    if (d > 0) out.worst = std::max(out.worst, error / d);
+    if (error > kPathPromise * d + rounding) {
+      ++out.beyond;
+      char text[160];
+      std::snprintf(text, sizeof text, "to %s: %.17g long, the field says %.17g", where.c_str(), path.length, d);
+      out.complain(text);
+    }
+    try {
+      length_of(case_.mesh, path.points);
+    } catch (const Error& e) {
+      ++out.lost;
+      out.complain("to " + where + ": " + e.what());
+    }
+  };
+  for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
+    if (case_.mesh.first_corner(v) != kNoIndex) hold(vertex_point(case_.mesh, v), vertex_text(v));
+  }
+  for (const SurfacePoint& p : case_.targets) hold(p, target_text(p));
+  return out;
+}
+
+}  // namespace brushfire::corpus

@@ -1,0 +1,178 @@
+// brushfire convert: any file that is read to any that is written.
+#include "command_line.h"
+#include "output.h"
+#include "surface.h"
+#include "where.h"
+
+#include <brushfire/core/error.h>
+#include <brushfire/io/read_field.h>
+#include <brushfire/io/read_lines.h>
+#include <brushfire/io/write_field.h>
+#include <brushfire/io/write_mesh.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+
+namespace brushfire::tool {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  brushfire convert scan.obj scan.ply
+  brushfire convert part.stl part.off --weld 1e-6
+  brushfire convert lh.white lh.white.surf.gii
+  brushfire convert lh.white lh.thickness.ply --scalar lh.thickness
+  brushfire convert distance.npy distance.csv
+  brushfire convert path.json path.dxf --mesh part.stl --unit in
+
+What is converted is what the output holds: a mesh, with the values of --scalar where it has a place for them; values on
+vertices where the output is .npy, .csv, .json, .curv, .shape.gii, .func.gii or .label.gii; curves where it is .svg or .dxf,
+or with --mesh, the surface that they lie on. A field file alone is converted without a mesh. Numbers of vertices stay; --weld changes them.)";
+
+struct Arguments {
+  SurfaceArguments input;
+  std::string output, scalar_file, name, mesh_file;
+  DrawingArguments drawing;
+};
+
+bool ends_with_any(const std::string& text, std::initializer_list<const char*> ends) {
+  return std::any_of(ends.begin(), ends.end(), [&](const char* end) { return text.ends_with(end); });
+}
+
+bool holds_values_only(const std::string& output) {
+  return ends_with_any(output, {".npy", ".csv", ".json", ".curv", ".shape.gii", ".func.gii", ".label.gii"});
+}
+
+// The values of a file by itself, on the vertices that it lists or in its order.
+FieldView view_of(const std::vector<double>& values, const LoadedField& field) {
+  FieldView view{.values = values};
+  const bool is_plain = !field.name.empty() && std::all_of(field.name.begin(), field.name.end(), [](unsigned char c) {
+    return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.');
+  });
+  view.name = is_plain ? field.name : "value";
+  return view;
+}
+
+std::string convert_field(const Arguments& a, const std::string& file) {
+  const LoadedField field = read_field(file, a.name);
+  Index vertices = static_cast<Index>(field.values.size());
+  for (const Index v : field.vertices) vertices = std::max(vertices, v + 1);
+  const std::vector<double> values = values_on_vertices(field, vertices);
+  // Formats of values know the number of vertices of a mesh, and nothing else of it.
+  const Mesh mesh(std::vector<Vec3>(vertices), {});
+  write_field(a.output, mesh, view_of(values, field));
+  return field.format;
+}
+
+std::string convert_mesh(const Arguments& a) {
+  const Surface surface(a.input);
+  if (a.scalar_file.empty()) {
+    write_mesh(a.output, surface.mesh(), "", surface.file().structure);
+    return surface.file().format;
+  }
+  if (surface.is_welded()) refuse("--scalar has values for the file's vertices: no --weld");
+  const LoadedField field = read_field(a.scalar_file, a.name);
+  const std::vector<double> values = values_on_vertices(field, surface.mesh().vertex_count());
+  FieldView view = view_of(values, field);
+  view.structure = surface.file().structure;
+  write_field(a.output, surface.mesh(), view);
+  return surface.file().format;
+}
+
+// A mesh of nothing but the curves' points, one face at each: for drawings, which need no surface.
+Mesh mesh_of_points(const LoadedLines& loaded) {
+  std::vector<Vec3> positions;
+  for (const LoadedLine& line : loaded.lines) {
+    positions.insert(positions.end(), line.positions.begin(), line.positions.end());
+  }
+  std::vector<Face> faces;
+  for (Index v = 0; v < positions.size(); ++v) faces.push_back({v, v, v});
+  return Mesh(positions, faces);
+}
+
+bool is_drawing(const std::string& output) { return ends_with_any(output, {".svg", ".dxf"}); }
+
+std::string convert_lines(const Arguments& a, const Talk& talk) {
+  const LinesOptions drawing = lines_options(a.output, a.drawing);
+  const LoadedLines loaded = read_lines(a.input.file);
+  const bool has_mesh = !a.mesh_file.empty();
+  if (!has_mesh && a.drawing.outline) refuse("--outline needs the --mesh");
+  const Mesh mesh = has_mesh ? Surface({a.mesh_file, a.input.weld}).mesh() : mesh_of_points(loaded);
+  PlaceFinder finder(mesh, {});
+  std::vector<SurfaceLine> lines;
+  Index point = 0;
+  for (const LoadedLine& line : loaded.lines) {
+    SurfaceLine& out = lines.emplace_back();
+    out.closed = line.closed;
+    out.value = line.value;
+    if (has_mesh && !line.points.empty()) {
+      out.points = line.points;
+    } else {
+      if (line.positions.empty() && !line.points.empty()) refuse(a.input.file + " has no positions: give the --mesh");
+      for (const Vec3& p : line.positions) {
+        const Where where{.place = p, .text = "point " + std::to_string(point)};
+        out.points.push_back(has_mesh ? finder.target(where) : SurfacePoint{point, {1, 0, 0}});
+        ++point;
+      }
+    }
+  }
+  finder.tell(talk);
+  write_lines(a.output, mesh, lines, loaded.value_name.empty() ? "value" : loaded.value_name, "", drawing);
+  return loaded.format;
+}
+
+std::string convert(const Arguments& a, const Talk& talk) {
+  if (!a.mesh_file.empty() || is_drawing(a.output)) return convert_lines(a, talk);
+  if (!holds_values_only(a.output)) return convert_mesh(a);
+  check_output(a.output);
+  return convert_field(a, a.scalar_file.empty() ? a.input.file : a.scalar_file);
+}
+
+// Before a large file is read.
+void check(const Arguments& a) {
+  if (!a.mesh_file.empty() || is_drawing(a.output) || holds_values_only(a.output)) return;
+  try {
+    a.scalar_file.empty() ? check_mesh_format(a.output) : check_field_format(a.output);
+  } catch (const Error& e) {
+    refuse(e.what());
+  }
+}
+
+int convert_verb(const Arguments& a, const Talk& talk) {
+  check(a);
+  const std::string format = convert(a, talk);
+  if (talk.json) {
+    write_stdout(Record().add("file", a.input.file).add("format", format).add("output", a.output).json());
+  } else {
+    talk.say(a.output + ": from " + format);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void add_convert(CommandLine& command_line) {
+  const auto a = std::make_shared<Arguments>();
+  command_line.add("convert", "Any file that is read to any that is written", [&](Verb& verb) {
+    const std::string in = "What to convert. Meshes: " + names_of(meshes_read()) +
+                           ". Values: " + names_of(fields_read()) + ". Curves: " + names_of(lines_read());
+    const std::string out = "Where to. Meshes: " + extensions_of(meshes_written()) +
+                            ". Values: " + extensions_of(fields_written()) +
+                            ". Curves: " + extensions_of(lines_written());
+    verb.argument("INPUT", a->input.file, in.c_str());
+    verb.argument("OUTPUT", a->output, out.c_str());
+    verb.option("--weld", a->input.weld, "T", "Join vertices within T of one another (0: equal ones)");
+    verb.option("--scalar", a->scalar_file, "FIELD", "Values to go with the mesh, one per vertex");
+    verb.option("--name", a->name, "NAME", "Which array or column of the values");
+    verb.option("--mesh", a->mesh_file, "FILE", "The input is curves, on this mesh");
+    verb.choice("--unit", a->drawing.unit, {"mm", "um", "cm", "m", "in"},
+                "Of the mesh, for .svg and .dxf in real size");
+    verb.option("--view", a->drawing.view, "NAME", "For .svg: front, back, left, right, top or bottom");
+    verb.flag("--outline", a->drawing.outline, "For .svg and .dxf: the outline of the mesh too");
+    verb.talks();
+    verb.examples(kExamples);
+    verb.run([a](Talk& talk) { return convert_verb(*a, talk); });
+  });
+}
+
+}  // namespace brushfire::tool
