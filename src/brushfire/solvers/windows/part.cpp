@@ -180,6 +180,7 @@ bool Part::take(Index v, Real value, const Ray& ray, bool all_around) {
   const bool lower = value < before;
   if (!lower && (!run_->several || value > before || label_of(ray.root) >= run_->origins[v].label)) return false;
   least = value;
+  run_->values[v].direct = false;
   if (run_->several) run_->origins[v] = {ray.root, label_of(ray.root)};
   if (!run_->rays.empty()) run_->rays[v] = ray;
   if (!all_around && run_->structure.bend[v] == Bend::None) return true;

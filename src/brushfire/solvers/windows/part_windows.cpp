@@ -344,6 +344,7 @@ void Part::start_in_face(const FaceWeights& at, Real sigma, Index root, Workbenc
     reach(f.vertex[k], value);
     expect(f.vertex[k], value, 0);
     offer(f.vertex[k], value, ray, ray.halfedge == kNoIndex || distance[k] < kNear * longest);
+    if (run_->values[f.vertex[k]].lower == value) run_->values[f.vertex[k]].direct = true;
     if (ray.halfedge == kNoIndex) continue;
     Window w;
     w.b1 = f.length[next3(k)];

@@ -68,6 +68,7 @@ VertexValues Results::all_copies(Index v) const {
   VertexValues all = run_.values[v];
   for (Index c = all.next_copy; c != v && c != kNoIndex; c = run_.values[c].next_copy) {
     all.upper = std::min(all.upper, run_.values[c].upper);
+    if (run_.values[c].lower <= all.lower) all.direct |= run_.values[c].direct;
     all.lower = std::min(all.lower, run_.values[c].lower);
     all.estimate = std::min(all.estimate, run_.values[c].estimate);
   }
@@ -108,7 +109,7 @@ Results::Tally Results::write_vertices(const Part& part) {
       return;
     }
     const Index label = label_of(v);
-    const Reading r = read(s.lower, s.upper, s.estimate, label);
+    const Reading r = read(s.lower, s.upper, s.estimate, label, rounding_at(outer, s));
     field_.distance[outer] = to_double(r.value - run_.shift);
     field_.source[outer] = label;
     if (!run_.problem->touched) field_.error_bound[outer] = r.bound;
@@ -125,12 +126,35 @@ void Results::write_targets() {
     if (t.upper == kInfinity) continue;
     field_.target_source[i] = label_of(t.ray.root);
     field_.target_distance[i] =
-        to_double(read(t.lower, t.upper, t.estimate, field_.target_source[i]).value - run_.shift);
+        to_double(read(t.lower, t.upper, t.estimate, field_.target_source[i], run_.rounding).value - run_.shift);
   }
 }
 
-Reading Results::read(Real lower, Real upper, Real estimate, Index label) const {
-  return reading_of(lower, upper, estimate, run_.start_of(label), run_.budget.share, run_.rounding,
+// A vertex that a source sees within its own face is as far as that straight line is long, which is the chord in space:
+// no frame had a part in it, however near the source is.
+Rounding Results::rounding_at(Index outer, const VertexValues& values) const {
+  constexpr std::size_t kFewSources = 64;  // each of the others is looked at
+  const std::span<const LocatedSource> sources = run_.problem->sources;
+  const Mesh& mesh = run_.structure.mesh;
+  if (!values.direct || !mesh.has_positions() || sources.size() > kFewSources) return run_.rounding;
+  const Real unit = mesh.unit();
+  for (const LocatedSource& s : sources) {
+    if (sources.size() == 1) break;
+    const Face& t = mesh.faces()[s.at.face];
+    brushfire::Vec3 chord;
+    for (std::size_t k = 0; k < 3; ++k) {
+      chord = chord + s.at.weights[k] * (mesh.positions()[t[k]] - mesh.positions()[outer]);
+    }
+    // Nearer, or not surely farther: then windows decided.
+    if (run_.start_of(s.label) + norm(chord) / unit < values.lower * (1 - 1e-12)) return run_.rounding;
+  }
+  Rounding direct = run_.rounding;
+  direct.absolute = 0;
+  return direct;
+}
+
+Reading Results::read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const {
+  return reading_of(lower, upper, estimate, run_.start_of(label), run_.shift, run_.budget.share, rounding,
                     run_.problem->options->bound);
 }
 

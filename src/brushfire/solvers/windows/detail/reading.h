@@ -35,19 +35,21 @@ struct Reading {
   double bound, relative;
 };
 
-// For lower <= distance <= upper, to rounding, of a place whose paths begin with the value `start`; `share`: of the
-// budget, 0 where the run was exact. A bound that is wanted stays on its side whatever rounding did.
-inline Reading reading_of(Real lower, Real upper, Real estimate, Real start, double share, const Rounding& rounding,
-                          Bound wanted) {
+// For lower <= distance <= upper, to rounding, of a place whose paths begin with the value `start`, all of them raised
+// by `shift`; `share`: of the budget, 0 where the run was exact. A bound that is wanted stays on its side whatever
+// rounding did.
+inline Reading reading_of(Real lower, Real upper, Real estimate, Real start, Real shift, double share,
+                          const Rounding& rounding, Bound wanted) {
   lower = std::min(lower, upper);  // in exact runs they differ by rounding
   const Real length = lower - start;
   const bool exact = !(share > 0);
   if (exact) upper = lower;
-  const double rounded = rounding.of(to_double(length)) + kOffsetRounding * std::abs(to_double(start));
+  const double of_offset = kOffsetRounding * (std::abs(to_double(start)) + std::abs(to_double(shift)));
+  const double rounded = rounding.of(to_double(length)) + of_offset;
   Real value = lower;
   switch (wanted) {
     case Bound::Lower:
-      value = length > 0 ? std::max(lower - rounded, start) : lower;
+      value = std::max(lower - rounded, start - of_offset);
       break;
     case Bound::Upper:
       value = upper + rounded;
@@ -62,7 +64,7 @@ inline Reading reading_of(Real lower, Real upper, Real estimate, Real start, dou
     }
   }
   const double bound = to_double(std::max(value - lower, upper - value)) + rounded;
-  return {value, bound, length > 0 ? (bound - kOffsetRounding * std::abs(to_double(start))) / to_double(length) : 0};
+  return {value, bound, length > 0 ? (bound - of_offset) / to_double(length) : 0};
 }
 
 }  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

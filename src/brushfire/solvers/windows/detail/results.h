@@ -23,7 +23,8 @@ class Results {
   Index label_of(Index root) const;
   VertexValues all_copies(Index v) const;
   bool is_first_copy(Index v) const;
-  Reading read(Real lower, Real upper, Real estimate, Index label) const;
+  Rounding rounding_at(Index outer, const VertexValues& values) const;
+  Reading read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const;
   Index outer_root(Index root) const;
   Ray outer(Ray ray) const;
   void finish_targets();

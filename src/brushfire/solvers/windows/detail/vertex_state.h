@@ -13,9 +13,10 @@ struct alignas(32) VertexValues {
   Real estimate = kInfinity;   // the least distance that a window expected that saw it, before merging
   Index next_copy = kNoIndex;  // in another part; the copies of a vertex form a ring. kNoIndex: there is one only
   bool sent = false;           // among the news that are about to be sent to the other copies
+  bool direct = false;         // `lower` came straight from a source in a face of the vertex
 
   bool has_copies() const { return next_copy != kNoIndex; }
-  void forget() { *this = {kInfinity, kInfinity, kInfinity, next_copy, false}; }
+  void forget() { *this = {kInfinity, kInfinity, kInfinity, next_copy, false, false}; }
 };
 static_assert(sizeof(VertexValues) == 32 || kWide);
 
