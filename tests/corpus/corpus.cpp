@@ -255,7 +255,7 @@ std::uint64_t today() { return static_cast<std::uint64_t>(std::time(nullptr)) / 
 
 constexpr const char* kFooter =
     R"(A case is named by its family, a seed and an index, and is the same anywhere. Every failure prints the command
-that makes it again. Exit code 1 where anything is wrong.
+that makes it again. Exit code 1 where a promise is broken: any of the columns but "off the field" and "others".
 
   beyond         farther from the truth than max(1e-12 of the value, its error_bound): exact, at vertices and targets
   bound broken   farther than error_bound

@@ -102,7 +102,7 @@ void finish_targets(double unit, std::span<const PointLocation> targets, const O
       d = field.distance[targets[i].vertex];
       source = field.source[targets[i].vertex];
     }
-    d = offsets.value(d, source, unit);
+    d = offsets.value(d, source, unit, options.bound);
     if (d == kInfinity || d > options.max_distance) {
       d = kInfinity;
       source = kNoIndex;
@@ -126,7 +126,7 @@ void finish(const Mesh& mesh, std::span<const PointLocation> targets, const Offs
   for (std::size_t v = 0; v < field.distance.size(); ++v) {
     double& d = field.distance[v];
     if (d == kInfinity) continue;
-    d = offsets.value(d, field.source[v], unit);
+    d = offsets.value(d, field.source[v], unit, options.bound);
     if (d == kInfinity || d > options.max_distance) {
       d = kInfinity;
       field.source[v] = kNoIndex;
@@ -157,7 +157,7 @@ void collect(double unit, std::span<const PointLocation> targets, const Offsets&
   result.source.resize(touched.size());
   std::size_t count = 0;
   for (const Index v : touched) {
-    const double d = offsets.value(field.distance[v], field.source[v], unit);
+    const double d = offsets.value(field.distance[v], field.source[v], unit, options.bound);
     if (d == kInfinity || d > options.max_distance) continue;
     result.vertex[count] = v;
     result.distance[count] = d;

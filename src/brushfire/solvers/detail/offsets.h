@@ -3,6 +3,7 @@
 
 #include <brushfire/solvers/detail/engine.h>
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -22,9 +23,13 @@ class Offsets {
   std::span<const double> bases() const { return bases_; }
 
   // A value of the engine's from this source (kNoIndex: none), in the mesh's units.
-  double value(double engine_value, Index source, double unit) const {
+  // `bound`: on which side of it, whatever the sum rounds to.
+  double value(double engine_value, Index source, double unit, Bound bound = Bound::Estimate) const {
     const double above = engine_value * unit;
-    return bases_.empty() || source == kNoIndex ? above : bases_[source] + above;
+    if (bases_.empty() || source == kNoIndex || !(above < kInfinity)) return above;
+    const double sum = bases_[source] + above;
+    if (bound == Bound::Estimate) return sum;
+    return std::nextafter(sum, bound == Bound::Lower ? -kInfinity : kInfinity);
   }
   // The engine's bound of such a value, with what adding the base rounds away.
   double bound(double engine_bound, double value, double unit) const;
