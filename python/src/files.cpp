@@ -19,6 +19,18 @@ std::vector<Index> labels_from(const Vector<std::int32_t>& labels) {
   return result;
 }
 
+// A mesh without anything on it, in the formats of meshes; others know it as a field without values, and say what is
+// missing.
+void write_bare(const std::string& path, const Mesh& mesh, const std::string& structure, const std::string& format) {
+  const nb::gil_scoped_release release;
+  try {
+    check_mesh_format(path, format);
+  } catch (const Error&) {
+    return write_field(path, mesh, {}, format);
+  }
+  write_mesh(path, mesh, format, structure);
+}
+
 void write_values(const std::string& path, const Mesh& mesh, const std::optional<Vector<double>>& values,
                   const std::optional<Vector<std::int32_t>>& labels, const std::string& name,
                   const std::string& label_name, const std::string& structure, const std::string& format) {
@@ -32,18 +44,6 @@ void write_values(const std::string& path, const Mesh& mesh, const std::optional
   field.structure = structure;
   const nb::gil_scoped_release release;
   write_field(path, mesh, field, format);
-}
-
-// A mesh without anything on it, in the formats of meshes; others know it as a field without values, and say what is
-// missing.
-void write_bare(const std::string& path, const Mesh& mesh, const std::string& structure, const std::string& format) {
-  const nb::gil_scoped_release release;
-  try {
-    check_mesh_format(path, format);
-  } catch (const Error&) {
-    return write_field(path, mesh, {}, format);
-  }
-  write_mesh(path, mesh, format, structure);
 }
 
 // Each curve: (index, weights, closed, value).

@@ -37,7 +37,7 @@ def test_reading_keeps_order_and_double_precision(tmp_path):
 
 
 def test_files_that_cannot_be_read_say_why(tmp_path):
-    for name, content, code in (("a.obj", "v 0 0\n", "file_malformed"), ("b.xyz", "???", "unknown_format")):
+    for name, content, code in (("a.obj", "v 0\n", "file_malformed"), ("b.xyz", "???", "unknown_format")):
         (tmp_path / name).write_text(content)
         with pytest.raises(bf.BrushfireError) as error:
             bf.read(tmp_path / name)
@@ -73,7 +73,7 @@ def test_bytes_and_open_files_are_read_as_what_they_are_said_to_be(tmp_path):
 
 
 def test_bytes_that_are_no_mesh_say_why():
-    for source, arguments in ((b"", {}), (b"nonsense", {}), (b"v 0 0\n", {"format": "obj"}), (b"v", {"format": "no"})):
+    for source, arguments in ((b"", {}), (b"nonsense", {}), (b"v 0\n", {"format": "obj"}), (b"v", {"format": "no"})):
         with pytest.raises(bf.BrushfireError):
             bf.read(source, **arguments)
     with pytest.raises(bf.BrushfireError) as error:

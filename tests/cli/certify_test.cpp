@@ -39,6 +39,19 @@ TEST_F(Certify, ARightFieldIsNotProvenWrong) {
   EXPECT_EQ(certify(kRight, {"--tolerance", "1e-3"}).code, 0);
 }
 
+TEST_F(Certify, SourcesArePlacesAsElsewhere) {
+  const std::string field = path("field.txt");
+  write("field.txt", "0 0 1 1 inf inf inf inf\n");
+  const auto from = [&](const std::string& where, const std::string& within) {
+    return run_program(
+        {"certify", path("islands.off"), field, "--source", where, "--source", "0,1", "--snap-within", within});
+  };
+  const Ended ended = from("at:0.5,0,2", "3");
+  EXPECT_EQ(ended.code, 0) << ended.out;
+  EXPECT_NE(ended.err.find("'at:0.5,0,2' is 2 from the surface"), std::string::npos) << ended.err;
+  EXPECT_EQ(from("at:0.5,0,2", "1").code, 2);
+}
+
 TEST_F(Certify, OneVertexMovedByTwoPerMilleEndsWithFive) {
   const std::string moved = "0 1 1.4170419894978412 1 inf inf inf inf\n";
   const Ended ended = certify(moved);

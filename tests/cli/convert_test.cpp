@@ -59,6 +59,16 @@ TEST_F(Convert, CurvesGoToDrawingsAloneAndToCurvesWithTheirMesh) {
   EXPECT_NE(content("p.svg").find("id=\"outline\""), std::string::npos);
 }
 
+TEST_F(Convert, CurvesThatLieOffTheirMeshAreNotMovedWithoutAWord) {
+  write("high.obj", "v 0.25 0.5 3\nv 0.75 0.5 5\nl 1 2\n");
+  const Ended ended = run_program({"convert", path("high.obj"), path("p.json"), "--mesh", path("square.off")});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_NE(ended.err.find("2 positions are off the surface, the farthest, 'point 1', 5 from the surface"),
+            std::string::npos)
+      << ended.err;
+  EXPECT_EQ(read_lines(path("p.json")).lines.at(0).positions, (std::vector<Vec3>{{0.25, 0.5, 0}, {0.75, 0.5, 0}}));
+}
+
 TEST_F(Convert, WhatIsNotWrittenIsAUsageErrorThatListsWhatIs) {
   const Ended ended = run_program({"convert", path("square.off"), path("a.xyz")});
   EXPECT_EQ(ended.code, 2);

@@ -132,6 +132,18 @@ TEST(Where, AFileMayComeFromAnySystem) {
   EXPECT_THROW(read_where_file(testing::TempDir()), Error);
 }
 
+TEST(Where, ALineMayEndWhereABlockOfTheFileEnds) {
+  // CR is the last byte of the first block that is read, LF the first of the second: still one line's end.
+  const std::string path = testing::TempDir() + "brushfire_block_of_places.txt";
+  std::ofstream(path, std::ios::binary) << '#' + std::string(65534, '.') + "\r\nnose\r\n";
+  try {
+    read_where_file(path);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(std::string(e.what()).rfind(path + ":2: 'nose' is no place", 0), 0u) << e.what();
+  }
+}
+
 TEST(Where, AFileErrorNamesFileAndLine) {
   const std::string path = testing::TempDir() + "brushfire_bad_places.txt";
   std::ofstream(path) << "3\n\nnose\n";
