@@ -3,12 +3,16 @@
 #include <brushfire/mesh/report.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/window_field.h>
+#include <brushfire/solvers/windows/detail/leg_search.h>
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <ctime>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -116,6 +120,61 @@ TEST(Crowds, AreReportedSearchedAndCrossedInSeconds) {
     EXPECT_NEAR(path.length, finder.between(to, from).length, 1e-11 * path.length) << c.name;
     EXPECT_LT(seconds_since(begin), kSeconds) << c.name;
   }
+}
+
+// The chord of a third of the circle, which only its length in 106 bits tells from others.
+TEST(Crowds, OneLegCrossesAThirdOfTheFaces) {
+  const Mesh mesh = fans({0});
+  const Index to = mesh.vertex_count() - 1, from = to / 3;
+  const Source source{vertex_point(mesh, from)};
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_paths = true;
+  const DistanceField field = distance(mesh, std::span(&source, 1), options);
+  const WindowField::Leg leg = field.windows->last_leg(to);
+  EXPECT_EQ(leg.vertex, from);
+  EXPECT_GT(leg.points.size(), kFaces / 3);
+  EXPECT_NEAR(leg.length, norm(mesh.positions()[to] - mesh.positions()[from]), 1e-12);
+}
+
+// A hub and two rings around it: rays from the hub to the outer one pass between vertices of the inner one.
+Mesh rings(Index count) {
+  std::vector<Vec3> positions{{0, 0, 0}};
+  std::vector<Face> faces;
+  for (const double radius : {1.0, 2.0}) {
+    for (Index k = 0; k < count; ++k) {
+      const double turn = 2 * kPi * (k + 0.3 * radius) / count;
+      positions.push_back({radius * std::cos(turn), radius * std::sin(turn), 0});
+    }
+  }
+  for (Index k = 0; k < count; ++k) {
+    const Index a = 1 + k, b = 1 + (k + 1) % count;
+    faces.insert(faces.end(), {{0, a, b}, {a, a + count, b + count}, {a, b + count, b}});
+  }
+  return Mesh(positions, faces);
+}
+
+// No hint says which of a hundred thousand edges it is, and no bound says which it is not.
+TEST(Crowds, ALegFromTheHubIsFoundByLength) {
+  const Mesh mesh = rings(kFaces);
+  const Index root = 1 + kFaces + kFaces / 2;
+  const std::function<double(Index)> value = [&](Index v) {
+    return norm(mesh.positions()[v] - mesh.positions()[root]) / mesh.unit();
+  };
+  detail::LocatedSource source;
+  source.at = locate(mesh, vertex_point(mesh, root));
+  const double straight = 2 / mesh.unit();
+  const WindowField::Leg leg = detail::find_leg({mesh,
+                                                 std::span(&source, 1),
+                                                 0,
+                                                 value,
+                                                 locate(mesh, vertex_point(mesh, 0)),
+                                                 straight * (1 - 1e-3),
+                                                 kNoIndex,
+                                                 kNoIndex,
+                                                 {}});
+  EXPECT_EQ(leg.vertex, root);
+  EXPECT_NEAR(leg.length, straight, 1e-12 * straight);
 }
 
 }  // namespace

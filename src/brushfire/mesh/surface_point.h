@@ -35,10 +35,10 @@ struct PointLocation {
 
 // Validates and snaps. A point of a face that names a vertex twice is one of an edge (or a vertex), and is given a face
 // of that edge with three distinct vertices where there is one: `face` and `weights` may then be others than the
-// point's. Throws Error(IndexOutOfRange) for a face that does not exist, Error(InvalidArgument) for weights that are not
-// finite, below -kWeightError, or do not sum to 1 within 1e-9. Points of a path, whose weights were computed and not
-// measured, are located with a snap of 0: on an edge that is 1e12 times longer than its neighbours, no weight is too
-// small.
+// point's. Throws Error(IndexOutOfRange) for a face that does not exist, Error(InvalidArgument) for weights that are
+// not finite, below -kWeightError, or do not sum to 1 within 1e-9. Points of a path, whose weights were computed and
+// not measured, are located with a snap of 0: on an edge that is 1e12 times longer than its neighbours, no weight is
+// too small.
 PointLocation locate(const Mesh& mesh, const SurfacePoint& point, double snap = kWeightSnap);
 
 // Vertex v as a point of one of its faces. Throws Error(IndexOutOfRange) where there is no such vertex, and

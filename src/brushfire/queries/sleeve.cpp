@@ -11,6 +11,8 @@
 #include <map>
 #include <queue>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace brushfire::detail {
 namespace {
@@ -329,6 +331,15 @@ WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& f
   offer(ahead(from.corner), from.angle, from.corner, kNoIndex);
   offer(behind(from.corner), corner_angle(mesh, from.corner) - from.angle, from.corner, kNoIndex);
 
+  // At a vertex of a million faces every edge asks for its own faces, and no others.
+  std::vector<std::pair<Index, Index>> corner_at;  // an edge and a corner that has it
+  for (const Index corner : mesh.corners(vertex)) {
+    if (!mesh.is_face_usable(Mesh::face_of(corner))) continue;
+    corner_at.emplace_back(ahead(corner), corner);
+    if (behind(corner) != ahead(corner)) corner_at.emplace_back(behind(corner), corner);
+  }
+  std::sort(corner_at.begin(), corner_at.end());
+
   WayAround best;
   Index best_edge = kNoIndex;
   if (from.corner == to.corner) best.angle = std::abs(from.angle - to.angle);
@@ -338,10 +349,11 @@ WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& f
     Node& node = nodes[edge];
     if (node.done || angle >= best.angle) continue;
     node.done = true;
-    for (const Index corner : mesh.corners(vertex)) {
-      if (!mesh.is_face_usable(Mesh::face_of(corner)) || corner == node.through) continue;
-      const bool is_ahead = ahead(corner) == edge, is_behind = behind(corner) == edge;
-      if (!is_ahead && !is_behind) continue;
+    const auto first = std::lower_bound(corner_at.begin(), corner_at.end(), std::pair{edge, Index{0}});
+    for (auto it = first; it != corner_at.end() && it->first == edge; ++it) {
+      const Index corner = it->second;
+      if (corner == node.through) continue;
+      const bool is_ahead = ahead(corner) == edge;
       const double full = corner_angle(mesh, corner);
       if (corner == to.corner) {
         const double total = angle + (is_ahead ? to.angle : full - to.angle);

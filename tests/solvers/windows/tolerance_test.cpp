@@ -218,7 +218,7 @@ TEST(LeastTolerance, BelowItFieldsAreThoseOfAnExactRun) {
     const DistanceField merged = solver.distance({&source, 1}, windows(1.01 * least));
     const DistanceField upper = solver.distance({&source, 1}, windows(2.02 * least, Bound::Upper));
     EXPECT_GE(merged.max_error_bound, truth.max_error_bound) << name;  // on planes nothing is lost
-    EXPECT_EQ(upper.updates, merged.updates) << name;  // the same budget
+    EXPECT_EQ(upper.updates, merged.updates) << name;                  // the same budget
   }
 }
 

@@ -194,21 +194,26 @@ class LegSearch {
   void look(Pass pass) {
     pass_ = pass;
     wedges_.clear();
+    on_hint_ = first_wedges_ = 0;
     seen_.clear();
     open_ = {};
     done_ = false;
     best_ = {};
     int patience = kPatience;
     for (Index i = 0; i < origins_.size() && !done_; ++i) start_from(i);
-    while (!open_.empty() && !done_ && wedges_.size() < most_wedges()) {
+    first_wedges_ = wedges_.size() - on_hint_;
+    while (!open_.empty() && !done_ && !is_astray()) {
       const Open next = open_.top();
       open_.pop();
       if (by_length() ? next.key >= best_.total : is_explained() && --patience < 0) return;
       enter_faces(next.wedge);
     }
   }
-  std::size_t most_wedges() const {
-    return by_length() ? kMostWedges : std::min(kMostWedges, kFewWedges + kWedgesPerFace * mesh_.face_count());
+  // Every wedge at a vertex of a million faces may be the one, and a leg may cross a million faces along the hint.
+  bool is_astray() const {
+    const std::size_t faces = mesh_.face_count(), looked_at = wedges_.size() - first_wedges_ - on_hint_;
+    const std::size_t most = by_length() ? kMostWedges : std::min(kMostWedges, kFewWedges + kWedgesPerFace * faces);
+    return looked_at >= most || on_hint_ >= std::max(most, faces);
   }
   bool by_length() const { return pass_ == Pass::ByLength; }
   bool is_explained() const { return best_.total <= value_ + room_; }
@@ -216,7 +221,10 @@ class LegSearch {
   void start_from(Index origin) {
     const PointLocation& at = origins_[origin].at;
     offer_source_at(origin);
-    for (const Named& f : names_of(at)) {
+    std::vector<Named> names = names_of(at);
+    std::stable_partition(names.begin(), names.end(), [&](const Named& f) { return is_corner(ask_.root, f.face); });
+    for (const Named& f : names) {
+      if (done_) return;
       // The frame: that of the hint, or of the longest edge.
       const Index hinted = !by_length() && origin == 0 ? hinted_halfedge(f) : kNoIndex;
       Index k = hinted % 3;
@@ -239,6 +247,11 @@ class LegSearch {
         add({h, mesh_.from(h), mesh_.to(h), corners[i], corners[j], corners[i], corners[j], kStart, origin, guide});
       }
     }
+  }
+
+  bool is_corner(Index v, Index face) const {
+    const Face& corners = mesh_.faces()[face];
+    return std::find(corners.begin(), corners.end(), v) != corners.end();
   }
 
   // The halfedge of the face over which the hint comes, where it does: a point on that edge itself is reached through
@@ -307,7 +320,13 @@ class LegSearch {
     if (has_been_seen(w, span)) return;
     wedges_.push_back(w);
     const auto number = static_cast<Index>(wedges_.size() - 1);
-    open_.push(by_length() ? Open{number, least, 0} : Open{number, miss(w), reach(w)});
+    if (by_length()) {
+      open_.push({number, least, 0});
+    } else {
+      const double angle = miss(w);
+      if (angle == 0) ++on_hint_;
+      open_.push({number, angle, reach(w)});
+    }
   }
 
   // The part of the wedge's edge that lies in the wedge, from right to left, as shares of the edge.
@@ -495,6 +514,7 @@ class LegSearch {
   std::unordered_multimap<Index, Index> source_at_;    // by vertex
   std::vector<Origin> origins_;
   std::vector<Wedge> wedges_;
+  std::size_t first_wedges_ = 0, on_hint_ = 0;  // so many of them: where the pass began, aside; along the hint
   std::priority_queue<Open> open_;
   std::unordered_map<Index, std::vector<Seen>> seen_;  // by the lowest halfedge of the edge
   Goal best_;
