@@ -15,7 +15,7 @@ namespace {
 // times as long: where that means more than seconds, fewer digits have to do. What is sure is always said in
 // error_bound.
 constexpr double kDoubtAllowed = 1e-9, kDoubtAllowedInLarge = 1e-3;
-constexpr Index kLarge = 1 << 16;  // faces
+constexpr Index kLarge = 1 << 13;  // faces
 // And runs with a tolerance to this share of the tolerance.
 constexpr double kOfTolerance = 1.0 / 64;
 

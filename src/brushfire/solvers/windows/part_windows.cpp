@@ -11,7 +11,7 @@ namespace {
 
 // A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
 // directions: limit rays through the corner are known to epsilon / share only.
-constexpr double kNear = 1e-3;
+constexpr double kNear = 1e-3 * kFiner;
 
 }  // namespace
 
@@ -37,16 +37,16 @@ constexpr double kNear = 1e-3;
   // One branch to guess, not three.
   if (is_sliver(w) | (least_value(w) > run_->radius) | is_dominated(bounds_of(f, k), w.b0, w.b1, w.d0, w.d1)) return;
   if (goes_in_lists(h)) return is_on_edge(w) ? pass_at_once(h, w) : insert_into_list(h, w, origin);
-  if (leaves_trail(f)) return insert_into_thin(h, w);
+  if (leaves_trail(f)) return insert_after_trail(h, w);
   wait(f, h, w);
 }
 void Part::insert_one(Index h, const Window& w, Origin origin) { insert(h, w, origin); }
 
 // What is new of it.
-void Part::insert_into_thin(Index h, Window w) {
+void Part::insert_after_trail(Index h, Window w) {
   WindowFace& f = run_->structure.faces[h / 3];
   if (f.double_area > 0 && trails_.has_been(w.trail, h / 3)) return;
-  if (memory_.learn(h, w)) wait(f, h, w);
+  if (!f.thin || memory_.learn(h, w)) wait(f, h, w);
 }
 
 // To another part.

@@ -21,12 +21,13 @@ class WindowMemory {
   // Takes from w what earlier windows of h make superfluous, at its two ends; false where nothing is left. What is left
   // is remembered.
   bool learn(Index h, Window& w) {
-    std::vector<Window>& known = known_[h];
-    for (const Window& k : known) {
+    Edge& edge = known_[h];
+    const std::span<const Window> near = edge.around(w.b0, w.b1, moved(w));
+    for (const Window& k : near) {
       if (covers(k, w)) return false;
     }
-    if (known.size() > 1 && !is_on_edge(w) && !trim(known, w)) return false;
-    known.push_back(w);
+    if (!near.empty() && !is_on_edge(w) && !trim(near, w)) return false;
+    edge.add(w);
     return true;
   }
   void clear() { known_.clear(); }
@@ -52,9 +53,11 @@ class WindowMemory {
   // edge say nothing about the light beyond: their light leaves through that one point.)
   static bool trim(std::span<const Window> known, Window& w) {
     const Real m = moved(w);
-    // Each of the known ones can be what helps on at an end once or twice; less than m is no progress.
+    // They come from left to right: one round brings the left end as far as it goes, few more the right one. Less than
+    // m is no progress.
+    constexpr int kRounds = 4;
     bool again = true;
-    for (std::size_t rounds = 0; again && rounds <= known.size(); ++rounds) {
+    for (int round = 0; again && round < kRounds; ++round) {
       again = false;
       for (const Window& k : known) {
         if (is_on_edge(k) || k.b1 <= w.b0 || k.b0 >= w.b1) continue;
@@ -92,7 +95,26 @@ class WindowMemory {
     return from < end ? ridge(k, w, from, end, at_from, at_end) : ridge(k, w, end, from, at_end, at_from);
   }
 
-  std::unordered_map<Index, std::vector<Window>> known_;
+  // What is known of one halfedge, by where it begins.
+  struct Edge {
+    std::vector<Window> windows;
+    Real widest = 0;
+
+    // Those that may reach into [b0,b1].
+    std::span<const Window> around(Real b0, Real b1, Real m) const {
+      const auto before = [](const Window& k, const Real& x) { return k.b0 < x; };
+      const auto begin = std::lower_bound(windows.begin(), windows.end(), b0 - widest - m, before);
+      const auto end = std::lower_bound(begin, windows.end(), b1 + m, before);
+      return {begin, end};
+    }
+    void add(const Window& w) {
+      const auto after = [](const Real& x, const Window& k) { return x < k.b0; };
+      windows.insert(std::upper_bound(windows.begin(), windows.end(), w.b0, after), w);
+      widest = std::max(widest, w.b1 - w.b0);
+    }
+  };
+
+  std::unordered_map<Index, Edge> known_;
 };
 
 }  // namespace brushfire::detail::BRUSHFIRE_NUMBERS

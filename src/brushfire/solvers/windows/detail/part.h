@@ -169,7 +169,7 @@ class alignas(kApart) Part {
   [[gnu::noinline]] void send(Index h, const Window& w, Origin origin);
   [[gnu::noinline]] bool ends_here(const WindowFace& f, Index k, const Window& w) const;
   [[gnu::noinline]] void pass_at_once(Index h, const Window& w);
-  [[gnu::noinline]] void insert_into_thin(Index h, Window w);
+  [[gnu::noinline]] void insert_after_trail(Index h, Window w);
   void wait(WindowFace& f, Index h, const Window& w);
   // Whether windows remember that they were in a face.
   static bool leaves_trail(const WindowFace& f) { return kWide || f.thin; }

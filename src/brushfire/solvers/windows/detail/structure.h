@@ -96,7 +96,7 @@ double angle_at(const WindowFace& f, Index i);
 
 // A corner whose edges differ by more than this factor: rounding of the lengths turns directions there by up to
 // kUnevenEdges epsilons, too much to tell what is in a shadow.
-inline constexpr double kUnevenEdges = 1e3;
+inline constexpr double kUnevenEdges = 1e3 / kFiner;
 // A face whose altitude is less than this share of its longest edge: what it is made of is rounding of the lengths, and
 // so are its angles.
 inline constexpr double kNoArea = 1e-13 * kFiner;
