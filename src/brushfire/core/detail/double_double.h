@@ -53,6 +53,7 @@ struct DoubleDouble {
   friend constexpr DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
   friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
     const DoubleDouble p = product(a.high, b.high);
+    if (!(p.high - p.high == 0)) return p;
     return quick_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
   }
   friend DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {

@@ -1,0 +1,119 @@
+// The two numbers that windows are made of, beside each other, and what decides between them.
+#include <brushfire/mesh/shapes.h>
+#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/detail/rounding.h>
+#include <brushfire/solvers/windows/detail/trails.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "support/engine_run.h"
+
+namespace brushfire {
+namespace {
+
+constexpr unsigned kOnePart = 31;
+
+// A rough ball, and the same with one vertex `far` away.
+Mesh ball(double far = 1) {
+  Shape shape = shapes::icosphere(2);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> around(0.8, 1.2);
+  for (Vec3& p : shape.positions) p = around(random) * p;
+  shape.positions[17] = far * shape.positions[17];
+  return shape.mesh();
+}
+
+TEST(WideNumbers, GiveWhatDoublesGiveOnOrdinaryMeshes) {
+  const Mesh mesh = ball();
+  const auto narrow = detail::in_doubles::make_engine(mesh, kOnePart, detail::Merging::Always);
+  const auto wide = detail::in_double_doubles::make_engine(mesh, kOnePart, detail::Merging::Always);
+  for (const double tolerance : {0.0, 1e-3}) {
+    DistanceOptions options;
+    options.tolerance = tolerance;
+    for (const Source& source : {Source{vertex_point(mesh, 5)}, Source{{12, {0.2, 0.3, 0.5}}}}) {
+      const DistanceField a = test::run(*narrow, mesh, {source}, options);
+      const DistanceField b = test::run(*wide, mesh, {source}, options);
+      for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        EXPECT_NEAR(a.distance[v], b.distance[v], tolerance > 0 ? 2 * tolerance * a.distance[v] : a.error_bound[v]);
+        EXPECT_LE(b.error_bound[v], a.error_bound[v] + tolerance * a.distance[v]);
+      }
+    }
+  }
+}
+
+TEST(WideNumbers, AreWithinTheBoundsOfDoublesOnUnevenMeshes) {
+  for (const double far : {1e2, 1e4, 1e6, 1e8}) {
+    const Mesh mesh = ball(far);
+    const auto narrow = detail::in_doubles::make_engine(mesh, kOnePart, detail::Merging::Always);
+    const auto wide = detail::in_double_doubles::make_engine(mesh, kOnePart, detail::Merging::Always);
+    EXPECT_LT(wide->doubt(), 1e-6 * narrow->doubt());
+    DistanceOptions options;
+    options.method = Method::Exact;
+    const std::vector<Source> sources{{vertex_point(mesh, 5)}};
+    const DistanceField a = test::run(*narrow, mesh, sources, options);
+    const DistanceField b = test::run(*wide, mesh, sources, options);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      EXPECT_LE(std::abs(a.distance[v] - b.distance[v]), a.error_bound[v] + b.error_bound[v]) << far << ' ' << v;
+    }
+  }
+}
+
+TEST(WideNumbers, PathsAreAsLongAsTheirField) {
+  const Mesh mesh = ball(1e7);
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_windows = true;
+  const std::vector<Source> sources{{vertex_point(mesh, 5)}};
+  const DistanceField field = distance(mesh, sources, options);
+  ASSERT_NE(field.windows, nullptr);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    double length = 0;
+    for (Index at = v; at != kNoIndex;) {
+      const WindowField::Leg leg = field.windows->last_leg(at);
+      ASSERT_FALSE(leg.points.empty()) << v;
+      length += leg.length;
+      at = leg.vertex;
+    }
+    EXPECT_NEAR(length, field.distance[v], 1e-11 * field.distance[v]) << v;
+  }
+}
+
+TEST(Rounding, OrdinaryMeshesAreSureToTenDigitsAndUnevenOnesAreNot) {
+  detail::Unevenness even, uneven;
+  even.add(1, 1.5, 2);
+  uneven.add(1, 1e6, 1e6);
+  EXPECT_LT(detail::rounding_of(even).doubt, 1e-12);
+  EXPECT_GT(detail::rounding_of(uneven).doubt, 1e-4);
+  EXPECT_EQ(detail::rounding_of(uneven).of(0), 0);  // a source is where it is
+}
+
+TEST(Rounding, NothingIsPromisedWhereProductsLeaveTheRangeOfDoubles) {
+  detail::Unevenness u;
+  u.add(1e-200, 1, 1);
+  EXPECT_EQ(detail::rounding_of(u).absolute, std::numeric_limits<double>::infinity());
+}
+
+TEST(Trails, AFaceIsFoundAgainSoonerOrLater) {
+  detail::Trails trails;
+  Index trail = kNoIndex;
+  EXPECT_FALSE(trails.has_been(trail, 7));
+  trail = trails.with(trail, 7);
+  EXPECT_TRUE(trails.has_been(trail, 7));
+  // Far back only at powers of two.
+  for (Index face = 100; face < 300; ++face) trail = trails.with(trail, face);
+  EXPECT_FALSE(trails.has_been(trail, 7));
+  bool found = false;
+  for (Index face = 300; face < 400 && !found; ++face) {
+    trail = trails.with(trail, face);
+    found = trails.has_been(trail, 7);
+  }
+  EXPECT_TRUE(found);
+}
+
+}  // namespace
+}  // namespace brushfire
