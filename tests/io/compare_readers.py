@@ -13,25 +13,9 @@ import sys
 import tarfile
 import tempfile
 
+from environment import enter_environment
+
 PACKAGES = ["numpy", "nibabel==5.4.2", "meshio==5.3.5", "trimesh==5.2.0", "scipy"]
-SKIPPED = 77
-
-
-def enter_environment(folder):
-    """Restarts this script in a virtual environment that has the packages."""
-    python = os.path.join(folder, "bin", "python")
-    if os.environ.get("BRUSHFIRE_COMPARE_READERS"):
-        sys.exit("the packages are installed, but cannot be imported")
-    try:
-        if not os.path.exists(python):
-            subprocess.run([sys.executable, "-m", "venv", folder], check=True, stdout=subprocess.DEVNULL)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PACKAGES],
-                       check=True, timeout=240)
-    except (OSError, subprocess.SubprocessError) as error:
-        print(f"skipped: nibabel, meshio and trimesh cannot be had: {error}")
-        sys.exit(SKIPPED)
-    os.execve(python, [python, *sys.argv], {**os.environ, "BRUSHFIRE_COMPARE_READERS": "1"})
-
 
 try:
     import meshio
@@ -39,7 +23,7 @@ try:
     import numpy as np
     import trimesh
 except ImportError:
-    enter_environment(sys.argv[2])
+    enter_environment(sys.argv[2], PACKAGES, "BRUSHFIRE_COMPARE_READERS", "nibabel, meshio and trimesh")
 
 probe = os.path.abspath(sys.argv[1])
 folder = tempfile.TemporaryDirectory()

@@ -18,20 +18,9 @@ namespace {
 using test::bytes_of;
 using test::faces_of;
 using test::mesh_error;
+using test::packed;
 using test::positions_of;
 using test::read_text;
-
-template <class T>
-std::string packed(std::initializer_list<T> values, bool big_endian = false) {
-  std::string out;
-  for (const T v : values) {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &v, sizeof(T));
-    if (big_endian) std::reverse(raw, raw + sizeof(T));
-    out.append(raw, sizeof(T));
-  }
-  return out;
-}
 
 struct Text {
   const char* name;

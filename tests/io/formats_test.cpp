@@ -16,24 +16,13 @@ using detail::encode_base64;
 using test::bytes_of;
 using test::faces_of;
 using test::mesh_error;
+using test::packed;
 using test::positions_of;
 using test::read_text;
 using test::TemporaryDirectory;
 
 const std::vector<Vec3> kTriangle{{0, 0, 0}, {1, 0, 0}, {0, 0.5, 0}};
 const std::vector<Face> kFace{{0, 1, 2}};
-
-template <class T>
-std::string packed(std::initializer_list<T> values, bool big_endian = false) {
-  std::string out;
-  for (const T v : values) {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &v, sizeof(T));
-    if (big_endian) std::reverse(raw, raw + sizeof(T));
-    out.append(raw, sizeof(T));
-  }
-  return out;
-}
 
 void expect_triangle(const LoadedMesh& loaded, const char* format) {
   EXPECT_EQ(positions_of(loaded.mesh), kTriangle);

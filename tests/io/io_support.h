@@ -6,9 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +21,19 @@ namespace brushfire::test {
 inline std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
 inline LoadedMesh read_text(std::string_view text, const std::string& name) { return read_mesh(bytes_of(text), name); }
+
+// The numbers as they stand in memory, or the other way round.
+template <class T>
+std::string packed(std::initializer_list<T> values, bool big_endian = false) {
+  std::string out;
+  for (const T v : values) {
+    char raw[sizeof(T)];
+    std::memcpy(raw, &v, sizeof(T));
+    if (big_endian) std::reverse(raw, raw + sizeof(T));
+    out.append(raw, sizeof(T));
+  }
+  return out;
+}
 
 // "code: message" of the Error that `run` throws; "" where it throws none.
 template <class Run>

@@ -14,34 +14,18 @@ import subprocess
 import sys
 import tempfile
 
+from environment import enter_environment
+
 PACKAGES = ["numpy", "vtk"]
-SKIPPED = 77
 TEXT = 1e-9  # text that VTK writes does not have all digits
 SIZES = [0, 1, 2, 3, 4, 5, 6, 7, 40, 3000]
-
-
-def enter_environment(folder):
-    """Restarts this script in a virtual environment that has the packages."""
-    python = os.path.join(folder, "bin", "python")
-    if os.environ.get("BRUSHFIRE_VTK_WRITERS"):
-        sys.exit("the packages are installed, but cannot be imported")
-    try:
-        if not os.path.exists(python):
-            subprocess.run([sys.executable, "-m", "venv", folder], check=True, stdout=subprocess.DEVNULL)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PACKAGES],
-                       check=True, timeout=240)
-    except (OSError, subprocess.SubprocessError) as error:
-        print(f"skipped: VTK cannot be had: {error}")
-        sys.exit(SKIPPED)
-    os.execve(python, [python, *sys.argv], {**os.environ, "BRUSHFIRE_VTK_WRITERS": "1"})
-
 
 try:
     import numpy as np
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk
 except ImportError:
-    enter_environment(sys.argv[2])
+    enter_environment(sys.argv[2], PACKAGES, "BRUSHFIRE_VTK_WRITERS", "VTK")
 
 probe = os.path.abspath(sys.argv[1])
 folder = tempfile.TemporaryDirectory()

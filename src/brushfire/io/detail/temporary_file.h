@@ -5,7 +5,7 @@
 
 namespace brushfire::detail {
 
-// The rule (docs/files.md): a file PATH is written as PATH.part-XXXXXX in the same folder, X one of 0-9 and a-v.
+// The rule (docs/files.md): a file PATH is written as PATH.part- and six of 0-9 and a-v, in the same folder.
 // Whoever writes it holds a lock on it (flock) for as long as the process lives. One that nobody holds was left by a
 // process that was killed: who writes the same PATH next removes it. Where the file system has no locks, none is
 // removed.
