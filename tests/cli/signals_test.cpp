@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -42,7 +43,7 @@ enum class Output { Dropped, NobodyReads };  // standard output
 struct Case {
   const char* phase;
   std::vector<std::string> arguments;
-  milliseconds delay{200};  // from the start to the signal: the phase has begun by then
+  milliseconds delay{200};  // from the start to the signal: the phase has begun by then on a slow machine
   Input input = Input::None;
   Output output = Output::Dropped;
 };
@@ -193,14 +194,25 @@ std::vector<Case> cases(const Folder& f) {
   return all;
 }
 
+// A run of the case that is still at it when its signal is due. A quick machine may be done by then: it is asked
+// sooner, and a phase that a signal cannot meet at all is none to promise anything about.
+std::unique_ptr<Program> still_running(const Case& c) {
+  for (milliseconds delay = c.delay; delay >= milliseconds(5); delay /= 2) {
+    auto run = std::make_unique<Program>(c);
+    run->feed_until(Clock::now() + delay);
+    if (!run->has_ended()) return run;
+  }
+  return nullptr;
+}
+
 TEST(Signals, EveryVerbInEveryPhaseEndsWithin300Milliseconds) {
   const Folder folder;
   std::printf("%-10s %-38s %-8s %8s\n", "verb", "phase", "signal", "ms");
   for (const Case& c : cases(folder)) {
     for (const int signal : {SIGINT, SIGTERM}) {
-      Program run(c);
-      run.feed_until(Clock::now() + c.delay);
-      ASSERT_FALSE(run.has_ended()) << c.arguments[0] << ", " << c.phase << ": ended before the signal";
+      const std::unique_ptr<Program> met = still_running(c);
+      ASSERT_NE(met, nullptr) << c.arguments[0] << ", " << c.phase << ": ended before any signal";
+      Program& run = *met;
       const milliseconds most = limit();
       const auto begin = Clock::now();
       run.send(signal);
