@@ -2,7 +2,7 @@
 #include <brushfire/solvers/window_field.h>
 
 #include <brushfire/core/error.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/windows/detail/face.h>
 #include <brushfire/solvers/windows/detail/leg_search.h>

@@ -1,7 +1,7 @@
 // What the propagation knows of a face, in one cache line, and the frame of a halfedge.
 #pragma once
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/windows/detail/face_shape.h>
 #include <brushfire/solvers/windows/detail/real.h>

@@ -1,7 +1,7 @@
 // One part of the mesh in a run: its queue, the windows that wait on its faces, and what they do when their turn comes.
 #pragma once
 
-#include <brushfire/core/bucket_queue.h>
+#include <brushfire/core/detail/bucket_queue.h>
 #include <brushfire/solvers/windows/detail/dominance.h>
 #include <brushfire/solvers/windows/detail/envelope.h>
 #include <brushfire/solvers/windows/detail/exact_cross.h>
