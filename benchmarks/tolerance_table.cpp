@@ -9,7 +9,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <algorithm>
 #include <array>

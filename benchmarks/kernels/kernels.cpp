@@ -10,9 +10,9 @@
 #include <brushfire/queries/isolines.h>
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/fast_marching/triangle_update.h>
-#include <brushfire/solvers/windows/detail/envelope.h>
-#include <brushfire/solvers/windows/detail/merge.h>
-#include <brushfire/solvers/windows/detail/propagate.h>
+#include <brushfire/solvers/windows/algebra/envelope.h>
+#include <brushfire/solvers/windows/algebra/merge.h>
+#include <brushfire/solvers/windows/algebra/propagate.h>
 
 #include <memory>
 #include <numeric>

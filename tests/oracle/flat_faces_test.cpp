@@ -3,7 +3,7 @@
 #include "oracle/zoo.h"
 
 #include <brushfire/mesh/report.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/window_field.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <gtest/gtest.h>
 

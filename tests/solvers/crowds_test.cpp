@@ -4,7 +4,7 @@
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/window_field.h>
-#include <brushfire/solvers/windows/detail/leg_search.h>
+#include <brushfire/solvers/windows/paths/leg_search.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <brushfire/core/parallel.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/solvers/fast_marching/fast_marching.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <gtest/gtest.h>
 

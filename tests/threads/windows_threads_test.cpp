@@ -1,6 +1,6 @@
 // Threads on one field of windows, over many small parts. Built by the preset `thread`, ThreadSanitizer watches.
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/offsets.h>
 #include <brushfire/solvers/fast_marching/fast_marching.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <algorithm>
 #include <array>

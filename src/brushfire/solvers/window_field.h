@@ -11,7 +11,7 @@
 namespace brushfire {
 
 namespace detail {
-inline namespace in_doubles {  // see windows/detail/real.h
+inline namespace in_doubles {  // see windows/algebra/real.h
 struct WindowFieldData;
 }
 }  // namespace detail

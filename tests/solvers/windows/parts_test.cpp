@@ -3,8 +3,8 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/detail/shares.h>
-#include <brushfire/solvers/windows/detail/engine.h>
-#include <brushfire/solvers/windows/detail/structure.h>
+#include <brushfire/solvers/windows/engine.h>
+#include <brushfire/solvers/windows/propagation/structure.h>
 
 #include <gtest/gtest.h>
 

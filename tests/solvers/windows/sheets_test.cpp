@@ -6,8 +6,8 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/windows/detail/links.h>
-#include <brushfire/solvers/windows/detail/spines.h>
+#include <brushfire/solvers/windows/propagation/links.h>
+#include <brushfire/solvers/windows/store/spines.h>
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/windows/detail/engine.h>
-#include <brushfire/solvers/windows/detail/least_budget.h>
-#include <brushfire/solvers/windows/detail/structure.h>
+#include <brushfire/solvers/windows/engine.h>
+#include <brushfire/solvers/windows/propagation/least_budget.h>
+#include <brushfire/solvers/windows/propagation/structure.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // The two numbers that windows are made of, beside each other, and what decides between them.
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/windows/detail/engine.h>
-#include <brushfire/solvers/windows/detail/rounding.h>
-#include <brushfire/solvers/windows/detail/trails.h>
+#include <brushfire/solvers/windows/engine.h>
+#include <brushfire/solvers/windows/propagation/rounding.h>
+#include <brushfire/solvers/windows/store/trails.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which numbers a run needs: doubles, or wider ones where lengths differ too much for them.
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/detail/sheets.h>
