@@ -56,7 +56,7 @@ TEST(Fork, LeavesAChildSolversThatSolve) {
   const std::vector<Source> sources{{vertex_point(mesh, 7)}};
   for (const Method method : {Method::Exact, Method::Windows, Method::NovotniKlein}) {
     const bool marches = method == Method::NovotniKlein;
-    auto engine = marches ? detail::make_fast_marching(mesh, 32) : detail::make_windows(mesh, 5);
+    auto engine = marches ? detail::make_fast_marching(mesh, 32) : windows::make_windows(mesh, 5);
     DistanceOptions options;
     options.method = method;
     options.threads = 2;

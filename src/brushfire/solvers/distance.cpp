@@ -33,7 +33,7 @@ Method engine_of(Method method) {
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
   switch (method) {
     case Method::Windows:
-      return detail::make_windows(mesh);
+      return windows::make_windows(mesh);
     case Method::NovotniKlein:
       return detail::make_fast_marching(mesh);
     case Method::Dijkstra:

@@ -13,7 +13,7 @@
 #include <limits>
 #include <random>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -398,4 +398,4 @@ TEST(Algebra, LightFromACornerFillsItsSectorWithTheDistanceToTheCorner) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <random>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 namespace {
 
 constexpr int kLists = 4000;
@@ -297,4 +297,4 @@ TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -217,7 +217,7 @@ TEST(Sheets, OfTwoTriangulationsCarryTheirLightOnce) {
   }
 }
 
-namespace d = detail;
+namespace d = windows;
 
 d::Window window(double b0, double b1, Vec2 source, double sigma) {
   d::Window w;

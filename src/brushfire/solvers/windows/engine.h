@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 
 // The mesh is worked on in parts of 2^part_bits faces, on which threads work side by side. Small enough for a few dozen
 // to be under way at a time, large enough for little to cross from one to the next.
@@ -19,11 +19,11 @@ enum class Merging : std::uint8_t { WherePays, Always };
 
 // Throws Error(TooLarge) for meshes of 2^31 vertices. Works in doubles, and in wider numbers where doubles would not do
 // for the mesh and what is asked for.
-std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits = kPartBits,
-                                     Merging merging = Merging::WherePays);
+std::unique_ptr<detail::Engine> make_windows(const Mesh& mesh, unsigned part_bits = kPartBits,
+                                             Merging merging = Merging::WherePays);
 
 // With numbers of one kind.
-class NumberedEngine : public Engine {
+class NumberedEngine : public detail::Engine {
  public:
   // What rounding may do to the distance between neighbours on this mesh, as a share of it.
   virtual double doubt() const = 0;
@@ -37,4 +37,4 @@ namespace in_double_doubles {
 std::unique_ptr<NumberedEngine> make_engine(const Mesh& mesh, unsigned part_bits, Merging merging);
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // The columns of a list of circular windows without slack. The values at the ends are not kept: they are needed when a
 // list is trimmed, and a list crosses several faces between two trimmings.
@@ -54,4 +54,4 @@ inline void copy_windows(const WindowColumns& from, const WindowColumns& to, Ind
   std::memcpy(to.root, from.root, count * sizeof(Index));
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

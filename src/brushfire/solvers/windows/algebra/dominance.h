@@ -3,7 +3,7 @@
 
 #include <brushfire/solvers/windows/algebra/window.h>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // A window is dropped where another path is shorter by more than this share: far more than rounding, so that a window
 // is never dropped for the sake of a value that it made itself.
@@ -21,4 +21,4 @@ struct EdgeBounds {
   return (edge.start + b1 < d1 * kDominated) | (edge.end + (edge.length - b0) < d0 * kDominated);
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -3,7 +3,7 @@
 
 #include <brushfire/solvers/windows/algebra/ridge.h>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 void Envelope::add(const Window& w, Real b0, Real b1, Real d0, Real d1) {
   if (!(b1 > b0)) return;
@@ -123,4 +123,4 @@ std::span<Window> Envelope::operator()(std::span<const Window> windows) {
   return result_;
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

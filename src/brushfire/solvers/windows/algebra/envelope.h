@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // L5. The lower envelope of windows on one edge, by merging envelopes of halves: O(n log n) windows, whatever their
 // order and overlap (two windows cross at most twice, so envelopes stay short). Keeps its buffers between calls.
@@ -30,4 +30,4 @@ class Envelope {
   std::vector<Window> result_;
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Windows whose ray to the apex misses them by no more than this share of the edge are looked at closely.
@@ -246,4 +246,4 @@ void end_values(const WindowColumns& w, Index count, Real* d0, Real* d1) {
   ends(w.b0, w.b1, w.x, w.y, w.sigma, count, d0, d1);
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

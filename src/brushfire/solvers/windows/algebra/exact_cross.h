@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // Where the apex lies for each window of a list: what tells which edges the window goes on to.
 struct Sight {
@@ -48,4 +48,4 @@ Index cross_to_right(const WindowColumns& windows, Index count, const Routes& ro
 // The values at both ends.
 void end_values(const WindowColumns& windows, Index count, Real* d0, Real* d1);
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

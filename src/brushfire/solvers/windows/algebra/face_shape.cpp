@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 Vec3 scaled(const brushfire::Vec3& p, double scale) {
@@ -76,4 +76,4 @@ std::array<Real, 3> weights_from(const std::array<double, 3>& weights) {
   return {w[0] / sum, w[1] / sum, w[2] / sum};
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

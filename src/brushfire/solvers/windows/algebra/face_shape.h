@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // Where the foot of the apex lies on each halfedge, from the halfedge's start: of wider numbers only. In doubles it is
 // found from the three lengths, which is off by up to epsilon * longest^2 / shortest; from the positions it is right to
@@ -69,4 +69,4 @@ Real distance_in(const FaceShape& shape, const std::array<Real, 3>& from, const 
 // rounding only, so that a point of an edge is the same point from all faces there.
 std::array<Real, 3> weights_from(const std::array<double, 3>& weights);
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

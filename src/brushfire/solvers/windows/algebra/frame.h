@@ -5,7 +5,7 @@
 #include <brushfire/core/types.h>
 #include <brushfire/solvers/windows/algebra/real.h>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // From tables of two bits an entry: these are asked at random all the time, and a branch would be guessed wrong.
 constexpr Index next3(Index k) { return 0b00'10'01u >> 2 * k & 3; }
@@ -32,4 +32,4 @@ template <class F>
   }
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

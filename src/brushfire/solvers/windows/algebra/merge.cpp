@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 // What rounding of the merged source may take from (M1): paid into the slack.
@@ -94,4 +94,4 @@ bool merge_into(const Window& a, Window& b, const Joint& joint, Real start, cons
   return true;
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

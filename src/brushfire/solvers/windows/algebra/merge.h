@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // How much slack windows may carry, and how fast they may spend it.
 struct MergeBudget {
@@ -39,4 +39,4 @@ inline bool merge_into(const Window& a, Window& b, Real start, const MergeBudget
   return merge_into(a, b, {a.b1, a.d1, b.d0}, start, budget);
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

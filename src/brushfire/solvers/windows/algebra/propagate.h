@@ -4,7 +4,7 @@
 #include <brushfire/solvers/windows/algebra/frame.h>
 #include <brushfire/solvers/windows/algebra/window.h>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // How a window's rays divide between the sides of the triangle that it enters. A ray through (b,0) passes the apex at a
 // distance that is proportional to  aside = across - b * along  (positive: to its left), and meets the left (right)
@@ -113,4 +113,4 @@ inline bool ends_in_face(const Window& w, const Frame& frame, Real radius) {
   return !leaves_left && !leaves_right;
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,7 +1,7 @@
 // Points of faces in the frames of halfedges.
 #include <brushfire/solvers/windows/algebra/rays.h>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 Vec2 in_frame(const Frame& frame, Index k, const std::array<Real, 3>& weights) {
   const Real along = weights[next3(k)], up = weights[previous3(k)];
@@ -19,4 +19,4 @@ std::vector<FaceWeights> faces_around(const Mesh& mesh, const PointLocation& at)
   return result;
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

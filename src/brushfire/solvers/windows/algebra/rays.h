@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // The ray comes over `halfedge` from `source` (in the halfedge's frame; y >= 0: from inside of the halfedge's face or
 // its edge). kNoIndex: along an edge of a face with a repeated vertex, or the point is the source itself.
@@ -52,4 +52,4 @@ void for_each_face_around(const Mesh& mesh, const PointLocation& at, Visit&& vis
 }
 std::vector<FaceWeights> faces_around(const Mesh& mesh, const PointLocation& at);
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

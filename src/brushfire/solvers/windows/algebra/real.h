@@ -17,10 +17,10 @@
 #define BRUSHFIRE_NUMBERS inline in_doubles
 #endif
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 #ifdef BRUSHFIRE_WIDE_NUMBERS
-using Real = DoubleDouble;
+using Real = detail::DoubleDouble;
 inline constexpr double kEpsilon = 0x1p-103;
 inline constexpr bool kWide = true;
 #else
@@ -42,4 +42,4 @@ constexpr double to_double(const Real& number) { return static_cast<double>(numb
 using Vec2 = BasicVec2<Real>;
 using Vec3 = BasicVec3<Real>;
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

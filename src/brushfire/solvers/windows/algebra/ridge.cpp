@@ -1,7 +1,7 @@
 // The crossing of two windows: closed form, checked, with a bracketed search behind it.
 #include <brushfire/solvers/windows/algebra/ridge.h>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 Real ridge(const Window& a, const Window& b, Real p, Real q, Real fp, Real fq) {
   const auto difference = [&](Real x) { return value_at(a, x) - value_at(b, x); };
   if (a.kind == WindowKind::Circular && b.kind == WindowKind::Circular) {
@@ -32,4 +32,4 @@ Real ridge(const Window& a, const Window& b, Real p, Real q, Real fp, Real fq) {
   return x;
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

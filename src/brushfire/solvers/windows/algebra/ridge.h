@@ -3,7 +3,7 @@
 
 #include <brushfire/solvers/windows/algebra/window.h>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // Where the slopes of two windows are equal: the line through both sources meets the edge there. The difference of the
 // values is monotone on either side, so its signs at two places and at this one decide everything between them.
@@ -41,4 +41,4 @@ inline Real ridge_in_closed_form(Vec2 a, Vec2 b, Real d, Real p, Real length) {
 // rounding costs nothing: the windows' cones overlap beyond it.
 Real ridge(const Window& a, const Window& b, Real p, Real q, Real fp, Real fq);
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

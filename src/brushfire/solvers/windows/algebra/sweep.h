@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // Sweeps windows in ascending order of b0 from left to right. The swept ones are disjoint; the next one is compared
 // with the last of them, and merged with it, and the result with the one before, as long as that works (L8). Only
@@ -117,4 +117,4 @@ class Sweep {
   std::size_t count_ = 0;
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

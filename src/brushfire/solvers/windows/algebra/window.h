@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // Circular: the light comes from a point, the virtual source: the last vertex (or the source itself) around which the
 // path bends, unfolded into the plane of the edge. Linear: it comes from infinitely far away, in parallel rays, as
@@ -119,4 +119,4 @@ inline constexpr double kSliver = 1e-14 * kFiner;
   return !(w.b1 - w.b0 > kSliver * scale);
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

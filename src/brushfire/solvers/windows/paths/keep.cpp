@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // What paths and points inside of faces need later.
 void Results::keep() {
@@ -52,4 +52,4 @@ void Results::keep() {
   field_.windows = std::make_shared<WindowField>(std::move(data));
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -2,7 +2,7 @@
 #include <brushfire/solvers/windows/paths/plain_run.h>
 #include <brushfire/solvers/windows/propagation/results.h>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 brushfire::Vec2 plain(const Vec2& p) { return {to_double(p.x), to_double(p.y)}; }
@@ -41,4 +41,4 @@ void Results::keep() {
   field_.windows = window_field_of(run);
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

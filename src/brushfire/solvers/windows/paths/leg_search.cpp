@@ -17,7 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 namespace {
 
 using On = PointLocation::On;
@@ -44,11 +44,11 @@ constexpr Index kStart = kNoIndex;  // the wedge before the first one
 struct Wedge {
   Index halfedge = kNoIndex;  // of the face that is left through the edge
   Index right_vertex = kNoIndex, left_vertex = kNoIndex;
-  WideVec2 right, left;              // ends of the edge
-  WideVec2 right_limit, left_limit;  // vertices that bound the wedge
-  Index before = kStart;             // the wedge that it is a part of
-  Index origin = 0;                  // the start whose place is the origin
-  Vec2 guide;                        // where the hint points; 0: nowhere
+  detail::WideVec2 right, left;              // ends of the edge
+  detail::WideVec2 right_limit, left_limit;  // vertices that bound the wedge
+  Index before = kStart;                     // the wedge that it is a part of
+  Index origin = 0;                          // the start whose place is the origin
+  Vec2 guide;                                // where the hint points; 0: nowhere
 };
 
 // The point itself, or a vertex at no distance from it.
@@ -65,23 +65,23 @@ struct Goal {
   Index vertex = kNoIndex, source = kNoIndex;
   Index face = kNoIndex;  // that holds it, and the weights there
   std::array<double, 3> weights{0, 0, 0};
-  WideVec2 place;
+  detail::WideVec2 place;
   Index wedge = kStart;
   Index origin = 0;
 };
 
-Vec2 rounded(WideVec2 a) { return {a.x.high, a.y.high}; }
-double length_of(WideVec2 a) { return norm(a).high; }
+Vec2 rounded(detail::WideVec2 a) { return {a.x.high, a.y.high}; }
+double length_of(detail::WideVec2 a) { return norm(a).high; }
 
 // > 0: b lies to the left of a; 0 where that cannot be told.
-int turn(WideVec2 a, WideVec2 b) {
+int turn(detail::WideVec2 a, detail::WideVec2 b) {
   const double t = cross(a, b).high;
   const double room = kNoTurn * norm(rounded(a)) * norm(rounded(b));
   return t > room ? 1 : t < -room ? -1 : 0;
 }
 
 // The same within a half-plane, one limit of which may be opposite of the other.
-bool is_left_of(WideVec2 a, WideVec2 b) {
+bool is_left_of(detail::WideVec2 a, detail::WideVec2 b) {
   const int t = turn(a, b);
   return t > 0 || (t == 0 && dot(a, b).high < 0);
 }
@@ -231,9 +231,9 @@ class LegSearch {
       for (Index i = 0; hinted == kNoIndex && i < 3; ++i) {
         if (i == 0 || mesh_.length(3 * f.face + i) > mesh_.length(3 * f.face + k)) k = i;
       }
-      std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, k);
-      const WideVec2 here = wide_point(corners, f.weights);
-      for (WideVec2& c : corners) c = c - here;
+      std::array<detail::WideVec2, 3> corners = detail::wide_corners(mesh_, f.face, k);
+      const detail::WideVec2 here = wide_point(corners, f.weights);
+      for (detail::WideVec2& c : corners) c = c - here;
       Goal goal;
       goal.face = f.face;
       goal.origin = origin;
@@ -281,14 +281,14 @@ class LegSearch {
 
   void enter(Index number, Index g) {
     const Wedge w = wedges_[number];
-    const WideFrame frame = wide_frame(mesh_, g);
-    const WideVec2 edge = w.left - w.right;
-    const WideVec2 along = (DoubleDouble(1) / norm(edge)) * edge, beyond{along.y, -along.x};
+    const detail::WideFrame frame = detail::wide_frame(mesh_, g);
+    const detail::WideVec2 edge = w.left - w.right;
+    const detail::WideVec2 along = (detail::DoubleDouble(1) / norm(edge)) * edge, beyond{along.y, -along.x};
     const bool from_right = mesh_.from(g) == w.right_vertex;
-    const WideVec2 apex =
+    const detail::WideVec2 apex =
         (from_right ? w.right + frame.apex.x * along : w.left - frame.apex.x * along) + frame.apex.y * beyond;
     const Index face = Mesh::face_of(g), top = Mesh::previous(g), top_vertex = mesh_.from(top);
-    std::array<WideVec2, 3> corners;
+    std::array<detail::WideVec2, 3> corners;
     corners[g % 3] = from_right ? w.right : w.left;
     corners[Mesh::next(g) % 3] = from_right ? w.left : w.right;
     corners[top % 3] = apex;
@@ -301,7 +301,7 @@ class LegSearch {
     const Index right_side = from_right ? Mesh::previous(g) : Mesh::next(g);
     const Index left_side = from_right ? Mesh::next(g) : Mesh::previous(g);
     const bool has_right = is_left_of(w.right_limit, apex), has_left = is_left_of(apex, w.left_limit);
-    const WideVec2 left_limit = has_left ? apex : w.left_limit, right_limit = has_right ? apex : w.right_limit;
+    const detail::WideVec2 left_limit = has_left ? apex : w.left_limit, right_limit = has_right ? apex : w.right_limit;
     if (has_right)
       add({right_side, w.right_vertex, top_vertex, w.right, apex, w.right_limit, left_limit, number, w.origin,
            w.guide});
@@ -309,7 +309,9 @@ class LegSearch {
       add({left_side, top_vertex, w.left_vertex, apex, w.left, right_limit, w.left_limit, number, w.origin, w.guide});
   }
 
-  static bool in_wedge(const Wedge& w, WideVec2 p) { return turn(w.right_limit, p) >= 0 && turn(p, w.left_limit) >= 0; }
+  static bool in_wedge(const Wedge& w, detail::WideVec2 p) {
+    return turn(w.right_limit, p) >= 0 && turn(p, w.left_limit) >= 0;
+  }
 
   void add(const Wedge& w) {
     if (!is_left_of(w.right_limit, w.left_limit)) return;  // too narrow to hold more than the way to a vertex
@@ -331,7 +333,7 @@ class LegSearch {
 
   // The part of the wedge's edge that lies in the wedge, from right to left, as shares of the edge.
   static Vec2 visible(const Wedge& w) {
-    const auto share = [&](WideVec2 limit) {
+    const auto share = [&](detail::WideVec2 limit) {
       const double r = -cross(limit, w.right).high, l = cross(limit, w.left).high;
       return r + l > 0 ? std::clamp(r / (r + l), 0.0, 1.0) : kInfinity;
     };
@@ -415,7 +417,7 @@ class LegSearch {
   }
 
   // Those within the face that a way of the wedge has entered.
-  void offer_sources(Goal goal, const std::array<WideVec2, 3>& corners) {
+  void offer_sources(Goal goal, const std::array<detail::WideVec2, 3>& corners) {
     const auto [begin, end] = sources_in_.equal_range(goal.face);
     for (auto s = begin; s != end; ++s) {
       goal.place = wide_point(corners, s->second.weights);
@@ -427,7 +429,7 @@ class LegSearch {
     }
   }
 
-  void offer_corner(Goal goal, Index k, WideVec2 place) {
+  void offer_corner(Goal goal, Index k, detail::WideVec2 place) {
     goal.vertex = mesh_.faces()[goal.face][k];
     if (!(value_of(goal.vertex) < value_) || is_origin(goal.vertex)) return;
     goal.place = place;
@@ -471,7 +473,7 @@ class LegSearch {
 
   // Where the straight way passes through a vertex of the wedge's edge, as far as anyone can see.
   bool end_at_vertex(const Goal& goal, const Wedge& w, WindowField::Leg& leg) const {
-    const auto try_end = [&](Index v, Index corner, WideVec2 place) {
+    const auto try_end = [&](Index v, Index corner, detail::WideVec2 place) {
       if (v == goal.vertex || is_origin(v) || !(value_of(v) < value_)) return false;
       const double along = dot(goal.place, place).high / goal.length,
                    aside = std::abs(cross(goal.place, place).high) / goal.length;
@@ -489,14 +491,14 @@ class LegSearch {
   }
 
   SurfacePoint crossing(const Goal& goal, const Wedge& w) const {
-    const DoubleDouble r = -cross(goal.place, w.right), l = cross(goal.place, w.left), sum = r + l;
+    const detail::DoubleDouble r = -cross(goal.place, w.right), l = cross(goal.place, w.left), sum = r + l;
     double right = 0, left = 0;  // weights
     if (sum.high > kNoTurn * goal.length * norm(rounded(w.left - w.right))) {
       left = std::clamp((r / sum).high, 0.0, 1.0);
       right = std::clamp((l / sum).high, 0.0, 1.0);
     } else {
       // Along the edge: where the way begins.
-      const WideVec2 edge = w.left - w.right;
+      const detail::WideVec2 edge = w.left - w.right;
       left = std::clamp((-dot(w.right, edge) / dot(edge, edge)).high, 0.0, 1.0);
       right = 1 - left;
     }
@@ -526,4 +528,4 @@ class LegSearch {
 
 WindowField::Leg find_leg(const LegQuestion& question) { return LegSearch(question)(); }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -10,12 +10,12 @@
 #include <functional>
 #include <span>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 
 // A point, and what a run knows of it and of the vertices. Lengths in mesh.unit(), offsets included in values.
 struct LegQuestion {
   const Mesh& mesh;
-  std::span<const LocatedSource> sources;
+  std::span<const detail::LocatedSource> sources;
   double shift = 0;                                  // what was added to every value
   const std::function<double(Index)>& vertex_value;  // NaN: not known
   PointLocation at;
@@ -39,4 +39,4 @@ inline constexpr double kAgreement = 1e-12;
 // makes cannot be told from straight.
 inline constexpr double kThrough = 1e-9;
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

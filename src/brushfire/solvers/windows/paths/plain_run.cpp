@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 namespace {
 
 PointRecord record_of(const PlainRun::Record& r) {
@@ -42,4 +42,4 @@ std::shared_ptr<const WindowField> window_field_of(const PlainRun& run) {
   return std::make_shared<WindowField>(std::move(data));
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

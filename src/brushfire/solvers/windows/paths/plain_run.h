@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 
 // See WindowFieldData and what it holds; by the mesh's numbers.
 struct PlainRun {
@@ -29,7 +29,7 @@ struct PlainRun {
   };
 
   Mesh mesh;
-  const Problem* problem = nullptr;
+  const detail::Problem* problem = nullptr;
   double shift = 0;
   bool exact = true, whole = true;  // merged nothing; went as far as there is way
   std::vector<Record> vertices;     // those with a final value
@@ -39,4 +39,4 @@ struct PlainRun {
 
 std::shared_ptr<const WindowField> window_field_of(const PlainRun& run);
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -3,7 +3,7 @@
 
 #include <bit>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 void VertexRecords::resize(Index count, const PointRecord& unknown) {
   count_ = count;
@@ -55,4 +55,4 @@ void WindowFieldData::keep(std::span<const KeptWindow> windows) {
   for (const KeptWindow& k : windows) kept[fill[k.halfedge]++] = k.window;
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

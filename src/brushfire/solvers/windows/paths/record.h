@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 struct PointRecord {
   Real value = kInfinity;  // mesh.unit(), offsets included
@@ -48,20 +48,20 @@ class VertexRecords {
 
 struct WindowFieldData {
   Mesh mesh;
-  std::vector<LocatedSource> sources;
+  std::vector<detail::LocatedSource> sources;
   std::vector<Real> bases;  // what is to be added to values, by source, in the mesh's units; empty: 0
   Real shift = 0;           // what was added to every value so that none is negative
   bool exact = true;        // no merging: rays lead back to roots
   bool all_points = false;
-  VertexRecords vertices;                 // [vertex_count]; value NaN: farther than the run went
-  std::vector<PointLocation> targets;     // where not all_points
-  std::vector<PointRecord> target;        // [targets]
-  std::vector<std::size_t> first_kept;    // [halfedge_count + 1] where all_points
-  std::vector<Window> kept;               // by halfedge
-  std::shared_ptr<const SheetView> view;  // where `mesh` is a single mesh (sheets.h): of the caller's
+  VertexRecords vertices;                         // [vertex_count]; value NaN: farther than the run went
+  std::vector<PointLocation> targets;             // where not all_points
+  std::vector<PointRecord> target;                // [targets]
+  std::vector<std::size_t> first_kept;            // [halfedge_count + 1] where all_points
+  std::vector<Window> kept;                       // by halfedge
+  std::shared_ptr<const detail::SheetView> view;  // where `mesh` is a single mesh (sheets.h): of the caller's
 
   // Sets the last two.
   void keep(std::span<const KeptWindow> windows);
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

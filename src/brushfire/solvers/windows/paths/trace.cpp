@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Places on an edge are known to a few epsilons of its length. A ray may cross no edge this near (share of the edge) to
@@ -165,4 +165,4 @@ WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, c
   return Tracer(data, ray, value).run(at);
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

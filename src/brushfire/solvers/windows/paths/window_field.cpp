@@ -17,9 +17,9 @@
 namespace brushfire {
 namespace {
 
-using detail::FaceWeights;
-using detail::PointRecord;
-using detail::Ray;
+using windows::FaceWeights;
+using windows::PointRecord;
+using windows::Ray;
 
 Error not_a_target(Index face) {
   return Error(ErrorCode::InvalidArgument, "a point in face " + std::to_string(face) +
@@ -33,7 +33,7 @@ struct Found {
 
 class Look {
  public:
-  explicit Look(const detail::WindowFieldData& data) : data_(data), mesh_(data.mesh) {}
+  explicit Look(const windows::WindowFieldData& data) : data_(data), mesh_(data.mesh) {}
 
   Found vertex(Index v) const {
     const PointRecord& record = data_.vertices[v];
@@ -57,7 +57,7 @@ class Look {
       const PointLocation& target = data_.targets[i];
       if (target.face == at.face && target.weights == at.weights) {
         const PointRecord& record = data_.target[i];
-        for (const FaceWeights& f : detail::faces_around(mesh_, at)) {
+        for (const FaceWeights& f : windows::faces_around(mesh_, at)) {
           if (record.ray.halfedge != kNoIndex && f.face == Mesh::face_of(record.ray.halfedge)) return {f, record};
         }
         return {{at.face, at.weights}, record};
@@ -77,7 +77,7 @@ class Look {
     };
     const Index n = mesh_.vertex_count();
     const auto label_of = [&](Index root) { return root >= n ? root - n : data_.vertices[root].label; };
-    for (const FaceWeights& f : detail::faces_around(mesh_, at)) {
+    for (const FaceWeights& f : windows::faces_around(mesh_, at)) {
       PointLocation here;
       here.face = f.face;
       here.weights = f.weights;
@@ -90,18 +90,18 @@ class Look {
       for (Index k = 0; k < 3; ++k) {
         const Index h = 3 * f.face + k;
         if (!(mesh_.lengths()[h] > 0)) continue;
-        const detail::Frame frame = detail::frame_of(detail::shape_of(mesh_, f.face), k);
-        const Vec2 p = detail::in_frame(frame, k, f.weights);
+        const windows::Frame frame = windows::frame_of(windows::shape_of(mesh_, f.face), k);
+        const Vec2 p = windows::in_frame(frame, k, f.weights);
         for (std::size_t i = data_.first_kept[h]; i < data_.first_kept[h + 1]; ++i) {
-          const detail::Window& w = data_.kept[i];
+          const windows::Window& w = data_.kept[i];
           offer(f, arrival(w, p).value, {w.source, h, w.root, w.kind}, label_of(w.root));
         }
         for (std::size_t s = 0; k == 0 && s < data_.sources.size(); ++s) {
           if (data_.sources[s].at.on == PointLocation::On::Vertex) continue;
-          for (const FaceWeights& g : detail::faces_around(mesh_, data_.sources[s].at)) {
+          for (const FaceWeights& g : windows::faces_around(mesh_, data_.sources[s].at)) {
             if (g.face != f.face) continue;
-            const Vec2 q = detail::in_frame(frame, k, g.weights);
-            offer(f, data_.sources[s].offset + data_.shift + detail::length_of(p.x - q.x, p.y - q.y),
+            const Vec2 q = windows::in_frame(frame, k, g.weights);
+            offer(f, data_.sources[s].offset + data_.shift + windows::length_of(p.x - q.x, p.y - q.y),
                   {q, h, n + static_cast<Index>(s), {}}, static_cast<Index>(s));
           }
         }
@@ -110,12 +110,12 @@ class Look {
     return best;
   }
 
-  const detail::WindowFieldData& data_;
+  const windows::WindowFieldData& data_;
   const Mesh& mesh_;
 };
 
 // Where no ray came: the point is a source at a vertex, or the root is at the other end of an edge.
-WindowField::Leg leg_without_ray(const detail::WindowFieldData& data, const Found& found, Index vertex) {
+WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Found& found, Index vertex) {
   const Mesh& mesh = data.mesh;
   const Index root = found.record.ray.root, n = mesh.vertex_count();
   WindowField::Leg leg;
@@ -129,7 +129,7 @@ WindowField::Leg leg_without_ray(const detail::WindowFieldData& data, const Foun
   return leg;
 }
 
-WindowField::Leg last_leg_of(const detail::WindowFieldData& data, const Found& found, Index vertex) {
+WindowField::Leg last_leg_of(const windows::WindowFieldData& data, const Found& found, Index vertex) {
   if (!data.exact) {
     throw Error(ErrorCode::InvalidArgument, "windows were merged: paths need the method exact");
   }
@@ -137,19 +137,19 @@ WindowField::Leg last_leg_of(const detail::WindowFieldData& data, const Found& f
   const Ray& ray = found.record.ray;
   WindowField::Leg leg;
   if (ray.halfedge == kNoIndex) leg = leg_without_ray(data, found, vertex);
-  if (ray.halfedge != kNoIndex) leg = detail::trace_leg(data, found.at, ray, found.record.value);
+  if (ray.halfedge != kNoIndex) leg = windows::trace_leg(data, found.at, ray, found.record.value);
   if (leg.points.empty()) {
     const std::function<double(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
     const PointLocation at = locate(data.mesh, {found.at.face, found.at.weights});
-    leg = detail::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value, ray.root,
-                            ray.halfedge, ray.source});
+    leg = windows::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value, ray.root,
+                             ray.halfedge, ray.source});
   }
   leg.length *= data.mesh.unit();
   return leg;
 }
 
 // A point of the caller's mesh, in the mesh of the run.
-PointLocation located(const detail::WindowFieldData& data, const SurfacePoint& point) {
+PointLocation located(const windows::WindowFieldData& data, const SurfacePoint& point) {
   if (!data.view) return locate(data.mesh, point);
   const detail::Sheets& sheets = *data.view->sheets;
   const PointLocation at = locate(sheets.mesh(), point);
@@ -163,7 +163,7 @@ PointLocation located(const detail::WindowFieldData& data, const SurfacePoint& p
 }
 
 // The faces of the caller's mesh; and sources where they were given, maybe inside of a copy.
-WindowField::Leg in_callers_numbers(const detail::WindowFieldData& data, WindowField::Leg leg) {
+WindowField::Leg in_callers_numbers(const windows::WindowFieldData& data, WindowField::Leg leg) {
   if (!data.view) return leg;
   for (SurfacePoint& p : leg.points) p = data.view->sheets->from_single(p);
   if (leg.source != kNoIndex) {
@@ -175,7 +175,7 @@ WindowField::Leg in_callers_numbers(const detail::WindowFieldData& data, WindowF
 
 }  // namespace
 
-WindowField::WindowField(std::shared_ptr<const detail::WindowFieldData> data) : data_(std::move(data)) {}
+WindowField::WindowField(std::shared_ptr<const windows::WindowFieldData> data) : data_(std::move(data)) {}
 
 const Mesh& WindowField::mesh() const noexcept { return data_->view ? data_->view->sheets->mesh() : data_->mesh; }
 

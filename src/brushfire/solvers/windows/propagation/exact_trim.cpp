@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 Real value_of(const WindowColumns& w, Index i, Real at) { return w.sigma[i] + length_of(at - w.x[i], w.y[i]); }
@@ -220,4 +220,4 @@ void ListTrimmer::replace_by_envelope(WindowList& list, BlockPool& blocks) {
   for (const Window& window : uncut_) out.set(count++, window);
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // L5, L7 for the lists of exact runs. A list in order, nearly an envelope already, is gone through once from left to
 // right: of two windows that overlap, one loses what it was shown to lose, at both ends of the overlap and where slopes
@@ -32,4 +32,4 @@ class ListTrimmer {
   Envelope envelope_;
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // A face is thin whose lowest altitude is less than this share of its longest edge.
 inline constexpr double kThin = 1e-3;
@@ -32,4 +32,4 @@ struct alignas(64) WindowFace : Feet<kWide> {
 };
 static_assert(sizeof(WindowFace) == 64 || kWide);
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

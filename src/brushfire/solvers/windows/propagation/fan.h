@@ -4,7 +4,7 @@
 #include <brushfire/solvers/windows/algebra/rays.h>
 #include <brushfire/solvers/windows/propagation/structure.h>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // The part of a face at its corner `corner` between two directions. Directions at a corner have x along the edge that
 // leaves it (halfedge 3 * face + corner) and y into the face; their length is of no account.
@@ -178,4 +178,4 @@ inline Window window_of(const WindowFace& f, const Sector& sector, Real sigma) {
   return w;
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 
 // What tells before a run how soon merging pays: the numbers of vertices and sources, and how far the angles around a
 // vertex typically are from 2 pi.
@@ -29,4 +29,4 @@ inline double least_tolerance(const MergeOutlook& outlook) {
 // As a share of the length (MergeBudget): an estimate of that tolerance may be off to either side.
 inline double least_share(const MergeOutlook& outlook) { return 2 * least_tolerance(outlook); }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

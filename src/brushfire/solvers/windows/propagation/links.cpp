@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Angles along a link are sums of arc tangents, and doubles whatever the room's number: shadows are lit wider by this.
@@ -98,4 +98,4 @@ std::span<const Sector> LinkShadow::operator()(const WindowStructure& mesh, std:
   return sectors_;
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // L6 around any vertex. Its link is a graph: a node for each edge at the vertex, and for each corner an arc as long as
 // its angle between the nodes of both of its edges. A path bends at the vertex only if the way in the link from where
@@ -36,4 +36,4 @@ class LinkShadow {
   std::vector<Sector> sectors_;
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

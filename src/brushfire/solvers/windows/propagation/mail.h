@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 struct Mail {
   // A root, with its label: to be known before what comes from there. Of runs with several sources.
@@ -58,4 +58,4 @@ struct Mail {
   }
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

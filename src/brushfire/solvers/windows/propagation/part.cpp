@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 // How many events ahead each step of prefetching is.
@@ -241,4 +241,4 @@ void Part::receive(const Mail::WholeList& list, Workbench& bench) {
   queue_list(f, list.halfedge, nearer_end(f, list.halfedge % 3));
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // A vertex this little (relative) off a window's limit ray counts as seen, with the length of the path that bends.
 inline constexpr double kSeen = 1e-10 * kRootFiner;
@@ -228,4 +228,4 @@ class alignas(kApart) Part {
   std::unordered_map<Index, Index> labels_;  // of roots in other parts, in runs with several sources
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Lists of exact runs are trimmed when their windows have crossed this many faces.
@@ -122,4 +122,4 @@ void Part::hand_over(Index h, const WindowList& list, Origin origin) {
   bench_->blocks.release(list.block);
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 // A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
@@ -368,4 +368,4 @@ void Part::start_in_face(const FaceWeights& at, Real sigma, Index root, Workbenc
   });
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

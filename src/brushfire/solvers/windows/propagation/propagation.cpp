@@ -18,7 +18,7 @@
 #include <chrono>
 #include <limits>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Exact runs are quicker with narrower buckets.
@@ -45,12 +45,12 @@ class WindowEngine final : public NumberedEngine {
   bool lists_touched() const override { return true; }
   double doubt() const override { return run_.rounding.doubt; }
 
-  void solve(const Problem& problem, DistanceField& field) override {
+  void solve(const detail::Problem& problem, DistanceField& field) override {
     field_ = &field;
     forget();
     prepare(problem);
     Results results(run_, parts_, field);
-    for (const LocatedSource& s : problem.sources) start(s);
+    for (const detail::LocatedSource& s : problem.sources) start(s);
     deliver(results);
     drain(results);
     results.write(scratch_, crew_.team());
@@ -76,7 +76,7 @@ class WindowEngine final : public NumberedEngine {
     run_.targets.clear(run_.structure);
   }
 
-  void prepare(const Problem& problem) {
+  void prepare(const detail::Problem& problem) {
     run_.problem = &problem;
     run_.shift = -std::min_element(problem.sources.begin(), problem.sources.end(), [](const auto& a, const auto& b) {
                     return a.offset < b.offset;
@@ -103,7 +103,7 @@ class WindowEngine final : public NumberedEngine {
 
   // ---- sources
 
-  void start(const LocatedSource& s) {
+  void start(const detail::LocatedSource& s) {
     const WindowStructure& structure = run_.structure;
     const Index root = structure.vertex_count() + s.label;
     const Real sigma = s.offset + run_.shift;
@@ -165,7 +165,7 @@ class WindowEngine final : public NumberedEngine {
   void look_up() {
     constexpr std::uint64_t kOften = 1024, kSeldom = 64 * kOften;
     const std::uint64_t before = updates_;
-    for (const Shares::Due& d : due_) updates_ += parts_[d.part].count_updates();
+    for (const detail::Shares::Due& d : due_) updates_ += parts_[d.part].count_updates();
     field_->updates = updates_;
     const DistanceOptions& options = *run_.problem->options;
     if (updates_ / kOften != before / kOften && run_.problem->cancel && run_.problem->cancel->cancelled()) {
@@ -245,10 +245,10 @@ class WindowEngine final : public NumberedEngine {
   RunState run_;
   Merging merging_;
   std::vector<Part> parts_;
-  std::vector<Index> active_;     // parts in which something waits
-  std::vector<Shares::Due> due_;  // those with something to do in this round
+  std::vector<Index> active_;             // parts in which something waits
+  std::vector<detail::Shares::Due> due_;  // those with something to do in this round
   std::vector<std::unique_ptr<Traffic>> spare_;
-  Crew crew_{kPatience};
+  detail::Crew crew_{kPatience};
   std::vector<Workbench> benches_;  // [threads]
   std::vector<Index> scratch_;
   DistanceField* field_ = nullptr;
@@ -263,4 +263,4 @@ std::unique_ptr<NumberedEngine> make_engine(const Mesh& mesh, unsigned part_bits
   return std::make_unique<WindowEngine>(mesh, part_bits, merging);
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

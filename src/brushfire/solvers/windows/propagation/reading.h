@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // The part of a tolerance that is kept back for rounding, so that the promise holds to the letter: what rounding does
 // on even meshes, and what more it does on this one, to the nearest of vertices.
@@ -67,4 +67,4 @@ inline Reading reading_of(Real lower, Real upper, Real estimate, Real start, Rea
   return {value, bound, length > 0 ? (bound - of_offset) / to_double(length) : 0};
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

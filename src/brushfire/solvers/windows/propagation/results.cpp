@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 void Results::write(std::vector<Index>& scratch, ThreadTeam* team) {
   finish_targets();
@@ -134,11 +134,11 @@ void Results::write_targets() {
 // no frame had a part in it, however near the source is.
 Rounding Results::rounding_at(Index outer, const VertexValues& values) const {
   constexpr std::size_t kFewSources = 64;  // each of the others is looked at
-  const std::span<const LocatedSource> sources = run_.problem->sources;
+  const std::span<const detail::LocatedSource> sources = run_.problem->sources;
   const Mesh& mesh = run_.structure.mesh;
   if (!values.direct || !mesh.has_positions() || sources.size() > kFewSources) return run_.rounding;
   const Real unit = mesh.unit();
-  for (const LocatedSource& s : sources) {
+  for (const detail::LocatedSource& s : sources) {
     if (sources.size() == 1) break;
     const Face& t = mesh.faces()[s.at.face];
     brushfire::Vec3 chord;
@@ -169,4 +169,4 @@ Ray Results::outer(Ray ray) const {
   return ray;
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // How unlike the edges of a mesh are. Faces are laid over one another by frames whose directions come from edges: that
 // of the shortest edge of a face is known to epsilon * ratio, and moves what lies at the far end of the longest one by
@@ -57,4 +57,4 @@ inline Rounding rounding_of(const Unevenness& u) {
   return {kAlong + kFrames * kEpsilon * u.ratio(), absolute, absolute / u.shortest()};
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // The vertices that a run touches are listed up to one in as many.
 inline constexpr Index kFewTouched = 4;
@@ -29,7 +29,7 @@ struct RunState {
   std::vector<Index> touched;        // of each part, from its first vertex' number / kFewTouched on: see Part
   Targets targets;
 
-  const Problem* problem = nullptr;
+  const detail::Problem* problem = nullptr;
   MergeBudget budget;
   Rounding rounding;
   bool several = false;     // sources
@@ -44,4 +44,4 @@ struct RunState {
   Real start_of(Index label) const { return problem->sources[label].offset + shift; }
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -17,7 +17,7 @@
 #include <tuple>
 #include <utility>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 // Which halfedges are over the same edge, and what the faces around a vertex form: by inner numbers.
@@ -62,9 +62,9 @@ Connectivity connectivity_of(const Mesh& mesh, const LocalityOrder& order) {
     const Face& t = mesh.faces()[order.faces[f]];
     faces[f] = {order.vertex_rank[t[0]], order.vertex_rank[t[1]], order.vertex_rank[t[2]]};
   }
-  const VertexCorners corners = build_corners(mesh.vertex_count(), faces);
-  UninitializedArray<Index> opposite = build_opposite(faces, corners);
-  std::vector<Link> links = build_links(faces, corners, opposite);
+  const detail::VertexCorners corners = detail::build_corners(mesh.vertex_count(), faces);
+  UninitializedArray<Index> opposite = detail::build_opposite(faces, corners);
+  std::vector<Link> links = detail::build_links(faces, corners, opposite);
   return {std::move(opposite), std::move(links), crowds_of(corners.offset, corners.corner, order)};
 }
 
@@ -87,7 +87,7 @@ class FacesInOrder {
   FaceShape shape(Index f) const {
     if constexpr (kWide) return shape_of(mesh_, order_.faces[f]);
     const Mesh::FaceGeometry g =
-        positions_.empty() ? mesh_.face_geometry(order_.faces[f]) : geometry_of(positions_, (*this)[f], scale_);
+        positions_.empty() ? mesh_.face_geometry(order_.faces[f]) : detail::geometry_of(positions_, (*this)[f], scale_);
     FaceShape shape;
     shape.length = {g.lengths[0], g.lengths[1], g.lengths[2]};
     shape.double_area = g.double_area;
@@ -421,4 +421,4 @@ void WindowStructure::close_rings(const std::vector<std::pair<Index, Index>>& li
   }
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // How a vertex that is reached sends light on. A shortest path bends at a vertex only where it leaves at an angle of pi
 // or more on either side, so a Saddle lights what lies between. Full lights everything: that is more than needed, but
@@ -104,4 +104,4 @@ inline constexpr double kNoArea = 1e-13 * kFiner;
 // than that share of the distance.
 inline constexpr double kFlat = 1e-13 * kFiner;
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 std::array<Real, 3> corner_distances_of(const WindowStructure& structure, const FaceWeights& at) {
   return corner_distances_in(structure.faces[at.face], at.weights);
@@ -31,4 +31,4 @@ void Targets::clear(WindowStructure& structure) {
   states_.clear();
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

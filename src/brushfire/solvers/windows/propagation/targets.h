@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 struct TargetInFace {
   Index face;
@@ -50,4 +50,4 @@ class Targets {
   std::vector<TargetInFace> in_faces_;  // by face; a target on an edge once for each of its faces
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -4,7 +4,7 @@
 
 #include <brushfire/solvers/windows/propagation/fan.h>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // What every window that passes a vertex reads.
 struct alignas(32) VertexValues {
@@ -38,4 +38,4 @@ struct Origins {
   Index label = kNoIndex;
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

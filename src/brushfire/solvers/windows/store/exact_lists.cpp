@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 WindowBlock BlockPool::allocate(Index windows) {
   WindowBlock block;
@@ -133,4 +133,4 @@ void ExactLists::clear() {
   free_link_ = kNoIndex;
 }
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // Memory for 4 << size_class windows.
 struct WindowBlock {
@@ -96,4 +96,4 @@ class ExactLists {
   Index free_link_ = kNoIndex;  // freed ones, linked by next
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // All windows that wait on one face are in one list, whose head is in the face's record (WindowFace::waiting); they are
 // few. Those of a halfedge are taken together when its turn has come. Freed places are used again, last one first, so
@@ -89,4 +89,4 @@ class WindowLists {
   Index free_ = kNoIndex;  // freed places, linked by next
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // Around a needle, or through two faces without area over the same vertices, light comes back to where it was hardly
 // longer or no longer at all, as often as you like; nothing that compares with vertices would stop it. Over the edges
@@ -117,4 +117,4 @@ class WindowMemory {
   std::unordered_map<Index, Edge> known_;
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

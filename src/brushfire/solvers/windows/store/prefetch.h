@@ -1,7 +1,7 @@
 // A hint to the processor that memory will be needed soon.
 #pragma once
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 
 [[gnu::always_inline]] inline void prefetch([[maybe_unused]] const void* address) {
 #if defined(__GNUC__)
@@ -12,4 +12,4 @@ namespace brushfire::detail {
 #endif
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 
 // Two kinds of events: window lists (by halfedge) and vertices at which paths bend. A bucket's vertices come after its
 // lists, so that they see final values and directions. Nothing depends on the order but speed: an event may come too
@@ -176,4 +176,4 @@ class EventQueue {
   double inverse_width_ = 1;
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // Light that leaves a face over a spine enters all of its other faces, the ones back where it came from among them.
 // Sheets that meet at many spines bring it to each of them once a sheet; were all of it let through, there would be
@@ -96,4 +96,4 @@ class SpineMemory {
   std::unordered_map<std::uint64_t, Edge> edges_;
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

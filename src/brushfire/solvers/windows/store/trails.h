@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace brushfire::detail::BRUSHFIRE_NUMBERS {
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // A shortest path crosses a face once: between two visits it could go straight through the face, which is no longer,
 // and as that would bend where the path first left the face, there is a shorter one still. So a window that comes to a
@@ -44,4 +44,4 @@ class Trails {
   std::vector<Step> steps_;
 };
 
-}  // namespace brushfire::detail::BRUSHFIRE_NUMBERS
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS
