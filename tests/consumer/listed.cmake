@@ -1,15 +1,15 @@
 # cmake -D SOURCE=.../src -P listed.cmake: a header is public, which brushfire.h says and which installs it, or it lies in
-# a detail/ folder.
+# a detail/ folder or in the room of windows.
 cmake_minimum_required(VERSION 3.22)
 file(READ ${SOURCE}/brushfire/brushfire.h everything)
 file(GLOB_RECURSE headers RELATIVE ${SOURCE}/brushfire ${SOURCE}/brushfire/*.h)
 foreach(header ${headers})
   string(FIND "${everything}" "#include <brushfire/${header}>" at)
-  if(header MATCHES "detail/")
+  if(header MATCHES "detail/|^solvers/windows/")
     if(NOT at EQUAL -1)
-      message(SEND_ERROR "${header} is in brushfire.h and in a detail/ folder")
+      message(SEND_ERROR "${header} is in brushfire.h and private")
     endif()
   elseif(at EQUAL -1 AND NOT header STREQUAL "brushfire.h")
-    message(SEND_ERROR "${header} is neither in brushfire.h nor in a detail/ folder")
+    message(SEND_ERROR "${header} is neither in brushfire.h nor private")
   endif()
 endforeach()

@@ -9,7 +9,7 @@
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/offsets.h>
 #include <brushfire/solvers/fast_marching/detail/fast_marching.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ Method engine_of(Method method) {
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
   switch (method) {
     case Method::Windows:
-      return detail::make_windows(mesh);
+      return windows::make_windows(mesh);
     case Method::NovotniKlein:
       return fast_marching::make_engine(mesh);
     case Method::Dijkstra:
