@@ -128,8 +128,8 @@ Window window(Random& random, double b0, double b1, Index root) {
 }
 
 // On its own, so that the compiler's choices for the rest of this file do not show in its count.
-[[gnu::noinline]] windows::Children children_of(const Window& w, const windows::Frame& frame) {
-  return windows::propagate(w, frame, windows::straight_value(w, frame.apex));
+[[gnu::noinline]] windows::Children children_in_one_call(const Window& w, const windows::Frame& frame) {
+  return windows::children_of(w, frame);
 }
 
 // A window enters a triangle and leaves through one or both of the other sides.
@@ -148,7 +148,7 @@ Run propagation() {
   return [=] {
     double sum = 0;
     for (const auto& [f, w] : *inputs) {
-      const windows::Children c = children_of(w, f);
+      const windows::Children c = children_in_one_call(w, f);
       if (c.has_left) sum += c.left.d0;
       if (c.has_right) sum += c.right.d1;
     }

@@ -90,8 +90,7 @@ TEST(Algebra, ChildrenTileTheParentsIntervalAndKeepItsValues) {
   for (int i = 0; i < count(); ++i) {
     const Frame frame = random.frame();
     const Window w = random.window(frame.length);
-    const double apex_value = straight_value(w, frame.apex);
-    const Children c = propagate(w, frame, apex_value);
+    const Children c = children_of(w, frame);
     if (!c.has_left && !c.has_right) continue;
     const Crossing at = crossing(w, frame.apex);
     const double x = at.across / at.along;

@@ -82,22 +82,35 @@ inline Division divide(const Window& w, Vec2 apex) {
   return r;
 }
 
-// Both, where they are lit; both have the triangle below and their source in it or beyond.
+// left(child) and right(child), for those that are lit; children may be slivers.
+template <class Left, class Right>
+[[gnu::always_inline]] inline void propagate(const Window& w, const Frame& frame, Left&& left, Right&& right) {
+  const Division d = divide(w, frame.apex);
+  const Real apex_value = straight_value(w, frame.apex);
+  if (d.lit_left() && frame.left > 0) {
+    const Window child = left_child(w, frame, d, apex_value);
+    if (is_lit(child)) left(child);
+  }
+  if (d.lit_right() && frame.right > 0) {
+    const Window child = right_child(w, frame, d, apex_value);
+    if (is_lit(child)) right(child);
+  }
+}
+
+// Both at once, without slivers; they have the triangle below and their source in it or beyond.
 struct Children {
   Window left, right;
   bool has_left = false, has_right = false;
 };
-inline Children propagate(const Window& w, const Frame& frame, Real apex_value) {
+inline Children children_of(const Window& w, const Frame& frame) {
   Children children;
-  const Division d = divide(w, frame.apex);
-  if (d.lit_left() && frame.left > 0) {
-    children.left = left_child(w, frame, d, apex_value);
-    children.has_left = is_lit(children.left) && !is_sliver(children.left);
-  }
-  if (d.lit_right() && frame.right > 0) {
-    children.right = right_child(w, frame, d, apex_value);
-    children.has_right = is_lit(children.right) && !is_sliver(children.right);
-  }
+  const auto keep = [](const Window& child, Window& kept, bool& has) {
+    kept = child;
+    has = !is_sliver(child);
+  };
+  propagate(
+      w, frame, [&](const Window& child) { keep(child, children.left, children.has_left); },
+      [&](const Window& child) { keep(child, children.right, children.has_right); });
   return children;
 }
 

@@ -51,7 +51,7 @@ void Results::finish_labels(std::vector<Index>& chain) {
   const Index n = run_.structure.vertex_count();
   std::vector<Origins>& origins = run_.origins;
   for (const Part& part : parts_) {
-    part.for_each_touched([&](Index v) {
+    part.vertices().for_each_touched([&](Index v) {
       chain.clear();
       while (v < n && origins[v].root < n && chain.size() <= n) {
         chain.push_back(v);
@@ -98,7 +98,7 @@ void Results::write_vertices(ThreadTeam* team) {
 Results::Tally Results::write_vertices(const Part& part) {
   const bool narrowed = run_.radius < run_.problem->max_distance + run_.shift;
   Tally tally;
-  part.for_each_touched([&](Index v) {
+  part.vertices().for_each_touched([&](Index v) {
     if (!is_first_copy(v)) return;
     const Index outer = run_.structure.outer_vertex(v);
     if (run_.problem->touched) run_.problem->touched->push_back(outer);

@@ -8,11 +8,14 @@
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/detail/crew.h>
 #include <brushfire/solvers/windows/engine.h>
+#include <brushfire/solvers/windows/propagation/arrivals.h>
 #include <brushfire/solvers/windows/propagation/least_budget.h>
 #include <brushfire/solvers/windows/propagation/part.h>
+#include <brushfire/solvers/windows/propagation/prefetching.h>
+#include <brushfire/solvers/windows/propagation/pseudo_sources.h>
 #include <brushfire/solvers/windows/propagation/results.h>
 #include <brushfire/solvers/windows/propagation/run_state.h>
-#include <brushfire/solvers/windows/store/prefetch.h>
+#include <brushfire/solvers/windows/propagation/sink.h>
 
 #include <algorithm>
 #include <chrono>
@@ -109,12 +112,12 @@ class WindowEngine final : public NumberedEngine {
     const Real sigma = s.offset + run_.shift;
     if (s.at.on == PointLocation::On::Vertex) {
       const Index v = structure.inner_vertex(s.at.vertex);
-      active_part(structure.part_of_vertex(v)).start_at_vertex(v, sigma, root);
+      start_at_vertex(active_part(structure.part_of_vertex(v)), v, sigma, root);
       return;
     }
     for_each_face_around(structure.mesh, s.at, [&](const FaceWeights& f) {
       const Index face = structure.inner_face(f.face);
-      active_part(structure.part_of_face(face)).start_in_face({face, f.weights}, sigma, root, benches_.front());
+      start_in_face(active_part(structure.part_of_face(face)), {face, f.weights}, sigma, root);
     });
   }
 
@@ -151,14 +154,15 @@ class WindowEngine final : public NumberedEngine {
     });
   }
 
-  Part& active_part(Index p) {
+  // To give something to a part while none is at work.
+  PartState& active_part(Index p) {
     if (!parts_[p].is_active()) {
-      if (spare_.empty()) spare_.push_back(std::make_unique<Traffic>());
+      if (spare_.empty()) spare_.push_back(std::make_unique<Activity>());
       parts_[p].activate(std::move(spare_.back()), turn_);
       spare_.pop_back();
       active_.push_back(p);
     }
-    return parts_[p];
+    return parts_[p].at(benches_.front());
   }
 
   // What has to be seen to between rounds: progress, cancelling, targets.
@@ -177,7 +181,7 @@ class WindowEngine final : public NumberedEngine {
 
   double share_done() const {
     std::size_t touched = 0;
-    for (const Part& p : parts_) touched += p.touched_count();
+    for (const Part& p : parts_) touched += p.vertices().touched_count();
     return static_cast<double>(touched) / run_.structure.vertex_count();
   }
 
@@ -194,51 +198,46 @@ class WindowEngine final : public NumberedEngine {
     run_.radius = std::min(run_.radius, farthest / kDominated);
   }
 
-  // ---- mail
+  // ---- messages
 
-  // Until nobody has any more: windows that pass at once (see Part) may be sent on.
+  // Until nobody has any more: windows that pass at once (see enter_face()) may be sent on.
   void deliver(Results& results) {
     for (bool any = true; any;) {
       any = false;
       for (std::size_t i = 0; i < active_.size(); ++i) {  // it may grow
-        Mail& mail = parts_[active_[i]].outbox();
-        if (mail.empty()) continue;
+        Outbox& messages = parts_[active_[i]].outbox();
+        if (messages.empty()) continue;
         any = true;
-        deliver(mail, results);
-        mail.clear();
+        deliver(messages, results);
+        messages.clear();
       }
     }
   }
 
-  void deliver(const Mail& mail, Results& results) {
+  void deliver(const Outbox& messages, Results& results) {
     const WindowStructure& structure = run_.structure;
-    for (const Mail::Label& l : mail.labels) parts_[l.part].learn_label(l);
-    prefetch_places(mail);
-    for (const Index v : mail.news) tell_copies(v);
-    for (const Mail::Offer& o : mail.offers) active_part(structure.part_of_vertex(o.vertex)).receive(o);
-    for (const Mail::ToTarget& t : mail.to_targets) {
-      results.offer_target(t.target, t.value, t.slack, t.lift, t.ray, t.straight);
+    for (const LabelMessage& m : messages.all<LabelMessage>()) parts_[m.part].vertices().learn_label(m.root, m.label);
+    prefetch_receivers(run_, messages);
+    for (const FallenMessage& m : messages.all<FallenMessage>()) tell_copies(m.vertex);
+    for (const SightMessage& m : messages.all<SightMessage>()) {
+      receive_sight(active_part(structure.part_of_vertex(m.vertex)), m.vertex, m.value, m.ray, m.all_around);
     }
-    for (const Mail::OneWindow& w : mail.windows) {
-      active_part(structure.part_of_face(w.halfedge / 3)).receive(w, benches_.front());
+    for (const TargetMessage& m : messages.all<TargetMessage>()) {
+      results.offer_target(m.target, m.value, m.slack, m.lift, m.ray, m.straight);
     }
-    for (const Mail::WholeList& l : mail.lists) {
-      active_part(structure.part_of_face(l.halfedge / 3)).receive(l, benches_.front());
+    for (const WindowMessage& m : messages.all<WindowMessage>()) {
+      receive(active_part(structure.part_of_face(m.halfedge / 3)), m);
     }
-  }
-
-  // Mail comes to places where nobody has been for a while: all are fetched at once.
-  void prefetch_places(const Mail& mail) const {
-    for (const Index v : mail.news) prefetch(&run_.values[run_.values[v].next_copy]);
-    for (const Mail::OneWindow& w : mail.windows) prefetch(&run_.structure.faces[w.halfedge / 3]);
-    for (const Mail::WholeList& l : mail.lists) prefetch(&run_.structure.faces[l.halfedge / 3]);
+    for (const ListMessage& m : messages.all<ListMessage>()) {
+      receive(active_part(structure.part_of_face(m.halfedge / 3)), m);
+    }
   }
 
   void tell_copies(Index v) {
     VertexValues& at = run_.values[v];
     at.sent = false;
     for (Index c = at.next_copy; c != v; c = run_.values[c].next_copy) {
-      parts_[run_.structure.part_of_vertex(c)].hear(c, at.upper, at.estimate);
+      parts_[run_.structure.part_of_vertex(c)].vertices().hear(c, at.upper, at.estimate);
     }
   }
 
@@ -247,7 +246,7 @@ class WindowEngine final : public NumberedEngine {
   std::vector<Part> parts_;
   std::vector<Index> active_;             // parts in which something waits
   std::vector<detail::Shares::Due> due_;  // those with something to do in this round
-  std::vector<std::unique_ptr<Traffic>> spare_;
+  std::vector<std::unique_ptr<Activity>> spare_;
   detail::Crew crew_{kPatience};
   std::vector<Workbench> benches_;  // [threads]
   std::vector<Index> scratch_;
