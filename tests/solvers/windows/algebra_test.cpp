@@ -2,7 +2,6 @@
 // environment variable BRUSHFIRE_RANDOM_WINDOWS says.
 #include <brushfire/solvers/windows/algebra/envelope.h>
 #include <brushfire/solvers/windows/algebra/merge.h>
-#include <brushfire/solvers/windows/algebra/propagate.h>
 #include <brushfire/solvers/windows/algebra/ridge.h>
 #include <brushfire/solvers/windows/algebra/sweep.h>
 #include <brushfire/solvers/windows/propagation/fan.h>
@@ -12,6 +11,8 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+
+#include "solvers/windows/children.h"
 
 namespace brushfire::windows {
 namespace {

@@ -1,6 +1,5 @@
 // Lists of exact runs on random windows: crossing a face, choosing sides, trimming, waiting.
 #include <brushfire/solvers/windows/algebra/exact_cross.h>
-#include <brushfire/solvers/windows/algebra/propagate.h>
 #include <brushfire/solvers/windows/algebra/ridge.h>
 #include <brushfire/solvers/windows/propagation/exact_trim.h>
 #include <brushfire/solvers/windows/store/exact_lists.h>
@@ -9,6 +8,8 @@
 
 #include <algorithm>
 #include <random>
+
+#include "solvers/windows/children.h"
 
 namespace brushfire::windows {
 namespace {

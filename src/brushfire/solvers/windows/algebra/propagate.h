@@ -82,7 +82,8 @@ inline Division divide(const Window& w, Vec2 apex) {
   return r;
 }
 
-// left(child) and right(child), for those that are lit; children may be slivers.
+// Calls left(child) and right(child) for those that are lit; they have the triangle below and their source in it or
+// beyond. They may be slivers.
 template <class Left, class Right>
 [[gnu::always_inline]] inline void propagate(const Window& w, const Frame& frame, Left&& left, Right&& right) {
   const Division d = divide(w, frame.apex);
@@ -95,23 +96,6 @@ template <class Left, class Right>
     const Window child = right_child(w, frame, d, apex_value);
     if (is_lit(child)) right(child);
   }
-}
-
-// Both at once, without slivers; they have the triangle below and their source in it or beyond.
-struct Children {
-  Window left, right;
-  bool has_left = false, has_right = false;
-};
-inline Children children_of(const Window& w, const Frame& frame) {
-  Children children;
-  const auto keep = [](const Window& child, Window& kept, bool& has) {
-    kept = child;
-    has = !is_sliver(child);
-  };
-  propagate(
-      w, frame, [&](const Window& child) { keep(child, children.left, children.has_left); },
-      [&](const Window& child) { keep(child, children.right, children.has_right); });
-  return children;
 }
 
 // Whether all light of the window that is worth less than `radius` ends in the triangle: the lines through its other

@@ -27,7 +27,7 @@ void Results::keep() {
   }
   for (const Part& part : parts_) {
     part.vertices().for_each_touched([&](Index v) {
-      if (run_.values[v].lower > run_.radius || !is_first_copy(v)) return;
+      if (run_.values[v].lower > run_.radius || !is_owner(v)) return;
       data->vertices.set(run_.structure.outer_vertex(v), {run_.values[v].lower, label_of(v), outer(run_.rays[v])});
     });
   }

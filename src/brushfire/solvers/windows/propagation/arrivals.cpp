@@ -25,7 +25,7 @@ bool take(PartState& part, Index v, Real value, const Ray& ray, bool all_around)
 void accept(PartState& part, Index v, Real value, const Ray& ray, bool all_around) {
   if (!take(part, v, value, ray, all_around)) return;
   const std::vector<VertexValues>& values = part.run->values;
-  for (Index c = part.vertices[v].next_copy; c != v && c != kNoIndex; c = values[c].next_copy) {
+  for (Index c = part.vertices[v].next_ghost; c != v && c != kNoIndex; c = values[c].next_ghost) {
     send_label(part, part.run->structure.part_of_vertex(c), ray.root);
     part.activity->outbox.send(SightMessage{c, value, ray, all_around});
   }

@@ -16,7 +16,9 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 class OwnVertices {
  public:
   OwnVertices(RunState& run, Index part)
-      : run_(&run), first_(run.structure.first_vertex[part]), last_(run.structure.first_vertex[part + 1]) {}
+      : run_(&run),
+        first_(run.structure.partition.first_vertex(part)),
+        last_(run.structure.partition.end_vertex(part)) {}
 
   const VertexValues& operator[](Index v) const { return run_->values[own(v)]; }
   VertexLight& light(Index v) { return run_->light[own(v)]; }
@@ -29,7 +31,7 @@ class OwnVertices {
   [[gnu::always_inline]] void reach(Index v, Real length) {
     VertexValues& at = run_->values[own(v)];
     if (at.upper == kInfinity) touch(v, length);
-    fallen_.push_if((length < at.upper) & at.has_copies(), v);
+    fallen_.push_if((length < at.upper) & at.has_ghosts(), v);
     at.upper = std::min(at.upper, length);  // without a branch: nobody could guess it
   }
   // A window that sees v expects this distance.

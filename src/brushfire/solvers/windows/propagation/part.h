@@ -1,6 +1,7 @@
 // One part of the mesh in a run: it takes turns with its queue, and hears from the others between rounds.
 #pragma once
 
+#include <brushfire/solvers/partition/rounds.h>
 #include <brushfire/solvers/windows/propagation/part_state.h>
 
 #include <cstdint>
@@ -20,7 +21,7 @@ class Part {
   void activate(std::unique_ptr<Activity> activity, std::int64_t bucket);
   std::unique_ptr<Activity> retire() { return std::move(state_.activity); }
   bool is_idle() const { return state_.activity->queue.empty(); }
-  EventQueue::Next next() const { return state_.activity->queue.next(); }
+  partition::Outlook outlook() const { return state_.activity->queue.outlook(); }
   // What it has to tell the others; the caller sees to it and clears it.
   Outbox& outbox() {
     collect_fallen();

@@ -101,7 +101,7 @@ class Prefetching {
 
 // Messages come to places where nobody has been for a while: all are fetched at once.
 inline void prefetch_receivers(const RunState& run, const Outbox& messages) {
-  for (const FallenMessage& m : messages.all<FallenMessage>()) prefetch(&run.values[run.values[m.vertex].next_copy]);
+  for (const FallenMessage& m : messages.all<FallenMessage>()) prefetch(&run.values[run.values[m.vertex].next_ghost]);
   for (const WindowMessage& m : messages.all<WindowMessage>()) prefetch(&run.structure.faces[m.halfedge / 3]);
   for (const ListMessage& m : messages.all<ListMessage>()) prefetch(&run.structure.faces[m.halfedge / 3]);
 }

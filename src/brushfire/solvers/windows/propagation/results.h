@@ -21,8 +21,8 @@ class Results {
 
  private:
   Index label_of(Index root) const;
-  VertexValues all_copies(Index v) const;
-  bool is_first_copy(Index v) const;
+  VertexValues with_ghosts(Index v) const;
+  bool is_owner(Index v) const;
   Rounding rounding_at(Index outer, const VertexValues& values) const;
   Reading read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const;
   Index outer_root(Index root) const;

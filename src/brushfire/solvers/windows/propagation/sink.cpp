@@ -25,7 +25,7 @@ namespace {
 
 // The key of lists is what is known of the nearer end of the edge: nearly all that enters over the edge has come by
 // then.
-void wait(PartState& part, Index h, const WindowList& list, Origin origin) {
+[[gnu::always_inline]] inline void wait(PartState& part, Index h, const WindowList& list, Origin origin) {
   WindowFace& f = part.face(h);
   part.activity->lists.put(f.waiting, h, origin, list);
   queue_list(part, f, h, part.vertices.nearer_end(f, h % 3));

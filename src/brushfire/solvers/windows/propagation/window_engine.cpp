@@ -6,7 +6,8 @@
 // bucket of values at a time, and hear from each other only then. What a part does depends on its mail alone, and mail
 // is delivered in a fixed order: the numbers are the same for any number of threads.
 #include <brushfire/core/error.h>
-#include <brushfire/solvers/detail/crew.h>
+#include <brushfire/solvers/partition/rounds.h>
+#include <brushfire/solvers/partition/worker_team.h>
 #include <brushfire/solvers/windows/engine.h>
 #include <brushfire/solvers/windows/propagation/arrivals.h>
 #include <brushfire/solvers/windows/propagation/least_budget.h>
@@ -30,7 +31,7 @@ constexpr double kExactBucket = 0.2;
 constexpr double kShort = 8;
 
 // What working on a part takes in a round, more or less.
-constexpr std::chrono::microseconds kPatience{20};
+constexpr std::chrono::microseconds kStealAfter{20};
 
 class WindowEngine final : public NumberedEngine {
  public:
@@ -38,7 +39,7 @@ class WindowEngine final : public NumberedEngine {
       : run_(mesh, part_bits), merging_(merging), benches_(1) {
     const Index n = run_.structure.vertex_count();
     run_.values.resize(n);
-    for (const WindowStructure::Copy& c : run_.structure.copies) run_.values[c.vertex].next_copy = c.next;
+    run_.structure.partition.for_each_ghost([&](Index v, Index ghost) { run_.values[v].next_ghost = ghost; });
     run_.light.resize(n);
     run_.touched.resize(n / kFewTouched + 1);
     for (Index p = 0; p < run_.structure.part_count(); ++p) parts_.emplace_back(run_, p);
@@ -56,7 +57,7 @@ class WindowEngine final : public NumberedEngine {
     for (const detail::LocatedSource& s : problem.sources) start(s);
     deliver(results);
     drain(results);
-    results.write(scratch_, crew_.team());
+    results.write(scratch_, workers_.team());
   }
 
  private:
@@ -64,8 +65,8 @@ class WindowEngine final : public NumberedEngine {
 
   void forget() {
     const auto forget_part = [&](unsigned, std::size_t p) { parts_[p].forget(); };
-    if (crew_.team()) {
-      crew_.team()->run(parts_.size(), forget_part);
+    if (workers_.team()) {
+      workers_.team()->run(parts_.size(), forget_part);
     } else {
       for (std::size_t p = 0; p < parts_.size(); ++p) forget_part(0, p);
     }
@@ -93,10 +94,10 @@ class WindowEngine final : public NumberedEngine {
     run_.bucket_width = run_.in_lists ? kExactBucket * run_.structure.bucket_width : run_.structure.bucket_width;
     run_.targets.place(problem.targets, run_.structure);
     next_target_check_ = problem.targets.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;
-    turn_ = 0;
+    bucket_ = 0;
     updates_ = 0;
-    crew_.hire(problem.options->threads, parts_.size());
-    benches_.resize(std::max<std::size_t>(benches_.size(), crew_.size()));
+    workers_.assemble(problem.options->threads, parts_.size());
+    benches_.resize(std::max<std::size_t>(benches_.size(), workers_.size()));
   }
 
   MergeOutlook outlook() const {
@@ -125,7 +126,7 @@ class WindowEngine final : public NumberedEngine {
 
   void drain(Results& results) {
     while (next_round()) {
-      crew_.work(due_, [this](unsigned worker, Index p) { parts_[p].work(turn_, benches_[worker]); });
+      workers_.work(due_, [this](unsigned worker, Index p) { parts_[p].work(bucket_, benches_[worker]); });
       deliver(results);
       look_up();
       retire();
@@ -134,15 +135,8 @@ class WindowEngine final : public NumberedEngine {
 
   // The parts that have something to do in the next bucket in which any has. False where none has.
   bool next_round() {
-    turn_ = EventQueue::kNever;
-    due_.clear();
-    for (const Index p : active_) {
-      const EventQueue::Next next = parts_[p].next();
-      if (next.turn > turn_) continue;
-      if (next.turn < turn_) due_.clear();
-      turn_ = next.turn;
-      due_.push_back({p, next.events});
-    }
+    const auto outlook_of = [&](Index p) { return parts_[p].outlook(); };
+    bucket_ = partition::next_round(active_, std::numeric_limits<std::int64_t>::min(), outlook_of, due_);
     return !due_.empty();
   }
 
@@ -158,7 +152,7 @@ class WindowEngine final : public NumberedEngine {
   PartState& active_part(Index p) {
     if (!parts_[p].is_active()) {
       if (spare_.empty()) spare_.push_back(std::make_unique<Activity>());
-      parts_[p].activate(std::move(spare_.back()), turn_);
+      parts_[p].activate(std::move(spare_.back()), bucket_);
       spare_.pop_back();
       active_.push_back(p);
     }
@@ -169,7 +163,7 @@ class WindowEngine final : public NumberedEngine {
   void look_up() {
     constexpr std::uint64_t kOften = 1024, kSeldom = 64 * kOften;
     const std::uint64_t before = updates_;
-    for (const detail::Shares::Due& d : due_) updates_ += parts_[d.part].count_updates();
+    for (const partition::Due& d : due_) updates_ += parts_[d.part].count_updates();
     field_->updates = updates_;
     const DistanceOptions& options = *run_.problem->options;
     if (updates_ / kOften != before / kOften && run_.problem->cancel && run_.problem->cancel->cancelled()) {
@@ -218,7 +212,7 @@ class WindowEngine final : public NumberedEngine {
     const WindowStructure& structure = run_.structure;
     for (const LabelMessage& m : messages.all<LabelMessage>()) parts_[m.part].vertices().learn_label(m.root, m.label);
     prefetch_receivers(run_, messages);
-    for (const FallenMessage& m : messages.all<FallenMessage>()) tell_copies(m.vertex);
+    for (const FallenMessage& m : messages.all<FallenMessage>()) tell_ghosts(m.vertex);
     for (const SightMessage& m : messages.all<SightMessage>()) {
       receive_sight(active_part(structure.part_of_vertex(m.vertex)), m.vertex, m.value, m.ray, m.all_around);
     }
@@ -233,10 +227,10 @@ class WindowEngine final : public NumberedEngine {
     }
   }
 
-  void tell_copies(Index v) {
+  void tell_ghosts(Index v) {
     VertexValues& at = run_.values[v];
     at.sent = false;
-    for (Index c = at.next_copy; c != v; c = run_.values[c].next_copy) {
+    for (Index c = at.next_ghost; c != v; c = run_.values[c].next_ghost) {
       parts_[run_.structure.part_of_vertex(c)].vertices().hear(c, at.upper, at.estimate);
     }
   }
@@ -244,14 +238,14 @@ class WindowEngine final : public NumberedEngine {
   RunState run_;
   Merging merging_;
   std::vector<Part> parts_;
-  std::vector<Index> active_;             // parts in which something waits
-  std::vector<detail::Shares::Due> due_;  // those with something to do in this round
+  std::vector<Index> active_;        // parts in which something waits
+  std::vector<partition::Due> due_;  // those with something to do in this round
   std::vector<std::unique_ptr<Activity>> spare_;
-  detail::Crew crew_{kPatience};
+  partition::WorkerTeam workers_{kStealAfter};
   std::vector<Workbench> benches_;  // [threads]
   std::vector<Index> scratch_;
   DistanceField* field_ = nullptr;
-  std::int64_t turn_ = 0;  // number of the bucket
+  std::int64_t bucket_ = 0;  // number of the bucket
   std::uint64_t updates_ = 0;
   std::uint64_t next_target_check_ = 0;
 };
