@@ -1,15 +1,15 @@
 // Inputs from a seeded generator that gives the same numbers on every platform.
 #include "kernels.h"
 
-#include <brushfire/core/bucket_queue.h>
-#include <brushfire/core/random.h>
-#include <brushfire/mesh/locality_order.h>
+#include <brushfire/core/detail/bucket_queue.h>
+#include <brushfire/core/detail/random.h>
+#include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/nearest_point.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/fast_marching/triangle_update.h>
+#include <brushfire/solvers/fast_marching/detail/triangle_update.h>
 #include <brushfire/solvers/windows/algebra/envelope.h>
 #include <brushfire/solvers/windows/algebra/merge.h>
 #include <brushfire/solvers/windows/algebra/propagate.h>
@@ -89,7 +89,7 @@ Run set_up(Method method, Precision precision) {
 template <class T>
 Run circular_updates() {
   struct Input {
-    detail::UpdateTriangle<T> at;
+    fast_marching::UpdateTriangle<T> at;
     T t1, t2;
   };
   const auto inputs = std::make_shared<std::vector<Input>>();
@@ -104,7 +104,7 @@ Run circular_updates() {
   }
   return [=] {
     T sum = 0;
-    for (const Input& in : *inputs) sum += detail::CircularFront::update(in.at, in.t1, in.t2).value;
+    for (const Input& in : *inputs) sum += fast_marching::CircularFront::update(in.at, in.t1, in.t2).value;
     return static_cast<double>(sum);
   };
 }

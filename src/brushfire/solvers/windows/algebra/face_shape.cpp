@@ -1,7 +1,7 @@
 // Lengths and areas from positions, in the room's number.
 #include <brushfire/solvers/windows/algebra/face_shape.h>
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
 
 #include <algorithm>
 

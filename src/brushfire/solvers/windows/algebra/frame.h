@@ -1,7 +1,7 @@
 // The frame of a halfedge: a triangle over one of its edges, in the plane.
 #pragma once
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
 #include <brushfire/core/types.h>
 #include <brushfire/solvers/windows/algebra/real.h>
 

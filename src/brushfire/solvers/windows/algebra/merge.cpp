@@ -1,7 +1,7 @@
 // The flattest lower interpolant of two windows, in closed form.
 #include <brushfire/solvers/windows/algebra/merge.h>
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
 #include <brushfire/solvers/windows/algebra/ridge.h>
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 // that the values at the edge's ends allow on it.
 #include <brushfire/solvers/windows/paths/leg_search.h>
 
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/mesh/detail/wide_face.h>
-#include <brushfire/mesh/flat_face.h>
 
 #include <algorithm>
 #include <cmath>

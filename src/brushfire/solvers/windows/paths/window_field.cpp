@@ -2,7 +2,7 @@
 #include <brushfire/solvers/window_field.h>
 
 #include <brushfire/core/error.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/windows/algebra/frame.h>
 #include <brushfire/solvers/windows/paths/leg_search.h>

@@ -1,7 +1,7 @@
 // The vertices of one part of the mesh: what a run knows of them, out of other parts' reach.
 #pragma once
 
-#include <brushfire/core/bucket_queue.h>
+#include <brushfire/core/detail/bucket_queue.h>
 #include <brushfire/solvers/windows/algebra/dominance.h>
 #include <brushfire/solvers/windows/propagation/run_state.h>
 

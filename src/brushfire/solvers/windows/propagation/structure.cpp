@@ -2,8 +2,8 @@
 #include <brushfire/solvers/windows/propagation/structure.h>
 
 #include <brushfire/core/cancel.h>
-#include <brushfire/core/populate.h>
-#include <brushfire/core/uninitialized.h>
+#include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/face_geometry.h>
 #include <brushfire/solvers/windows/propagation/fan.h>
@@ -56,7 +56,7 @@ Connectivity connectivity_of(const Mesh& mesh, const LocalityOrder& order) {
             crowds_of(inner.corner_offsets(), inner.all_corners(), order)};
   }
   UninitializedArray<Face> faces(mesh.face_count());
-  populate(faces);
+  prefault(faces);
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const Face& t = mesh.faces()[order.faces[f]];
     faces[f] = {order.vertex_rank[t[0]], order.vertex_rank[t[1]], order.vertex_rank[t[2]]};

@@ -1,7 +1,7 @@
 // What a run needs to know of the mesh: face records, at which vertices paths may bend, and the parts of the mesh.
 #pragma once
 
-#include <brushfire/mesh/locality_order.h>
+#include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/partition/face_partition.h>
 #include <brushfire/solvers/windows/propagation/face.h>

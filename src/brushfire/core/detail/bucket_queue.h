@@ -2,7 +2,7 @@
 // out.
 #pragma once
 
-#include <brushfire/core/inline.h>
+#include <brushfire/core/detail/inline.h>
 #include <brushfire/core/types.h>
 
 #include <algorithm>

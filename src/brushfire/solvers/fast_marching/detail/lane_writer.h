@@ -1,8 +1,9 @@
 // Puts the sides and triangles around vertices into blocks.
 #pragma once
 
-#include <brushfire/core/populate.h>
-#include <brushfire/solvers/fast_marching/ring_blocks.h>
+#include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/prefetch.h>
+#include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
 
 #include <algorithm>
 #include <bit>
@@ -17,9 +18,9 @@
 #include <emmintrin.h>
 #endif
 
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // A triangle (v; a, b) with v in the origin of its plane: |a|, |b|, a . b, |a x b|.
 struct Corner {
@@ -38,9 +39,9 @@ class LaneWriter {
     first_pages_ = {blocks_.data(), vertex_count * sizeof(RingBlock<T>)};
     heads_.reserve(std::size_t{vertex_count} + vertex_count / 4 + 1);  // ghosts will follow
     heads_.resize(vertex_count);
-    populate(heads_);
+    prefault(heads_);
     next_.reserve(vertex_count / 2);
-    populate(links_.data(), vertex_count * sizeof(LaneLinks));
+    prefault(links_.data(), vertex_count * sizeof(LaneLinks));
   }
 
   // Vertices up to `end` are about to begin their rings.
@@ -236,4 +237,4 @@ class LaneWriter {
   PagesAhead first_pages_, next_pages_;                   // of the first blocks, and of the others
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

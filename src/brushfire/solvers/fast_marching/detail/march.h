@@ -1,14 +1,14 @@
 // The march: takes vertices from the queue in order of their values and offers values to the rings around them.
 #pragma once
 
-#include <brushfire/solvers/fast_marching/march_state.h>
-#include <brushfire/solvers/fast_marching/ring_blocks.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/march_state.h>
+#include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <cstdint>
 #include <functional>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 enum class FrontModel : std::uint8_t { Circular, LiteralCircular, Planar };
 
@@ -25,4 +25,4 @@ inline constexpr std::size_t kSlice = 8192;
 template <class T>
 void march_label_setting(const Rings<T>& rings, MarchState<T>& state, const std::function<void()>& poll);
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -1,16 +1,16 @@
 // How the curvature of the surface bends fronts.
 #pragma once
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
 #include <brushfire/core/types.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <type_traits>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // What the surface around a vertex lacks to be flat, and a third of the area of the faces there.
 struct Patch {
@@ -55,4 +55,4 @@ BRUSHFIRE_INLINE T quick_angle(T x, T y) {
   return x < 0 ? T(kPi) - quadrant : quadrant;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -6,17 +6,17 @@
 // that others do in the same round, so it does not matter who works on which part, and when.
 #pragma once
 
-#include <brushfire/core/bucket_queue.h>
+#include <brushfire/core/detail/bucket_queue.h>
+#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/types.h>
-#include <brushfire/core/uninitialized.h>
-#include <brushfire/solvers/fast_marching/parts.h>
+#include <brushfire/solvers/fast_marching/detail/parts.h>
 
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // The state byte of a vertex.
 struct Openness {
@@ -129,4 +129,4 @@ struct MarchState {
   void wake(Index part);
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -6,14 +6,14 @@
 
 #include <memory>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // One engine for the three methods and both precisions: which one runs stands in the problem's options.
-std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh);
+std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh);
 
 // With parts of a size of one's own, a power of two (see parts.h): results depend on it, to the bit, though not on how
 // many threads work on them. kNoIndex: the whole mesh.
-std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh, Index part_size);
+std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Index part_size);
 Index usual_part_size(const Mesh& mesh);
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

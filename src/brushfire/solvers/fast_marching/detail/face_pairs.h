@@ -1,16 +1,17 @@
 // The faces behind obtuse corners, looked up among the faces at one end of the edge across.
 #pragma once
 
+#include <brushfire/core/detail/prefetch.h>
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/solvers/fast_marching/float8.h>
-#include <brushfire/solvers/fast_marching/split_corner.h>
-#include <brushfire/solvers/fast_marching/unfold.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/float8.h>
+#include <brushfire/solvers/fast_marching/detail/split_corner.h>
+#include <brushfire/solvers/fast_marching/detail/unfold.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <bit>
 #include <span>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // The vertex of a face that is neither of these two of its vertices.
 inline Index third(const Face& t, Index a, Index b) { return t[0] + t[1] + t[2] - a - b; }
@@ -115,4 +116,4 @@ class FacePairs {
 
 #endif
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -2,13 +2,14 @@
 // as far as these go, or in registers. Both give the same bits.
 #pragma once
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
+#include <brushfire/core/detail/prefetch.h>
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/solvers/fast_marching/bend.h>
-#include <brushfire/solvers/fast_marching/double8.h>
-#include <brushfire/solvers/fast_marching/float8.h>
-#include <brushfire/solvers/fast_marching/ring_blocks.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/bend.h>
+#include <brushfire/solvers/fast_marching/detail/double8.h>
+#include <brushfire/solvers/fast_marching/detail/float8.h>
+#include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // What of a mesh it takes. Plain: with positions, and without slits.
 struct FanMesh {
@@ -414,4 +415,4 @@ class FanInRegisters {
 
 #endif
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

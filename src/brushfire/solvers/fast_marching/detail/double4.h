@@ -2,11 +2,11 @@
 // BRUSHFIRE_AVX2 only.
 #pragma once
 
-#include <brushfire/solvers/fast_marching/double8.h>
+#include <brushfire/solvers/fast_marching/detail/double8.h>
 
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 struct Double4 {
   __m256d v;
@@ -65,6 +65,6 @@ BRUSHFIRE_AVX2_INLINE FourVec3 load_four(const double* a, const double* b, const
   return loaded;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching
 
 #endif

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <limits>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 template <class T>
 struct UpdateTriangle {
@@ -94,4 +94,4 @@ struct PlanarFront {
   }
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

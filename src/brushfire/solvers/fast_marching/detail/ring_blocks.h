@@ -1,17 +1,17 @@
 // The triangles around every vertex, laid out for vector registers.
 #pragma once
 
-#include <brushfire/core/inline.h>
-#include <brushfire/core/uninitialized.h>
+#include <brushfire/core/detail/inline.h>
+#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/solvers/fast_marching/parts.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/parts.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 inline constexpr Index kLanes = 8;
 
@@ -75,4 +75,4 @@ Rings<T> build_rings(const Mesh& mesh, Index part_size, Variant variant = Varian
 extern template Rings<float> build_rings<float>(const Mesh& mesh, Index part_size, Variant variant);
 extern template Rings<double> build_rings<double>(const Mesh& mesh, Index part_size, Variant variant);
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

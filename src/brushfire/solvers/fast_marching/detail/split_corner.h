@@ -3,15 +3,15 @@
 #pragma once
 
 #include <brushfire/core/types.h>
-#include <brushfire/solvers/fast_marching/double4.h>
-#include <brushfire/solvers/fast_marching/unfold.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/double4.h>
+#include <brushfire/solvers/fast_marching/detail/unfold.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <array>
 #include <cmath>
 #include <span>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // Two faces over one edge: an obtuse corner, the ends of the edge across, the vertex behind it.
 struct FacePair {
@@ -142,4 +142,4 @@ BRUSHFIRE_AVX2 CornerSets split_corners4(std::span<const Vec3> positions, double
 
 #endif
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -1,11 +1,11 @@
 // Eight doubles in two registers of a processor with AVX2: what Float8 is for floats, operation by operation.
 #pragma once
 
-#include <brushfire/solvers/fast_marching/float8.h>
+#include <brushfire/solvers/fast_marching/detail/float8.h>
 
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 struct Double8 {
   __m256d low, high;
@@ -133,6 +133,6 @@ BRUSHFIRE_AVX2_INLINE std::array<double, 4> sums_of(Double8 a, Double8 b, Double
   return sums;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching
 
 #endif

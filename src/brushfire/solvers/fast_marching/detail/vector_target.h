@@ -1,7 +1,7 @@
 // Which functions are compiled twice: for any processor, and for those with 256-bit vectors.
 #pragma once
 
-#include <brushfire/core/inline.h>
+#include <brushfire/core/detail/inline.h>
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@
 #define BRUSHFIRE_HAS_AVX2_VARIANT 1
 #endif
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // The variant for this processor, or the one that runs on all of them: the same bits.
 enum class Variant : std::uint8_t { Best, Portable };
@@ -26,13 +26,4 @@ inline bool has_avx2() {
 #endif
 }
 
-// Asks for the cache line at `address`, which may be anywhere.
-BRUSHFIRE_INLINE void prefetch(const void* address) {
-#if defined(__GNUC__)
-  __builtin_prefetch(address);
-#else
-  static_cast<void>(address);
-#endif
-}
-
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // A triangle of the plane into which the faces behind an obtuse corner were unrolled: the corner lies at (0,0), the
 // other two vertices where these say. The straight lines from the corner to points between them stay in those faces.
@@ -62,4 +62,4 @@ class Unfolder {
 
 inline constexpr int kMaxUnfolded = 64;
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -1,5 +1,5 @@
 // Memory that is made present all at once.
-#include <brushfire/core/populate.h>
+#include <brushfire/core/detail/prefault.h>
 
 #include <gtest/gtest.h>
 
@@ -11,20 +11,20 @@
 namespace brushfire {
 namespace {
 
-TEST(Populate, KeepsWhatIsThere) {
+TEST(Prefault, KeepsWhatIsThere) {
   for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{100'000}, std::size_t{3'000'001}}) {
     UninitializedArray<std::uint32_t> numbers(size);
-    populate(numbers);
+    prefault(numbers);
     std::iota(numbers.begin(), numbers.end(), 0u);
-    populate(numbers);
+    prefault(numbers);
     for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(numbers[i], i);
   }
 }
 
-TEST(Populate, TakesAnyPartOfAnArray) {
+TEST(Prefault, TakesAnyPartOfAnArray) {
   std::vector<std::byte> bytes(std::size_t{5} << 20, std::byte{7});
   for (const std::size_t begin : {0u, 1u, 4095u, 4096u, 1'000'003u}) {
-    populate(bytes.data() + begin, bytes.size() - begin - 5);
+    prefault(bytes.data() + begin, bytes.size() - begin - 5);
   }
   EXPECT_EQ(bytes, std::vector<std::byte>(bytes.size(), std::byte{7}));
 }

@@ -5,9 +5,10 @@
 // parts can march side by side; what concerns others is written into channels and read when all are done.
 #pragma once
 
-#include <brushfire/core/inline.h>
+#include <brushfire/core/detail/inline.h>
+#include <brushfire/core/detail/prefetch.h>
 #include <brushfire/core/types.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <bit>
 #include <cstddef>
@@ -15,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 inline constexpr int kWholeMesh = 31;  // the shift of a part that has all vertices
 
@@ -117,4 +118,4 @@ class PartsBuilder {
   std::vector<std::uint64_t> seen_;  // a bit for every vertex
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

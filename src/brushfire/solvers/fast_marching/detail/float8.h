@@ -1,7 +1,7 @@
 // Eight floats in one register of a processor with AVX2. To be used in functions with BRUSHFIRE_AVX2 only.
 #pragma once
 
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
 
@@ -13,7 +13,7 @@
 #define BRUSHFIRE_AVX2 [[gnu::target("avx2,bmi,lzcnt,popcnt")]]
 #define BRUSHFIRE_AVX2_INLINE [[gnu::target("avx2,bmi,lzcnt,popcnt"), gnu::always_inline]] inline
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // Numbers, or masks: all bits of a lane, or none.
 struct Float8 {
@@ -106,6 +106,6 @@ BRUSHFIRE_AVX2_INLINE __m256i packing(std::uint32_t set) {
   return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&kPacking[set])));
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching
 
 #endif

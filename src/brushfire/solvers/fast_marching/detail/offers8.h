@@ -1,15 +1,15 @@
 // The same offers as offers.h makes, in registers: the same operations in the same order, so the same bits.
 #pragma once
 
-#include <brushfire/solvers/fast_marching/double8.h>
-#include <brushfire/solvers/fast_marching/float8.h>
-#include <brushfire/solvers/fast_marching/offers.h>
+#include <brushfire/solvers/fast_marching/detail/double8.h>
+#include <brushfire/solvers/fast_marching/detail/float8.h>
+#include <brushfire/solvers/fast_marching/detail/offers.h>
 
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
 
 #include <bit>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // The front over each of eight edges, from a vertex with value t1 to one with value t2, less `root` both; and what it
 // makes of the targets x, y over them: the values less the root, and whether it reaches them through the edge. Shared
@@ -200,6 +200,6 @@ BRUSHFIRE_AVX2 static void make_offers8(const RingBlock<T>& block, const LaneLin
   }
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching
 
 #endif

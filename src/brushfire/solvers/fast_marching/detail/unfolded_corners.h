@@ -1,20 +1,21 @@
 // Obtuse corners become triangles that reach out of them, for the vertices at their other corners.
 #pragma once
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
+#include <brushfire/core/detail/prefetch.h>
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/solvers/fast_marching/face_pairs.h>
-#include <brushfire/solvers/fast_marching/lane_writer.h>
-#include <brushfire/solvers/fast_marching/split_corner.h>
-#include <brushfire/solvers/fast_marching/unfold.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/face_pairs.h>
+#include <brushfire/solvers/fast_marching/detail/lane_writer.h>
+#include <brushfire/solvers/fast_marching/detail/split_corner.h>
+#include <brushfire/solvers/fast_marching/detail/unfold.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 template <class T>
 class UnfoldedCorners {
@@ -66,7 +67,7 @@ class UnfoldedCorners {
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
     if (in_registers_) return split_corners4(mesh_.positions(), scale_, pair, split);
 #endif
-    return detail::split_corners(mesh_.positions(), scale_, pair, split);
+    return fast_marching::split_corners(mesh_.positions(), scale_, pair, split);
   }
 
   // Two triangles, each seen from its end and from behind.
@@ -111,4 +112,4 @@ class UnfoldedCorners {
   std::vector<UnfoldedTriangle> triangles_;  // of one corner
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -2,15 +2,15 @@
 // far as these go.
 #pragma once
 
-#include <brushfire/core/inline.h>
+#include <brushfire/core/detail/inline.h>
 #include <brushfire/core/types.h>
-#include <brushfire/solvers/fast_marching/march.h>
-#include <brushfire/solvers/fast_marching/ring_blocks.h>
-#include <brushfire/solvers/fast_marching/triangle_update.h>
+#include <brushfire/solvers/fast_marching/detail/march.h>
+#include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
+#include <brushfire/solvers/fast_marching/detail/triangle_update.h>
 
 #include <limits>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 // A value has to fall by more than rounding to be news: otherwise two ways of equal length would chase each other.
 template <class T>
@@ -136,4 +136,4 @@ BRUSHFIRE_INLINE void make_offers(const RingBlock<T>& block, const LaneLinks& li
   }
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

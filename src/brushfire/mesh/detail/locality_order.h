@@ -3,8 +3,8 @@
 // Solvers renumber by it inside; no user ever sees the new numbers.
 #pragma once
 
+#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/types.h>
-#include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
 
 #include <span>

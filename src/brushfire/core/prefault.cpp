@@ -1,5 +1,5 @@
-// Populates pages by madvise(), where there is such an advice.
-#include <brushfire/core/populate.h>
+// Prefaults pages by madvise(), where there is such an advice.
+#include <brushfire/core/detail/prefault.h>
 
 #include <algorithm>
 #include <array>
@@ -35,7 +35,7 @@ void advise([[maybe_unused]] std::byte* begin, [[maybe_unused]] std::byte* end, 
 
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
 // The first page that is not present; `end` where all are. What an allocator hands out again often is, and asking costs
-// a tenth of populating what is present.
+// a tenth of prefaulting what is present.
 std::byte* first_absent(std::byte* begin, std::byte* end, std::size_t page) noexcept {
   constexpr std::size_t kAtOnce = 256;
   std::array<unsigned char, kAtOnce> present;
@@ -53,7 +53,7 @@ std::byte* first_absent(std::byte* begin, std::byte* end, std::size_t page) noex
 
 }  // namespace
 
-void populate([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) noexcept {
+void prefault([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) noexcept {
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
   constexpr std::size_t kLeast = std::size_t{256} << 10;
   if (bytes < kLeast) return;
@@ -80,7 +80,7 @@ void PagesAhead::make_present(const void* at) noexcept {
     const std::size_t rest = kLargePage - reinterpret_cast<std::uintptr_t>(present_) % kLargePage;
     const std::size_t bytes = std::min(rest, static_cast<std::size_t>(end_ - present_));
     const auto begin = std::chrono::steady_clock::now();
-    populate(present_, bytes);
+    prefault(present_, bytes);
     // A host may provide what is present only now, small page by small page.
     constexpr std::size_t kSmallPage = 4096;
     for (std::size_t i = 0; large_ && i < bytes; i += kSmallPage) present_[i] = std::byte{0};
