@@ -26,8 +26,8 @@ void Results::keep() {
     data->vertices.resize(mesh.vertex_count(), unknown);
   }
   for (const Part& part : parts_) {
-    part.for_each_touched([&](Index v) {
-      if (run_.values[v].lower > run_.radius || !is_first_copy(v)) return;
+    part.vertices().for_each_touched([&](Index v) {
+      if (run_.values[v].lower > run_.radius || !is_owner(v)) return;
       data->vertices.set(run_.structure.outer_vertex(v), {run_.values[v].lower, label_of(v), outer(run_.rays[v])});
     });
   }

@@ -18,8 +18,8 @@ void Results::keep() {
   run.exact = !run_.merges();
   run.whole = !(run_.radius < kInfinity);
   for (const Part& part : parts_) {
-    part.for_each_touched([&](Index v) {
-      if (run_.values[v].lower > run_.radius || !is_first_copy(v)) return;
+    part.vertices().for_each_touched([&](Index v) {
+      if (run_.values[v].lower > run_.radius || !is_owner(v)) return;
       run.vertices.push_back(
           {run_.structure.outer_vertex(v), to_double(run_.values[v].lower), label_of(v), plain(outer(run_.rays[v]))});
     });

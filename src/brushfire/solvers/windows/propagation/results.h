@@ -14,15 +14,15 @@ class Results {
  public:
   Results(RunState& run, std::span<Part> parts, DistanceField& field) : run_(run), parts_(parts), field_(field) {}
 
-  // A target is told of a path; see Part::offer_target().
+  // A target is told of a path; see reach_target().
   void offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight = true);
   // The field, and what paths need later where that is wanted. `scratch` is room to work in; `team` may be null.
   void write(std::vector<Index>& scratch, ThreadTeam* team);
 
  private:
   Index label_of(Index root) const;
-  VertexValues all_copies(Index v) const;
-  bool is_first_copy(Index v) const;
+  VertexValues with_ghosts(Index v) const;
+  bool is_owner(Index v) const;
   Rounding rounding_at(Index outer, const VertexValues& values) const;
   Reading read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const;
   Index outer_root(Index root) const;
