@@ -12,6 +12,7 @@
 #include "part.cpp"
 #include "part_lists.cpp"
 #include "part_windows.cpp"
+#include "point_values.cpp"
 #include "propagation.cpp"
 #include "rays.cpp"
 #include "results.cpp"

@@ -25,6 +25,9 @@ using On = PointLocation::On;
 // Vertices that are nearer than this share of the value have the same value as the point, as far as anyone knows: the
 // leg may start from any of them.
 constexpr double kNoDistance = 64 * std::numeric_limits<double>::epsilon();
+// And those that are nearer than this share of the longest edge of a face of both: the weights of a point do not tell
+// them apart.
+constexpr double kNoPlace = 2 * std::numeric_limits<double>::epsilon();
 // What a turn of two arrows is rounded by at most, as a share of the product of their lengths: some hundred operations
 // of 2^-104 each, with room for places that are far larger than what they are compared with.
 constexpr double kNoTurn = 1e-26;
@@ -32,6 +35,8 @@ constexpr double kNoTurn = 1e-26;
 constexpr double kSamePlace = 1e-15;
 // Wedges that are one come soon after each other: only so many are looked at.
 constexpr std::ptrdiff_t kRecent = 32;
+// And so many faces of a way: no way winds round more of them in a circle for long.
+constexpr int kMostBack = 64;
 // Once the value is explained, so many more wedges are looked into for the root that the field names itself.
 constexpr int kPatience = 256;
 // A pass ends after so many wedges. Along the hint a leg needs few for each face that it crosses, or it is going
@@ -129,6 +134,11 @@ class LegSearch {
     Index source;
     std::array<double, 3> weights;
   };
+  // A point by its faces. A face that has a vertex twice names it once for every corner.
+  struct Named {
+    Index face;
+    std::array<double, 3> weights;
+  };
   struct Open {
     Index wedge;
     double key;
@@ -155,10 +165,16 @@ class LegSearch {
         const std::array<double, 3> d = corner_distances(mesh_, here);
         for (Index k = 0; k < 3; ++k) {
           const double way = from.before + d[k];
-          if (way <= kNoDistance * value_) add_origin(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
+          if (way <= no_distance(f.face)) add_origin(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
         }
+        for (Index k = 0; k < 3; ++k) add_origin_across(f, 3 * f.face + k, i);
       }
     }
+  }
+  // A point of an edge is known to an epsilon of the edge, whatever the value.
+  double no_distance(Index face) const {
+    const auto l = mesh_.lengths().subspan(3 * std::size_t{face}, 3);
+    return std::max(kNoDistance * value_, kNoPlace * std::max({l[0], l[1], l[2]}));
   }
   void add_origin(Index v, Index corner, double way, Index previous) {
     if (is_origin(v)) return;
@@ -173,12 +189,37 @@ class LegSearch {
     return std::any_of(origins_.begin(), origins_.end(),
                        [&](const Origin& o) { return o.at.on == On::Vertex && o.at.vertex == v; });
   }
+  // The foot of the point on an edge at no distance: other corners of faces without area may lie there.
+  void add_origin_across(const Named& f, Index h, Index previous) {
+    const double weight = f.weights[Mesh::previous(h) % 3], length = mesh_.length(h), room = no_distance(f.face);
+    if (weight == 0 || !(length > 0) || mesh_.opposite()[h] == h || is_origin_on_edge(h)) return;
+    if (!(weight * mesh_.double_areas()[f.face] <= 2 * room * length)) return;
+    const std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, h % 3);
+    const WideVec2 here = wide_point(corners, f.weights);
+    const DoubleDouble share = (here.x - corners[h % 3].x) / (corners[Mesh::next(h) % 3].x - corners[h % 3].x);
+    const double way = origins_[previous].before + std::abs((here.y - corners[h % 3].y).high);
+    if (!(share > 0 && share < 1 && way <= room)) return;
+    PointLocation at;
+    at.on = On::Edge;
+    at.halfedge = h;
+    at.face = f.face;
+    at.weights[h % 3] = (DoubleDouble(1) - share).high;
+    at.weights[Mesh::next(h) % 3] = share.high;
+    origins_.push_back({at, way, previous});
+  }
+  bool is_origin_on_edge(Index h) const {
+    const auto is_on = [&](const Origin& o) {
+      if (o.at.on != On::Edge) return false;
+      Index g = o.at.halfedge;
+      do {
+        if (g == h) return true;
+        g = mesh_.opposite()[g];
+      } while (g != o.at.halfedge);
+      return false;
+    };
+    return std::any_of(origins_.begin(), origins_.end(), is_on);
+  }
 
-  // A point by its faces. A face that has a vertex twice names it once for every corner.
-  struct Named {
-    Index face;
-    std::array<double, 3> weights;
-  };
   std::vector<Named> names_of(const PointLocation& at) const {
     std::vector<Named> names;
     if (at.on == On::Vertex) {
@@ -279,7 +320,19 @@ class LegSearch {
     for (Index g = opposite(h); g != h && !done_; g = opposite(g)) enter(number, g);
   }
 
+  // A shortest way crosses a face once: between two visits it could go straight (L11 of docs/tolerance.md). Ways that
+  // wind between few faces for ever are found by looking back a little.
+  bool has_crossed(Index number, Index face) const {
+    if (!(mesh_.double_areas()[face] > 0)) return false;
+    for (int back = 0; number != kStart && back < kMostBack; ++back) {
+      if (Mesh::face_of(wedges_[number].halfedge) == face) return true;
+      number = wedges_[number].before;
+    }
+    return false;
+  }
+
   void enter(Index number, Index g) {
+    if (has_crossed(number, Mesh::face_of(g))) return;
     const Wedge w = wedges_[number];
     const WideFrame frame = wide_frame(mesh_, g);
     const WideVec2 edge = w.left - w.right;
