@@ -332,15 +332,29 @@ Outcome Examination::windows(const Task& task) {
   return out;
 }
 
+// Dijkstra begins with what a source sees across an edge, in frames of doubles: see "Rounding" in docs/tolerance.md.
+static Real frame_rounding(const Mesh& mesh) {
+  constexpr Real kFrames = 4;  // two faces, laid side by side
+  Real lever = 0;
+  for (Index h = 0; h < mesh.halfedge_count(); h += 3) {
+    const std::array<double, 3> l{mesh.length(h), mesh.length(h + 1), mesh.length(h + 2)};
+    const Real longest = *std::max_element(l.begin(), l.end()), shortest = *std::min_element(l.begin(), l.end());
+    lever = std::max(lever, shortest > 0 ? longest * longest / shortest : longest);
+  }
+  return kFrames * kEpsilon * lever * mesh.unit();
+}
+
 Outcome Examination::other(const Task& task) {
   Outcome out;
   const std::vector<Source>& sources = case_.starts[start_];
   const DistanceField field = distance(case_.mesh, sources, options_of(task));
+  const Real frames = frame_rounding(case_.mesh);
   for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
     const Value value = value_at(field, sources, truth().distance, v);
     if (!same_reach(value, vertex_text(v), out)) continue;
-    const bool too_short = task.method == Method::Dijkstra && value.got < value.truth - kExactPromise * value.length -
-                                                                              2 * kEpsilon * std::abs(value.truth);
+    const bool too_short =
+        task.method == Method::Dijkstra &&
+        value.got < value.truth - kExactPromise * value.length - 2 * kEpsilon * std::abs(value.truth) - frames;
     if (!too_short) continue;
     ++out.beyond;
     out.complain(off(value, vertex_text(v)));
@@ -348,8 +362,8 @@ Outcome Examination::other(const Task& task) {
   return out;
 }
 
-// To vertices and targets: there, whole, and as long as both the field and the truth say, to kPathPromise or to what the
-// field itself says that it may be off by.
+// To vertices and targets: there, whole, and as long as both the field and the truth say, to kPathPromise or to what
+// the field itself says that it may be off by.
 Outcome Examination::paths() {
   Outcome out;
   DistanceOptions options;
@@ -391,7 +405,8 @@ void Examination::hold_path(const WindowField& field, const SurfacePoint& to, Re
     ++out.lost;
     return out.complain(where + ": " + e.what());
   }
-  if ((path.length == kInfinity) != (value.distance == kInfinity) || path.points.empty() != (path.length == kInfinity)) {
+  if ((path.length == kInfinity) != (value.distance == kInfinity) ||
+      path.points.empty() != (path.length == kInfinity)) {
     ++out.lost;
     return out.complain(where + ": no way, and the field says " + std::to_string(value.distance));
   }

@@ -262,7 +262,7 @@ that makes it again. Exit code 1 where a promise is broken: any of the columns b
   off the field  paths whose length is off the field's value, or the truth, by more than 1e-11 of it and the error_bound
   windows        bounds that do not hold, or are wider than the tolerance
   lower, upper   on the wrong side of the truth, to the last bit
-  others         marching and Dijkstra: reached wrongly; Dijkstra: below the truth
+  others         marching and Dijkstra: reached wrongly; Dijkstra: below the truth by more than its first step rounds
   no truth       starts on which the oracle does not end
   oracle unsure  solves on which the oracle changed its mind with twice the digits)";
 

@@ -3,8 +3,8 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/core/planar.h>
-#include <brushfire/mesh/flat_face.h>
 #include <brushfire/core/text.h>
+#include <brushfire/mesh/flat_face.h>
 
 #include <algorithm>
 #include <cmath>

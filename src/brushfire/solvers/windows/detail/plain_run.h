@@ -22,9 +22,9 @@ struct PlainRun {
   Mesh mesh;
   const Problem* problem = nullptr;
   double shift = 0;
-  bool exact = true, whole = true;  // merged nothing; went as far as there is way
-  std::vector<Record> vertices;     // those with a final value
-  std::vector<Record> targets;      // [targets]
+  bool exact = true, whole = true;                // merged nothing; went as far as there is way
+  std::vector<Record> vertices;                   // those with a final value
+  std::vector<Record> targets;                    // [targets]
   std::shared_ptr<const PointValues> all_points;  // where asked for
 };
 

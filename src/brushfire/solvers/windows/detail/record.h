@@ -50,12 +50,12 @@ class VertexRecords {
 struct WindowFieldData {
   Mesh mesh;
   std::vector<LocatedSource> sources;
-  std::vector<Real> bases;  // what is to be added to values, by source, in the mesh's units; empty: 0
-  Real shift = 0;           // what was added to every value so that none is negative
-  bool exact = true;        // no merging: rays lead back to roots
-  VertexRecords vertices;                 // [vertex_count]; value NaN: farther than the run went
-  std::vector<PointLocation> targets;     // where not all_points
-  std::vector<PointRecord> target;        // [targets]
+  std::vector<Real> bases;             // what is to be added to values, by source, in the mesh's units; empty: 0
+  Real shift = 0;                      // what was added to every value so that none is negative
+  bool exact = true;                   // no merging: rays lead back to roots
+  VertexRecords vertices;              // [vertex_count]; value NaN: farther than the run went
+  std::vector<PointLocation> targets;  // where not all_points
+  std::vector<PointRecord> target;     // [targets]
   std::shared_ptr<const PointValues> all_points;  // where all windows were kept
   std::shared_ptr<const SheetView> view;          // where `mesh` is a single mesh (sheets.h): of the caller's
 };
