@@ -228,13 +228,26 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
     throw Error(ErrorCode::InvalidArgument, "a direction must have a finite length > 0");
   }
   const PointLocation at = locate(mesh, point);
-  if (at.on != On::Vertex) return wrapped(angle_in_face(mesh, at.face, 0, direction), 2 * kPi);
+  // A shadow on the surface that is shorter than this share of the direction is made of rounding.
+  constexpr double kShortest = 1e-12;
+  const auto check_shadow = [&](double length) {
+    if (length <= kShortest * size) {
+      throw Error(ErrorCode::InvalidArgument, "the direction is at right angles to the surface there");
+    }
+  };
+  if (at.on != On::Vertex) {
+    double length = 0;
+    const double angle = angle_in_face(mesh, at.face, 0, direction, &length);
+    check_shadow(length);
+    return wrapped(angle, 2 * kPi);
+  }
   const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
-  double best = 0, best_score = -kInfinity;
+  double best = 0, best_score = -kInfinity, longest = 0;
   for (const detail::FanCorner& c : fan.corners) {
     double length = 0;
     const double angle = angle_in_face(mesh, Mesh::face_of(c.corner), c.corner % 3, direction, &length);
     const double inside = std::clamp(angle, 0.0, c.angle);
+    longest = std::max(longest, length);
     // How far the direction reaches along the nearest direction of this face.
     const double score = length * std::cos(angle - inside);
     if (score > best_score) {
@@ -242,7 +255,15 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
       best = fan.around(c.corner, inside);
     }
   }
+  check_shadow(longest);
   return best;
+}
+
+bool is_counter_clockwise(const Mesh& mesh, const SurfacePoint& point) {
+  const PointLocation at = locate(mesh, point);
+  if (at.on != On::Vertex) return true;
+  const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
+  return fan.corners.empty() || !fan.corners.front().reversed;
 }
 
 Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, double length) {
