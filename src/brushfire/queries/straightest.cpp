@@ -228,13 +228,26 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
     throw Error(ErrorCode::InvalidArgument, "a direction must have a finite length > 0");
   }
   const PointLocation at = locate(mesh, point);
-  if (at.on != On::Vertex) return wrapped(angle_in_face(mesh, at.face, 0, direction), 2 * kPi);
+  // A shadow on the surface that is shorter than this share of the direction is made of rounding.
+  constexpr double kShortest = 1e-12;
+  const auto check_shadow = [&](double length) {
+    if (length <= kShortest * size) {
+      throw Error(ErrorCode::InvalidArgument, "the direction is at right angles to the surface there");
+    }
+  };
+  if (at.on != On::Vertex) {
+    double length = 0;
+    const double angle = angle_in_face(mesh, at.face, 0, direction, &length);
+    check_shadow(length);
+    return wrapped(angle, 2 * kPi);
+  }
   const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
-  double best = 0, best_score = -kInfinity;
+  double best = 0, best_score = -kInfinity, longest = 0;
   for (const detail::FanCorner& c : fan.corners) {
     double length = 0;
     const double angle = angle_in_face(mesh, Mesh::face_of(c.corner), c.corner % 3, direction, &length);
     const double inside = std::clamp(angle, 0.0, c.angle);
+    longest = std::max(longest, length);
     // How far the direction reaches along the nearest direction of this face.
     const double score = length * std::cos(angle - inside);
     if (score > best_score) {
@@ -242,7 +255,15 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
       best = fan.around(c.corner, inside);
     }
   }
+  check_shadow(longest);
   return best;
+}
+
+bool is_counter_clockwise(const Mesh& mesh, const SurfacePoint& point) {
+  const PointLocation at = locate(mesh, point);
+  if (at.on != On::Vertex) return true;
+  const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
+  return fan.corners.empty() || !fan.corners.front().reversed;
 }
 
 Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, double length) {
@@ -334,18 +355,27 @@ void find_angle(const WindowField& field, const LeavingAngles& leaving, SparseLo
 }  // namespace
 
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
+  DistanceOptions how;
+  how.max_distance = max_radius;
+  how.cancel = cancel;
+  return log_map(solver, source, how);
+}
+
+SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const DistanceOptions& how) {
   const LeavingAngles leaving(solver.mesh(), source);
   DistanceOptions options;
   options.method = Method::Exact;
-  options.max_distance = max_radius;
+  options.max_distance = how.max_distance;
+  options.threads = how.threads;
+  options.progress = how.progress;
   options.keep_paths = true;
-  options.cancel = cancel;
+  options.cancel = how.cancel;
   const Source origin{source};
   SparseField field = solver.distance_sparse(std::span(&origin, 1), options);
   SparseLogMap map{std::move(field.vertex), std::move(field.distance), {}, leaving.total()};
   map.angle.assign(map.vertex.size(), kUnknownAngle);
   std::vector<std::size_t> chain;
-  const CancelScope listen(cancel);
+  const CancelScope listen(how.cancel);
   Poll poll(64);
   for (std::size_t i = 0; i < map.vertex.size(); ++i) {
     poll();

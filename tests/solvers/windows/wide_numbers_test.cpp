@@ -32,7 +32,7 @@ Mesh ball(double far = 1) {
 TEST(Rounding, KnowsTheEdgesOfFacesOneOfWhoseEdgesHasNoLength) {
   windows::Unevenness folded;
   folded.add(2, 2, 0);
-  EXPECT_GE(windows::rounding_of(folded).absolute, 2 * detail::kEpsilon);
+  EXPECT_GE(windows::rounding_of(folded).absolute, 2 * windows::kEpsilon);
 }
 
 TEST(WideNumbers, GiveWhatDoublesGiveOnOrdinaryMeshes) {
