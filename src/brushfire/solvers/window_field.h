@@ -13,6 +13,7 @@ namespace brushfire {
 namespace detail {
 inline namespace in_doubles {  // see windows/detail/real.h
 struct WindowFieldData;
+class Departures;
 }
 }  // namespace detail
 
@@ -58,6 +59,7 @@ class WindowField {
   explicit WindowField(std::shared_ptr<const detail::WindowFieldData> data);
 
  private:
+  friend class detail::Departures;
   std::shared_ptr<const detail::WindowFieldData> data_;
 };
 
