@@ -114,21 +114,31 @@ prepared() {
   environment+=("HOME=$home")
   if [ -n "$cache" ]; then
     install_in_machine ccache
-    # By content: the same compiler has another date in every machine.
-    environment+=(CCACHE_DIR=/var/cache/ccache CCACHE_UMASK=000 CCACHE_COMPILERCHECK=content CCACHE_NOHASHDIR=1
-      "CCACHE_BASEDIR=$home/brushfire")
+    # The same compiler has the same date in every machine, its package's: the cache may come from outside, too.
+    environment+=(CCACHE_DIR=/var/cache/ccache CCACHE_UMASK=000 CCACHE_NOHASHDIR=1 "CCACHE_BASEDIR=$home/brushfire"
+      CCACHE_SLOPPINESS=locale,pch_defines,time_macros)
   fi
 }
 
-# The checkout without its history and without what was built here; what a kept machine built stays.
+# The checkout without its history and without what was built here. On a kept machine, what it built stays, and what has
+# not changed since keeps its date: nothing is built twice.
 checkout() {
-  mkdir -p "$machine$home/brushfire"
-  find "$machine$home/brushfire" -mindepth 1 -maxdepth 1 ! -name build ! -name demo -exec rm -rf {} +
+  local old=$machine$home/brushfire new=$machine$home/brushfire.new file
+  rm -rf "$new"
+  mkdir -p "$old" "$new"
   if command -v git >/dev/null && git rev-parse --git-dir >/dev/null 2>&1; then
     git -c safe.directory="$PWD" ls-files -co --exclude-standard -z | xargs -0 ls -d 2>/dev/null | tar -c -T -
   else
     tar -c --exclude=./build --exclude=./demo --exclude=./.git .
-  fi | tar -x -C "$machine$home/brushfire" --no-same-owner
+  fi | tar -x -C "$new" --no-same-owner
+  (cd "$new" && find . -type f) | while read -r file; do
+    if cmp -s "$old/$file" "$new/$file"; then touch -r "$old/$file" "$new/$file"; else touch "$new/$file"; fi
+  done
+  for file in build demo; do
+    if [ -e "$old/$file" ]; then mv "$old/$file" "$new/"; fi
+  done
+  rm -rf "$old"
+  mv "$new" "$old"
   if [ "$1" = user ]; then inside chown -R user:user "$home"; fi
 }
 
