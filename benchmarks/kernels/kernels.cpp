@@ -134,8 +134,12 @@ Window window(Random& random, double b0, double b1, Index root) {
 }
 
 // On its own, so that the compiler's choices for the rest of this file do not show in its count.
-[[gnu::noinline]] windows::Children children_of(const Window& w, const windows::Frame& frame) {
-  return windows::propagate(w, frame, windows::straight_value(w, frame.apex));
+[[gnu::noinline]] double ends_of_children(const Window& w, const windows::Frame& frame) {
+  double sum = 0;
+  windows::propagate(
+      w, frame, [&](const Window& left) { sum += windows::is_sliver(left) ? 0 : left.d0; },
+      [&](const Window& right) { sum += windows::is_sliver(right) ? 0 : right.d1; });
+  return sum;
 }
 
 // A window enters a triangle and leaves through one or both of the other sides.
@@ -153,11 +157,7 @@ Run propagation() {
   }
   return [=] {
     double sum = 0;
-    for (const auto& [f, w] : *inputs) {
-      const windows::Children c = children_of(w, f);
-      if (c.has_left) sum += c.left.d0;
-      if (c.has_right) sum += c.right.d1;
-    }
+    for (const auto& [f, w] : *inputs) sum += ends_of_children(w, f);
     return sum;
   };
 }

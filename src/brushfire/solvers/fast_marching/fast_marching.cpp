@@ -6,12 +6,12 @@
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/locality_order.h>
-#include <brushfire/solvers/detail/crew.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
 #include <brushfire/solvers/fast_marching/detail/fronts.h>
 #include <brushfire/solvers/fast_marching/detail/march.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
+#include <brushfire/solvers/partition/worker_team.h>
 
 #include <algorithm>
 #include <atomic>
@@ -116,7 +116,7 @@ class Marcher {
 
  private:
   void start(const detail::Problem& problem) {
-    crew_.hire(problem.options->threads, rings_.layout.parts.count());
+    workers_.assemble(problem.options->threads, rings_.layout.parts.count());
     for_each_part(state_.used, is_much(state_.touched()), [&](Index part) { state_.reset_part(part); });
     state_.reset();
     final_ = kInfinity;
@@ -161,13 +161,13 @@ class Marcher {
   // One round.
   void work(const CancelToken* cancel) {
     constexpr std::size_t kWorthSharing = 64;
-    if (!crew_.team() || state_.load < kWorthSharing) {
+    if (!workers_.team() || state_.load < kWorthSharing) {
       for (const Index part : state_.work) march_part_(rings_, state_, part);
       return;
     }
     due_.clear();
     for (const Index part : state_.work) due_.push_back({part, state_.outlook[part].load});
-    crew_.work(due_, [this, cancel](unsigned, Index part) {
+    workers_.work(due_, [this, cancel](unsigned, Index part) {
       if (!(cancel && cancel->cancelled())) march_part_(rings_, state_, part);
     });
   }
@@ -179,8 +179,8 @@ class Marcher {
     const auto take = [&](unsigned, std::size_t) {
       for (std::size_t i = next++; i < parts.size(); i = next++) act(parts[i]);
     };
-    if (crew_.team() && is_much) {
-      crew_.team()->run(std::min<std::size_t>(crew_.size(), parts.size()), std::ref(take));
+    if (workers_.team() && is_much) {
+      workers_.team()->run(std::min<std::size_t>(workers_.size(), parts.size()), std::ref(take));
     } else {
       take(0, 0);
     }
@@ -331,10 +331,10 @@ class Marcher {
   mutable detail::SeedSearch seeds_;
   MarchState<T> state_;
   MarchPart<T> march_part_ = nullptr;  // of this run
-  detail::Crew crew_{kPatience};
-  std::vector<detail::Shares::Due> due_;  // the parts that work in this round
-  double base_ = 0;                       // the lowest offset: values are kept relative to it
-  double final_ = kInfinity;              // where the front stopped
+  partition::WorkerTeam workers_{kPatience};
+  std::vector<partition::Due> due_;  // the parts that work in this round
+  double base_ = 0;                  // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;         // where the front stopped
 };
 
 class FastMarching final : public detail::Engine {

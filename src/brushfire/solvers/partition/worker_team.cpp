@@ -1,14 +1,14 @@
-// Hiring.
-#include <brushfire/solvers/detail/crew.h>
+// How many threads there are, and when they have to be started anew.
+#include <brushfire/solvers/partition/worker_team.h>
 
 #include <algorithm>
 
-namespace brushfire::detail {
+namespace brushfire::partition {
 
-void Crew::hire(unsigned requested, std::size_t parts) {
+void WorkerTeam::assemble(unsigned requested, std::size_t parts) {
   const std::size_t useful = std::max<std::size_t>(1, parts);
   const auto threads = static_cast<unsigned>(std::min<std::size_t>(thread_count(requested), useful));
-  shares_.reset(parts, threads);
+  scheduler_.reset(parts, threads);
   const bool bereft = threads_ > 1 && size() == 1;  // in a forked child, nobody came along
   if (threads == threads_ && !bereft) return;
   team_.reset();
@@ -16,4 +16,4 @@ void Crew::hire(unsigned requested, std::size_t parts) {
   threads_ = threads;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::partition

@@ -6,13 +6,17 @@
 // bucket of values at a time, and hear from each other only then. What a part does depends on its mail alone, and mail
 // is delivered in a fixed order: the numbers are the same for any number of threads.
 #include <brushfire/core/error.h>
-#include <brushfire/solvers/detail/crew.h>
+#include <brushfire/solvers/partition/rounds.h>
+#include <brushfire/solvers/partition/worker_team.h>
 #include <brushfire/solvers/windows/engine.h>
+#include <brushfire/solvers/windows/propagation/arrivals.h>
 #include <brushfire/solvers/windows/propagation/least_budget.h>
 #include <brushfire/solvers/windows/propagation/part.h>
+#include <brushfire/solvers/windows/propagation/prefetching.h>
+#include <brushfire/solvers/windows/propagation/pseudo_sources.h>
 #include <brushfire/solvers/windows/propagation/results.h>
 #include <brushfire/solvers/windows/propagation/run_state.h>
-#include <brushfire/solvers/windows/store/prefetch.h>
+#include <brushfire/solvers/windows/propagation/sink.h>
 
 #include <algorithm>
 #include <chrono>
@@ -27,7 +31,7 @@ constexpr double kExactBucket = 0.2;
 constexpr double kShort = 8;
 
 // What working on a part takes in a round, more or less.
-constexpr std::chrono::microseconds kPatience{20};
+constexpr std::chrono::microseconds kStealAfter{20};
 
 class WindowEngine final : public NumberedEngine {
  public:
@@ -35,7 +39,7 @@ class WindowEngine final : public NumberedEngine {
       : run_(mesh, part_bits), merging_(merging), benches_(1) {
     const Index n = run_.structure.vertex_count();
     run_.values.resize(n);
-    for (const WindowStructure::Copy& c : run_.structure.copies) run_.values[c.vertex].next_copy = c.next;
+    run_.structure.partition.for_each_ghost([&](Index v, Index ghost) { run_.values[v].next_ghost = ghost; });
     run_.light.resize(n);
     run_.touched.resize(n / kFewTouched + 1);
     for (Index p = 0; p < run_.structure.part_count(); ++p) parts_.emplace_back(run_, p);
@@ -53,7 +57,7 @@ class WindowEngine final : public NumberedEngine {
     for (const detail::LocatedSource& s : problem.sources) start(s);
     deliver(results);
     drain(results);
-    results.write(scratch_, crew_.team());
+    results.write(scratch_, workers_.team());
   }
 
  private:
@@ -61,8 +65,8 @@ class WindowEngine final : public NumberedEngine {
 
   void forget() {
     const auto forget_part = [&](unsigned, std::size_t p) { parts_[p].forget(); };
-    if (crew_.team()) {
-      crew_.team()->run(parts_.size(), forget_part);
+    if (workers_.team()) {
+      workers_.team()->run(parts_.size(), forget_part);
     } else {
       for (std::size_t p = 0; p < parts_.size(); ++p) forget_part(0, p);
     }
@@ -90,10 +94,10 @@ class WindowEngine final : public NumberedEngine {
     run_.bucket_width = run_.in_lists ? kExactBucket * run_.structure.bucket_width : run_.structure.bucket_width;
     run_.targets.place(problem.targets, run_.structure);
     next_target_check_ = problem.targets.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;
-    turn_ = 0;
+    bucket_ = 0;
     updates_ = 0;
-    crew_.hire(problem.options->threads, parts_.size());
-    benches_.resize(std::max<std::size_t>(benches_.size(), crew_.size()));
+    workers_.assemble(problem.options->threads, parts_.size());
+    benches_.resize(std::max<std::size_t>(benches_.size(), workers_.size()));
   }
 
   MergeOutlook outlook() const {
@@ -109,12 +113,12 @@ class WindowEngine final : public NumberedEngine {
     const Real sigma = s.offset + run_.shift;
     if (s.at.on == PointLocation::On::Vertex) {
       const Index v = structure.inner_vertex(s.at.vertex);
-      active_part(structure.part_of_vertex(v)).start_at_vertex(v, sigma, root);
+      start_at_vertex(active_part(structure.part_of_vertex(v)), v, sigma, root);
       return;
     }
     for_each_face_around(structure.mesh, s.at, [&](const FaceWeights& f) {
       const Index face = structure.inner_face(f.face);
-      active_part(structure.part_of_face(face)).start_in_face({face, f.weights}, sigma, root, benches_.front());
+      start_in_face(active_part(structure.part_of_face(face)), {face, f.weights}, sigma, root);
     });
   }
 
@@ -122,7 +126,7 @@ class WindowEngine final : public NumberedEngine {
 
   void drain(Results& results) {
     while (next_round()) {
-      crew_.work(due_, [this](unsigned worker, Index p) { parts_[p].work(turn_, benches_[worker]); });
+      workers_.work(due_, [this](unsigned worker, Index p) { parts_[p].work(bucket_, benches_[worker]); });
       deliver(results);
       look_up();
       retire();
@@ -131,15 +135,8 @@ class WindowEngine final : public NumberedEngine {
 
   // The parts that have something to do in the next bucket in which any has. False where none has.
   bool next_round() {
-    turn_ = EventQueue::kNever;
-    due_.clear();
-    for (const Index p : active_) {
-      const EventQueue::Next next = parts_[p].next();
-      if (next.turn > turn_) continue;
-      if (next.turn < turn_) due_.clear();
-      turn_ = next.turn;
-      due_.push_back({p, next.events});
-    }
+    const auto outlook_of = [&](Index p) { return parts_[p].outlook(); };
+    bucket_ = partition::next_round(active_, std::numeric_limits<std::int64_t>::min(), outlook_of, due_);
     return !due_.empty();
   }
 
@@ -151,21 +148,22 @@ class WindowEngine final : public NumberedEngine {
     });
   }
 
-  Part& active_part(Index p) {
+  // To give something to a part while none is at work.
+  PartState& active_part(Index p) {
     if (!parts_[p].is_active()) {
-      if (spare_.empty()) spare_.push_back(std::make_unique<Traffic>());
-      parts_[p].activate(std::move(spare_.back()), turn_);
+      if (spare_.empty()) spare_.push_back(std::make_unique<Activity>());
+      parts_[p].activate(std::move(spare_.back()), bucket_);
       spare_.pop_back();
       active_.push_back(p);
     }
-    return parts_[p];
+    return parts_[p].at(benches_.front());
   }
 
   // What has to be seen to between rounds: progress, cancelling, targets.
   void look_up() {
     constexpr std::uint64_t kOften = 1024, kSeldom = 64 * kOften;
     const std::uint64_t before = updates_;
-    for (const detail::Shares::Due& d : due_) updates_ += parts_[d.part].count_updates();
+    for (const partition::Due& d : due_) updates_ += parts_[d.part].count_updates();
     field_->updates = updates_;
     const DistanceOptions& options = *run_.problem->options;
     if (updates_ / kOften != before / kOften && run_.problem->cancel && run_.problem->cancel->cancelled()) {
@@ -177,7 +175,7 @@ class WindowEngine final : public NumberedEngine {
 
   double share_done() const {
     std::size_t touched = 0;
-    for (const Part& p : parts_) touched += p.touched_count();
+    for (const Part& p : parts_) touched += p.vertices().touched_count();
     return static_cast<double>(touched) / run_.structure.vertex_count();
   }
 
@@ -194,65 +192,60 @@ class WindowEngine final : public NumberedEngine {
     run_.radius = std::min(run_.radius, farthest / kDominated);
   }
 
-  // ---- mail
+  // ---- messages
 
-  // Until nobody has any more: windows that pass at once (see Part) may be sent on.
+  // Until nobody has any more: windows that pass at once (see enter_face()) may be sent on.
   void deliver(Results& results) {
     for (bool any = true; any;) {
       any = false;
       for (std::size_t i = 0; i < active_.size(); ++i) {  // it may grow
-        Mail& mail = parts_[active_[i]].outbox();
-        if (mail.empty()) continue;
+        Outbox& messages = parts_[active_[i]].outbox();
+        if (messages.empty()) continue;
         any = true;
-        deliver(mail, results);
-        mail.clear();
+        deliver(messages, results);
+        messages.clear();
       }
     }
   }
 
-  void deliver(const Mail& mail, Results& results) {
+  void deliver(const Outbox& messages, Results& results) {
     const WindowStructure& structure = run_.structure;
-    for (const Mail::Label& l : mail.labels) parts_[l.part].learn_label(l);
-    prefetch_places(mail);
-    for (const Index v : mail.news) tell_copies(v);
-    for (const Mail::Offer& o : mail.offers) active_part(structure.part_of_vertex(o.vertex)).receive(o);
-    for (const Mail::ToTarget& t : mail.to_targets) {
-      results.offer_target(t.target, t.value, t.slack, t.lift, t.ray, t.straight);
+    for (const LabelMessage& m : messages.all<LabelMessage>()) parts_[m.part].vertices().learn_label(m.root, m.label);
+    prefetch_receivers(run_, messages);
+    for (const FallenMessage& m : messages.all<FallenMessage>()) tell_ghosts(m.vertex);
+    for (const SightMessage& m : messages.all<SightMessage>()) {
+      receive_sight(active_part(structure.part_of_vertex(m.vertex)), m.vertex, m.value, m.ray, m.all_around);
     }
-    for (const Mail::OneWindow& w : mail.windows) {
-      active_part(structure.part_of_face(w.halfedge / 3)).receive(w, benches_.front());
+    for (const TargetMessage& m : messages.all<TargetMessage>()) {
+      results.offer_target(m.target, m.value, m.slack, m.lift, m.ray, m.straight);
     }
-    for (const Mail::WholeList& l : mail.lists) {
-      active_part(structure.part_of_face(l.halfedge / 3)).receive(l, benches_.front());
+    for (const WindowMessage& m : messages.all<WindowMessage>()) {
+      receive(active_part(structure.part_of_face(m.halfedge / 3)), m);
+    }
+    for (const ListMessage& m : messages.all<ListMessage>()) {
+      receive(active_part(structure.part_of_face(m.halfedge / 3)), m);
     }
   }
 
-  // Mail comes to places where nobody has been for a while: all are fetched at once.
-  void prefetch_places(const Mail& mail) const {
-    for (const Index v : mail.news) prefetch(&run_.values[run_.values[v].next_copy]);
-    for (const Mail::OneWindow& w : mail.windows) prefetch(&run_.structure.faces[w.halfedge / 3]);
-    for (const Mail::WholeList& l : mail.lists) prefetch(&run_.structure.faces[l.halfedge / 3]);
-  }
-
-  void tell_copies(Index v) {
+  void tell_ghosts(Index v) {
     VertexValues& at = run_.values[v];
     at.sent = false;
-    for (Index c = at.next_copy; c != v; c = run_.values[c].next_copy) {
-      parts_[run_.structure.part_of_vertex(c)].hear(c, at.upper, at.estimate);
+    for (Index c = at.next_ghost; c != v; c = run_.values[c].next_ghost) {
+      parts_[run_.structure.part_of_vertex(c)].vertices().hear(c, at.upper, at.estimate);
     }
   }
 
   RunState run_;
   Merging merging_;
   std::vector<Part> parts_;
-  std::vector<Index> active_;             // parts in which something waits
-  std::vector<detail::Shares::Due> due_;  // those with something to do in this round
-  std::vector<std::unique_ptr<Traffic>> spare_;
-  detail::Crew crew_{kPatience};
+  std::vector<Index> active_;        // parts in which something waits
+  std::vector<partition::Due> due_;  // those with something to do in this round
+  std::vector<std::unique_ptr<Activity>> spare_;
+  partition::WorkerTeam workers_{kStealAfter};
   std::vector<Workbench> benches_;  // [threads]
   std::vector<Index> scratch_;
   DistanceField* field_ = nullptr;
-  std::int64_t turn_ = 0;  // number of the bucket
+  std::int64_t bucket_ = 0;  // number of the bucket
   std::uint64_t updates_ = 0;
   std::uint64_t next_target_check_ = 0;
 };

@@ -1,17 +1,17 @@
 // Dealing out the parts of a round.
-#include <brushfire/solvers/detail/shares.h>
+#include <brushfire/solvers/partition/scheduler.h>
 
 #include <algorithm>
 
-namespace brushfire::detail {
+namespace brushfire::partition {
 
-void Shares::reset(std::size_t parts, unsigned threads) {
+void Scheduler::reset(std::size_t parts, unsigned threads) {
   owner_.assign(parts, kNobody);
   load_.assign(threads, 0);
   if (taken_.size() != parts) taken_ = std::vector<std::atomic<bool>>(parts);
 }
 
-void Shares::deal(const std::vector<Due>& due) {
+void Scheduler::deal(const std::vector<Due>& due) {
   due_ = &due;
   std::fill(load_.begin(), load_.end(), 0);
   std::size_t total = 0;
@@ -33,7 +33,7 @@ void Shares::deal(const std::vector<Due>& due) {
   }
 }
 
-Index Shares::left_over() const {
+Index Scheduler::next_to_steal() const {
   std::chrono::steady_clock::time_point begin{};  // of waiting
   while (true) {
     std::size_t count = 0;
@@ -43,11 +43,11 @@ Index Shares::left_over() const {
       ++count;
       last = d.part;
     }
-    if (count != 1 || patience_.count() == 0) return last;
+    if (count != 1 || steal_after_.count() == 0) return last;
     const auto now = std::chrono::steady_clock::now();
     if (begin == std::chrono::steady_clock::time_point{}) begin = now;
-    if (now - begin > patience_) return last;
+    if (now - begin > steal_after_) return last;
   }
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::partition

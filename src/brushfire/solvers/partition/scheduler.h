@@ -8,21 +8,22 @@
 #include <cstddef>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::partition {
+
+// A part that works in a round, and about how much is to be done in it.
+struct Due {
+  Index part;
+  std::size_t load;
+};
 
 // A part that changes hands takes all its windows from one processor's cache to the other's, which costs about as much
 // as working on them. So every thread has parts of its own; some are given away where the loads differ, and who is done
 // early helps out.
-class Shares {
+class Scheduler {
  public:
-  struct Due {
-    Index part;
-    std::size_t load;
-  };
-
-  // Who is done early waits this long for the owner of the last part that is left to come, before taking it away: about
-  // what working on a part takes.
-  explicit Shares(std::chrono::microseconds patience) : patience_(patience) {}
+  // Who is done early waits this long for the owner of the last part that is left before stealing it: about what
+  // working on a part takes.
+  explicit Scheduler(std::chrono::microseconds steal_after) : steal_after_(steal_after) {}
 
   // Before the first round of a run.
   void reset(std::size_t parts, unsigned threads);
@@ -35,7 +36,7 @@ class Shares {
     for (const Due& d : *due_) {
       if (owner_[d.part] == thread && claim(d.part)) work(d.part);
     }
-    for (Index p = left_over(); p != kNoIndex; p = left_over()) {
+    for (Index p = next_to_steal(); p != kNoIndex; p = next_to_steal()) {
       if (claim(p)) work(p);
     }
   }
@@ -46,15 +47,15 @@ class Shares {
   bool claim(Index part) {
     return !taken_[part].load(std::memory_order_relaxed) && !taken_[part].exchange(true, std::memory_order_relaxed);
   }
-  // A part to help out with: its owner has another one to go before it, or does not come. Waits until there is one;
-  // kNoIndex: all are taken.
-  Index left_over() const;
+  // A part to steal: its owner has another one to go before it, or does not come. Waits until there is one; kNoIndex:
+  // all are taken.
+  Index next_to_steal() const;
 
-  std::chrono::microseconds patience_;
+  std::chrono::microseconds steal_after_;
   const std::vector<Due>* due_ = nullptr;
   std::vector<unsigned> owner_;           // [parts]
   std::vector<std::size_t> load_;         // [threads]
   std::vector<std::atomic<bool>> taken_;  // [parts]
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::partition

@@ -2,24 +2,24 @@
 #pragma once
 
 #include <brushfire/core/parallel.h>
-#include <brushfire/solvers/detail/shares.h>
+#include <brushfire/solvers/partition/scheduler.h>
 
 #include <chrono>
 #include <cstddef>
 #include <memory>
 #include <vector>
 
-namespace brushfire::detail {
+namespace brushfire::partition {
 
 // Whoever works on a part in a round must not care who does: the results are then the same for any number of threads.
-class Crew {
+class WorkerTeam {
  public:
-  // `patience`: see Shares.
-  explicit Crew(std::chrono::microseconds patience) : shares_(patience) {}
+  // `steal_after`: see Scheduler.
+  explicit WorkerTeam(std::chrono::microseconds steal_after) : scheduler_(steal_after) {}
 
   // As many threads as are asked for (0: one per processor), but not more than there are parts. Before every run: who
   // has which parts begins anew.
-  void hire(unsigned requested, std::size_t parts);
+  void assemble(unsigned requested, std::size_t parts);
 
   unsigned size() const { return team_ ? team_->size() : 1; }  // threads, the caller counted
   // For other loops; null where the caller is alone.
@@ -27,22 +27,22 @@ class Crew {
 
   // One round: work(worker, part) for every part that is due, worker < size().
   template <class Work>
-  void work(const std::vector<Shares::Due>& due, const Work& work) {
+  void work(const std::vector<Due>& due, const Work& work) {
     if (!team_) {
-      for (const Shares::Due& d : due) work(0u, d.part);
+      for (const Due& d : due) work(0u, d.part);
       return;
     }
-    shares_.deal(due);
+    scheduler_.deal(due);
     // No more than two captures: the function then needs no memory of its own.
     team_->run(team_->size(), [this, &work](unsigned worker, std::size_t) {
-      shares_.take(worker, [&](Index part) { work(worker, part); });
+      scheduler_.take(worker, [&](Index part) { work(worker, part); });
     });
   }
 
  private:
-  Shares shares_;
+  Scheduler scheduler_;
   unsigned threads_ = 1;              // that were wanted; the system may have given fewer
   std::unique_ptr<ThreadTeam> team_;  // where there are several
 };
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::partition
