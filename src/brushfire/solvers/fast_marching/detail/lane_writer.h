@@ -76,7 +76,7 @@ class LaneWriter {
     set_edge(at, a, length);
   }
 
-  // An unfolded triangle, whose second side may be one of those that are there. It offers values to its first end.
+  // An unfolded triangle, whose second side may be one of those that are there. It is for updates of its first end.
   void add_unfolded(Index v, const Corner& c) {
     Lane at{v, free_lane_of(v)};
     Index second = second_side(at, c);
