@@ -32,7 +32,7 @@ constexpr double kNoTurn = 1e-26;
 constexpr double kSamePlace = 1e-15;
 // Wedges that are one come soon after each other: only so many are looked at.
 constexpr std::ptrdiff_t kRecent = 32;
-// Once the value is explained, so many more wedges are looked into for the root that the field names itself.
+// Once the value is explained, so many more wedges are looked into for the pseudo-source that the field names itself.
 constexpr int kPatience = 256;
 // A pass ends after so many wedges. Along the hint a leg needs few for each face that it crosses, or it is going
 // astray.
@@ -222,7 +222,8 @@ class LegSearch {
     const PointLocation& at = origins_[origin].at;
     offer_source_at(origin);
     std::vector<Named> names = names_of(at);
-    std::stable_partition(names.begin(), names.end(), [&](const Named& f) { return is_corner(ask_.root, f.face); });
+    std::stable_partition(names.begin(), names.end(),
+                          [&](const Named& f) { return is_corner(ask_.pseudo_source, f.face); });
     for (const Named& f : names) {
       if (done_) return;
       // The frame: that of the hint, or of the longest edge.
@@ -440,7 +441,8 @@ class LegSearch {
 
   void offer(Goal& goal, double start) {
     goal.total = start + goal.length + origins_[goal.origin].before;
-    const bool named = ask_.root == (goal.source != kNoIndex ? goal.source + mesh_.vertex_count() : goal.vertex);
+    const bool named =
+        ask_.pseudo_source == (goal.source != kNoIndex ? goal.source + mesh_.vertex_count() : goal.vertex);
     if (!by_length() && named && goal.total <= value_ + room_) {
       done_ = true;
     } else if (!(goal.total < best_.total)) {

@@ -10,7 +10,7 @@ namespace brushfire::windows {
 namespace {
 
 PointRecord record_of(const PlainRun::Record& r) {
-  return {r.value, r.label, {r.ray.source, r.ray.halfedge, r.ray.root, WindowKind::Circular}};
+  return {r.value, r.label, {r.ray.source, r.ray.halfedge, r.ray.pseudo_source, WindowKind::Circular}};
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ std::shared_ptr<const WindowField> window_field_of(const PlainRun& run) {
     for (const PlainRun::Window& w : run.windows) {
       Window& window = kept.emplace_back(KeptWindow{w.halfedge, {}}).window;
       window.b0 = w.b0, window.b1 = w.b1, window.source = w.source, window.sigma = w.sigma;
-      window.d0 = w.d0, window.d1 = w.d1, window.slack = w.slack, window.root = w.root;
+      window.d0 = w.d0, window.d1 = w.d1, window.slack = w.slack, window.pseudo_source = w.pseudo_source;
     }
     data->keep(kept);
   }

@@ -14,7 +14,7 @@ namespace brushfire::windows {
 struct PlainRun {
   struct Ray {
     brushfire::Vec2 source;
-    Index halfedge = kNoIndex, root = kNoIndex;
+    Index halfedge = kNoIndex, pseudo_source = kNoIndex;
   };
   struct Record {
     Index vertex = kNoIndex;  // of targets: none
@@ -23,7 +23,7 @@ struct PlainRun {
     Ray ray;
   };
   struct Window {
-    Index halfedge = kNoIndex, root = kNoIndex;
+    Index halfedge = kNoIndex, pseudo_source = kNoIndex;
     brushfire::Vec2 source;
     double b0 = 0, b1 = 0, sigma = 0, d0 = 0, d1 = 0, slack = 0;
   };

@@ -1,4 +1,4 @@
-// Following a ray back to its root.
+// Following a ray back to its pseudo-source.
 #pragma once
 
 #include <brushfire/solvers/window_field.h>

@@ -76,7 +76,9 @@ class Look {
       }
     };
     const Index n = mesh_.vertex_count();
-    const auto label_of = [&](Index root) { return root >= n ? root - n : data_.vertices[root].label; };
+    const auto label_of = [&](Index pseudo_source) {
+      return pseudo_source >= n ? pseudo_source - n : data_.vertices[pseudo_source].label;
+    };
     for (const FaceWeights& f : windows::faces_around(mesh_, at)) {
       PointLocation here;
       here.face = f.face;
@@ -94,7 +96,7 @@ class Look {
         const Vec2 p = windows::in_frame(frame, k, f.weights);
         for (std::size_t i = data_.first_kept[h]; i < data_.first_kept[h + 1]; ++i) {
           const windows::Window& w = data_.kept[i];
-          offer(f, arrival(w, p).value, {w.source, h, w.root, w.kind}, label_of(w.root));
+          offer(f, arrival(w, p).value, {w.source, h, w.pseudo_source, w.kind}, label_of(w.pseudo_source));
         }
         for (std::size_t s = 0; k == 0 && s < data_.sources.size(); ++s) {
           if (data_.sources[s].at.on == PointLocation::On::Vertex) continue;
@@ -114,15 +116,15 @@ class Look {
   const Mesh& mesh_;
 };
 
-// Where no ray came: the point is a source at a vertex, or the root is at the other end of an edge.
+// Where no ray came: the point is a source at a vertex, or the pseudo-source is at the other end of an edge.
 WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Found& found, Index vertex) {
   const Mesh& mesh = data.mesh;
-  const Index root = found.record.ray.root, n = mesh.vertex_count();
+  const Index pseudo_source = found.record.ray.pseudo_source, n = mesh.vertex_count();
   WindowField::Leg leg;
-  if (root >= n) {
-    const PointLocation& source = data.sources[root - n].at;
+  if (pseudo_source >= n) {
+    const PointLocation& source = data.sources[pseudo_source - n].at;
     if (source.on != PointLocation::On::Vertex || source.vertex != vertex) return {};
-    leg.source = root - n;
+    leg.source = pseudo_source - n;
     leg.points.push_back({found.at.face, found.at.weights});
     return leg;
   }
@@ -141,8 +143,8 @@ WindowField::Leg last_leg_of(const windows::WindowFieldData& data, const Found& 
   if (leg.points.empty()) {
     const std::function<double(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
     const PointLocation at = locate(data.mesh, {found.at.face, found.at.weights});
-    leg = windows::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value, ray.root,
-                             ray.halfedge, ray.source});
+    leg = windows::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value,
+                             ray.pseudo_source, ray.halfedge, ray.source});
   }
   leg.length *= data.mesh.unit();
   return leg;
