@@ -8,9 +8,9 @@
 #include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
+#include <brushfire/solvers/fast_marching/detail/fronts.h>
 #include <brushfire/solvers/fast_marching/detail/march.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
-#include <brushfire/solvers/fast_marching/detail/triangle_update.h>
 #include <brushfire/solvers/partition/worker_team.h>
 
 #include <algorithm>
@@ -30,10 +30,20 @@ FrontModel front_model(Method method) {
   return method == Method::NovotniKlein2002 ? FrontModel::LiteralCircular : FrontModel::Circular;
 }
 
-double update(FrontModel model, const UpdateTriangle<double>& at, double t1, double t2) {
-  if (model == FrontModel::Planar) return PlanarFront::update(at, t1, t2).value;
-  if (model == FrontModel::LiteralCircular) return LiteralCircularFront::update(at, t1, t2).value;
-  return CircularFront::update(at, t1, t2).value;
+// The value at a target in the frame of an edge (fronts_kernel.h) with values t1 and t2 at its ends; through its first
+// end where the front does not reach it otherwise.
+template <class Front>
+double update(double length, Vec2 at, double t1, double t2) {
+  const auto front = portable::FrontOverEdge<Front, double>::of(length, 1 / length, t1, t2);
+  bool through = false;
+  const double value = front.update(at.x, at.y, norm(at), true, through);
+  return through ? value : t1 + norm(at);
+}
+
+double update(FrontModel model, double length, Vec2 at, double t1, double t2) {
+  if (model == FrontModel::Planar) return update<PlanarFront>(length, at, t1, t2);
+  if (model == FrontModel::LiteralCircular) return update<LiteralCircularFront>(length, at, t1, t2);
+  return update<CircularFront>(length, at, t1, t2);
 }
 
 // The mesh in an order that keeps neighbours close.
@@ -123,7 +133,7 @@ class Marcher {
       const double offset = s.offset - base_;
       if (state_.labelled) state_.start[s.label] = static_cast<T>(offset);
       for (const detail::Seed& seed : seeds_.in_sight(mesh_, s.at, crossings, problem.max_distance - s.offset)) {
-        state_.offer(seed.vertex, static_cast<T>(offset + seed.distance), s.label);
+        state_.seed(seed.vertex, static_cast<T>(offset + seed.distance), s.label);
       }
     }
   }
@@ -265,9 +275,8 @@ class Marcher {
     const Index l = label(v1);
     if (l == kNoIndex || l != label(v2)) return;
     const double started = state_.labelled ? static_cast<double>(state_.start[l]) : 0.0;
-    const double length = mesh_.length(h);
-    const UpdateTriangle<double> triangle{length, 1 / length, at.x, at.y, norm(at), true};
-    const double d = update(front_model(problem.options->method), triangle, value(v1) - started, value(v2) - started);
+    const FrontModel model = front_model(problem.options->method);
+    const double d = update(model, mesh_.length(h), at, value(v1) - started, value(v2) - started);
     offer(base_ + started + d, l);
   }
 

@@ -26,3 +26,4 @@
 #include "propagation/window_lists.cpp"
 
 #include "paths/keep_plain.cpp"
+#include "paths/point_values.cpp"

@@ -38,17 +38,7 @@ void Results::keep() {
   }
   data->exact = !run_.merges();
   data->view = run_.problem->view;
-  data->all_points = run_.problem->options->keep_windows;
-  if (data->all_points) {
-    std::vector<KeptWindow> kept;
-    for (Part& part : parts_) {
-      for (KeptWindow& k : part.kept()) {
-        k.window.pseudo_source = outer_pseudo_source(k.window.pseudo_source);
-        kept.push_back(k);
-      }
-    }
-    data->keep(kept);
-  }
+  data->all_points = point_values();
   field_.windows = std::make_shared<WindowField>(std::move(data));
 }
 

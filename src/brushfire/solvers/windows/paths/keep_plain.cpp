@@ -6,7 +6,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 brushfire::Vec2 plain(const Vec2& p) { return {to_double(p.x), to_double(p.y)}; }
-PlainRun::Ray plain(const Ray& ray) { return {plain(ray.source), ray.halfedge, ray.pseudo_source}; }
+PlainRay plain(const Ray& ray) { return {plain(ray.source), ray.halfedge, ray.pseudo_source}; }
 
 }  // namespace
 
@@ -29,16 +29,7 @@ void Results::keep() {
     run.targets.push_back({kNoIndex, to_double(t.lower), t.lower < kInfinity ? label_of(t.ray.pseudo_source) : kNoIndex,
                            plain(outer(t.ray))});
   }
-  if (run_.problem->options->keep_windows) {
-    for (Part& part : parts_) {
-      for (const KeptWindow& k : part.kept()) {
-        const Window& w = k.window;
-        run.windows.push_back({k.halfedge, outer_pseudo_source(w.pseudo_source), plain(w.source), to_double(w.b0),
-                               to_double(w.b1), to_double(w.sigma), to_double(w.d0), to_double(w.d1),
-                               to_double(w.slack)});
-      }
-    }
-  }
+  run.all_points = point_values();
   field_.windows = window_field_of(run);
 }
 

@@ -159,7 +159,8 @@ CertifiedValue Results::read(Real lower, Real upper, Real estimate, Index label,
                          run_.problem->options->bound);
 }
 
-// With the mesh's own numbers. Sources come behind the vertices: here behind the mesh's, in the run behind the ghosts, too.
+// With the mesh's own numbers. Sources come behind the vertices: here behind the mesh's, in the run behind the ghosts,
+// too.
 Index Results::outer_pseudo_source(Index pseudo_source) const {
   const Index n = run_.structure.vertex_count();
   return pseudo_source < n ? run_.structure.outer_vertex(pseudo_source)

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <brushfire/core/parallel.h>
+#include <brushfire/solvers/windows/paths/point_values.h>
 #include <brushfire/solvers/windows/propagation/part.h>
 #include <brushfire/solvers/windows/propagation/run_state.h>
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -38,6 +40,7 @@ class Results {
   Tally write_vertices(const Part& part);
   void write_targets();
   void keep();
+  std::shared_ptr<const PointValues> point_values();  // null where not all windows were kept
 
   RunState& run_;
   std::span<Part> parts_;

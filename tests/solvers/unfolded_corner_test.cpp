@@ -1,8 +1,7 @@
 // The quick way with obtuse corners that one face splits against the general one.
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/fast_marching/detail/face_pairs.h>
-#include <brushfire/solvers/fast_marching/detail/split_corner.h>
 #include <brushfire/solvers/fast_marching/detail/unfold.h>
+#include <brushfire/solvers/fast_marching/detail/unfolded_corner.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +26,7 @@ void expect_same(const UnfoldedTriangle& t, Index first, Index second, double to
   EXPECT_NEAR(std::abs(cross(t.at_first, t.at_second)), area, kRounding * to_first * between);
 }
 
-TEST(SplitCorner, GivesTheTrianglesOfTheUnfolder) {
+TEST(UnfoldedCorner, GivesTheTrianglesOfTheUnfolder) {
   std::vector<Mesh> meshes{shapes::torus(37, 23).mesh(), shapes::folded_sphere(3).mesh()};
   if (test::has_shared_data()) meshes.push_back(test::shared_mesh("camelhead"));
   std::size_t splits = 0;
@@ -37,17 +36,17 @@ TEST(SplitCorner, GivesTheTrianglesOfTheUnfolder) {
       if (!mesh.is_face_usable(Mesh::face_of(h))) continue;
       std::vector<UnfoldedTriangle> triangles;
       const Unfolding unfolding = unfolder.unfold(h, triangles);
-      const FacePair pair = face_pair(mesh, unfolder, h), pairs[kPairs] = {pair, pair, pair, pair};
-      SplitCorners<double> split;
-      const CornerSets sets = split_corners(mesh.positions(), 1 / mesh.unit(), pairs, split);
+      const FacePair pair = face_pair(mesh, unfolder, h), pairs[kCorners] = {pair, pair, pair, pair};
+      UnfoldedCorners<double> four;
+      const CornerSets sets = portable::unfold_corners(mesh.positions(), 1 / mesh.unit(), pairs, four);
       ASSERT_EQ(sets.obtuse, unfolding.obtuse ? 15u : 0u) << "halfedge " << h;
       ASSERT_EQ(sets.split, unfolding.split && unfolding.crossed == 1 ? 15u : 0u) << "halfedge " << h;
       if (sets.split == 0) continue;
       ASSERT_EQ(triangles.size(), 2u);
-      const auto& [a, b] = split.side;
-      expect_same(triangles[0], pair.end[0], pair.behind, a.length[3], split.length[3], a.dot_end[3], a.dot_behind[3],
+      const auto& [a, b] = four.side;
+      expect_same(triangles[0], pair.end[0], pair.behind, a.length[3], four.length[3], a.dot_end[3], a.dot_behind[3],
                   a.between[3], a.cross[3]);
-      expect_same(triangles[1], pair.behind, pair.end[1], split.length[3], b.length[3], b.dot_behind[3], b.dot_end[3],
+      expect_same(triangles[1], pair.behind, pair.end[1], four.length[3], b.length[3], b.dot_behind[3], b.dot_end[3],
                   b.between[3], b.cross[3]);
       ++splits;
     }

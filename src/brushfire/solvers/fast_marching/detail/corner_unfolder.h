@@ -2,13 +2,10 @@
 #pragma once
 
 #include <brushfire/core/detail/planar.h>
-#include <brushfire/core/detail/prefetch.h>
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/solvers/fast_marching/detail/face_pairs.h>
 #include <brushfire/solvers/fast_marching/detail/lane_writer.h>
-#include <brushfire/solvers/fast_marching/detail/split_corner.h>
 #include <brushfire/solvers/fast_marching/detail/unfold.h>
-#include <brushfire/solvers/fast_marching/detail/vector_target.h>
+#include <brushfire/solvers/fast_marching/detail/unfolded_corner.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +15,10 @@
 namespace brushfire::fast_marching {
 
 template <class T>
-class UnfoldedCorners {
+class CornerUnfolder {
  public:
-  UnfoldedCorners(const Mesh& mesh, Variant variant)
-      : mesh_(mesh), unfolder_(mesh), in_registers_(variant == Variant::Best && has_avx2()), scale_(1 / mesh.unit()) {}
+  CornerUnfolder(const Mesh& mesh, Variant variant)
+      : mesh_(mesh), unfolder_(mesh), variant_(variant), scale_(1 / mesh.unit()) {}
 
   // Unfolds those of some corners that are obtuse. rings.add_unfolded(v, Corner): a triangle that offers values to v,
   // whose sides at v go to the unfolded corner (a) and to the third vertex (b); rings.prefetch(v): it will soon be
@@ -33,17 +30,18 @@ class UnfoldedCorners {
       return;
     }
     pairs_.resize(corners.size());
-    find_pairs(corners);
-    pairs_.resize((corners.size() + kPairs - 1) / kPairs * kPairs, corners.empty() ? FacePair{} : pairs_.back());
-    SplitCorners<T> split;
-    for (std::size_t first = 0; first < corners.size(); first += kPairs) {
-      for (std::size_t i = first + kPairs; i < std::min(first + 2 * kPairs, pairs_.size()); ++i) {
+    BRUSHFIRE_ON_TARGET(variant_, find_face_pairs(mesh_, unfolder_, corners, pairs_.data()));
+    pairs_.resize((corners.size() + kCorners - 1) / kCorners * kCorners, corners.empty() ? FacePair{} : pairs_.back());
+    UnfoldedCorners<T> four;
+    for (std::size_t first = 0; first < corners.size(); first += kCorners) {
+      for (std::size_t i = first + kCorners; i < std::min(first + 2 * kCorners, pairs_.size()); ++i) {
         for (const Index v : {pairs_[i].end[0], pairs_[i].end[1], pairs_[i].behind}) rings.prefetch(v);
       }
-      const CornerSets sets = split_corners(&pairs_[first], split);
-      for (std::size_t k = 0; k < std::min(kPairs, corners.size() - first); ++k) {
+      const CornerSets sets =
+          BRUSHFIRE_ON_TARGET(variant_, unfold_corners(mesh_.positions(), scale_, &pairs_[first], four));
+      for (std::size_t k = 0; k < std::min(kCorners, corners.size() - first); ++k) {
         if ((sets.split >> k & 1u) != 0) {
-          add(pairs_[first + k], split, k, rings);
+          add(pairs_[first + k], four, k, rings);
         } else if ((sets.obtuse >> k & 1u) != 0) {
           unfold_any(corners[first + k], rings);
         }
@@ -56,28 +54,13 @@ class UnfoldedCorners {
   int most_crossed() const { return most_crossed_; }           // faces that the longest unfolding crosses
 
  private:
-  void find_pairs(std::span<const Index> corners) {
-#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-    if (in_registers_) return FacePairs(mesh_, unfolder_).find(corners, pairs_.data());
-#endif
-    for (std::size_t i = 0; i < corners.size(); ++i) pairs_[i] = face_pair(mesh_, unfolder_, corners[i]);
-  }
-
-  CornerSets split_corners(const FacePair* pair, SplitCorners<T>& split) const {
-#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-    if (in_registers_) return split_corners4(mesh_.positions(), scale_, pair, split);
-#endif
-    return fast_marching::split_corners(mesh_.positions(), scale_, pair, split);
-  }
-
   // Two triangles, each seen from its end and from behind.
   template <class Rings>
-  BRUSHFIRE_INLINE void add(const FacePair& pair, const SplitCorners<T>& split, std::size_t k, Rings& rings) {
+  BRUSHFIRE_INLINE void add(const FacePair& pair, const UnfoldedCorners<T>& four, std::size_t k, Rings& rings) {
     for (std::size_t i = 0; i < 2; ++i) {
-      const auto& side = split.side[i];
+      const auto& side = four.side[i];
       const Corner at_end{pair.corner, pair.behind, side.length[k], side.between[k], side.dot_end[k], side.cross[k]};
-      const Corner behind{pair.corner,     pair.end[i],        split.length[k],
-                          side.between[k], side.dot_behind[k], side.cross[k]};
+      const Corner behind{pair.corner, pair.end[i], four.length[k], side.between[k], side.dot_behind[k], side.cross[k]};
       rings.add_unfolded(pair.end[i], at_end);
       rings.add_unfolded(pair.behind, behind);
     }
@@ -104,7 +87,7 @@ class UnfoldedCorners {
 
   const Mesh& mesh_;
   Unfolder unfolder_;
-  bool in_registers_;
+  Variant variant_;
   double scale_;
   std::vector<FacePair> pairs_;  // of the corners at hand
   std::vector<Index> unsplit_;
