@@ -146,13 +146,23 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
 SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
                          const CancelToken* cancel) {
   if (from.is_nowhere() || to.is_nowhere()) return {};
+  const Domain& domain = solver.domain();
+  // On a wall there are several of either.
+  const std::vector<SurfacePoint> sides = domain.on_open(to);
+  if (sides.empty() || domain.on_open(from).empty()) return {};
   DistanceOptions options;
   options.method = Method::Exact;
   options.keep_paths = true;
   options.targets = {to};
   options.cancel = cancel;
   const Source source{from};
-  return path_to(*solver.distance_sparse(std::span(&source, 1), options).windows, to);
+  const std::shared_ptr<const WindowField> field = solver.distance_sparse(std::span(&source, 1), options).windows;
+  const auto nearest = std::min_element(sides.begin(), sides.end(), [&](const SurfacePoint& a, const SurfacePoint& b) {
+    return field->value(a).distance < field->value(b).distance;
+  });
+  SurfacePath path = path_to(*field, *nearest);
+  domain.to_mesh(path.points);
+  return path;
 }
 
 SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed,
@@ -176,7 +186,7 @@ SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> w
   return path;
 }
 
-PathFinder::PathFinder(Mesh mesh) : solver_(std::make_unique<DistanceSolver>(std::move(mesh))) {}
+PathFinder::PathFinder(Domain domain) : solver_(std::make_unique<DistanceSolver>(std::move(domain))) {}
 PathFinder::~PathFinder() = default;
 PathFinder::PathFinder(PathFinder&&) noexcept = default;
 PathFinder& PathFinder::operator=(PathFinder&&) noexcept = default;

@@ -35,7 +35,7 @@ SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> w
 // The two with a solver of its own.
 class PathFinder {
  public:
-  explicit PathFinder(Mesh mesh);
+  explicit PathFinder(Domain domain);
   ~PathFinder();
   PathFinder(PathFinder&&) noexcept;
   PathFinder& operator=(PathFinder&&) noexcept;
