@@ -171,7 +171,9 @@ TEST(NearestSources, AreTheFirstOfTheSortedColumnsOfTheMatrix) {
     for (Index k = 0; k < 5; ++k) {
       EXPECT_NEAR(near.distance[v * 5 + k], sorted[k], 1e-12);
       EXPECT_NEAR(column[near.source[v * 5 + k]][v], sorted[k], 1e-12);
-      if (k > 0) EXPECT_NE(near.source[v * 5 + k], near.source[v * 5 + k - 1]);
+      if (k > 0) {
+        EXPECT_NE(near.source[v * 5 + k], near.source[v * 5 + k - 1]);
+      }
     }
   }
   EXPECT_EQ(nearest_sources(mesh, sources, 99, options).count, 41u);

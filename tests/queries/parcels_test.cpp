@@ -34,7 +34,7 @@ TEST(Parcels, EqualWhatTheDenseMatrixGives) {
     const Domain domain(mesh, barriers);
     const Index n = mesh.vertex_count();
     std::vector<std::int64_t> label(n);
-    for (Index v = 0; v < n; ++v) label[v] = static_cast<std::int64_t>(mesh.positions()[v].z * 3 + random() % 2);
+    for (Index v = 0; v < n; ++v) label[v] = static_cast<std::int64_t>(mesh.positions()[v].z * 3 + static_cast<double>(random() % 2));
     const std::vector<double> all = distance_matrix<double>(domain, std::nullopt, std::nullopt, exactly());
     std::map<std::int64_t, std::vector<Index>> members;
     for (Index v = 0; v < n; ++v) {
@@ -118,7 +118,9 @@ TEST(Smoothing, KeepsConstantsMeansNothingAcrossWallsAndLeavesNaNOut) {
     // Only the wall's own vertices are on both sides.
     EXPECT_LE(smooth[v], x < 0.5 ? 2 : 3);
     EXPECT_GE(smooth[v], x > 0.5 ? 2 : 1);
-    if (x < 0.1) EXPECT_NEAR(smooth[v], 1, 1e-3);
+    if (x < 0.1) {
+      EXPECT_NEAR(smooth[v], 1, 1e-3);
+    }
   }
   EXPECT_THROW(smoothing_kernel(mesh, 0), Error);
   EXPECT_THROW(smoothed(kernel, std::vector<double>(3)), Error);
