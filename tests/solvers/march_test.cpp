@@ -1,6 +1,6 @@
 // The march itself: the variants for different processors.
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/fast_marching/march.h>
+#include <brushfire/solvers/fast_marching/detail/march.h>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "support/shared_meshes.h"
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 namespace {
 
 // Values from two places, the second one later than the first, under labels of their own or mixed.
@@ -105,4 +105,4 @@ TEST(March, EveryProcessorBuildsTheSameRings) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

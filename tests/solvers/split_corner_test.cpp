@@ -1,8 +1,8 @@
 // The quick way with obtuse corners that one face splits against the general one.
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/fast_marching/face_pairs.h>
-#include <brushfire/solvers/fast_marching/split_corner.h>
-#include <brushfire/solvers/fast_marching/unfold.h>
+#include <brushfire/solvers/fast_marching/detail/face_pairs.h>
+#include <brushfire/solvers/fast_marching/detail/split_corner.h>
+#include <brushfire/solvers/fast_marching/detail/unfold.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "../support/shared_meshes.h"
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 namespace {
 
 void expect_same(const UnfoldedTriangle& t, Index first, Index second, double to_first, double to_second,
@@ -56,4 +56,4 @@ TEST(SplitCorner, GivesTheTrianglesOfTheUnfolder) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -3,8 +3,8 @@
 #include "interrupt.h"
 #include "where.h"
 
+#include <brushfire/core/detail/memory.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
 #include <brushfire/figure/ambient_occlusion.h>
 #include <brushfire/figure/render.h>
 #include <brushfire/io/read_field.h>

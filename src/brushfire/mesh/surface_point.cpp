@@ -1,9 +1,9 @@
 // Validation, snapping and evaluation of surface points.
 #include <brushfire/mesh/surface_point.h>
 
+#include <brushfire/core/detail/planar.h>
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/planar.h>
-#include <brushfire/core/text.h>
 
 #include <algorithm>
 #include <cmath>

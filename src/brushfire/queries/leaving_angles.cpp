@@ -1,7 +1,7 @@
 // Angles at a point by the first pieces of paths.
 #include <brushfire/queries/detail/leaving_angles.h>
 
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 
 #include <algorithm>
 #include <cmath>

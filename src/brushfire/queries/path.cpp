@@ -2,9 +2,9 @@
 #include <brushfire/queries/path.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/text.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/sleeve.h>
 #include <brushfire/queries/shorten.h>
 

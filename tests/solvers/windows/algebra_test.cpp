@@ -1,11 +1,11 @@
 // Properties of the window algebra on random windows: 10^5 of them, or as many as the
 // environment variable BRUSHFIRE_RANDOM_WINDOWS says.
-#include <brushfire/solvers/windows/detail/envelope.h>
-#include <brushfire/solvers/windows/detail/fan.h>
-#include <brushfire/solvers/windows/detail/merge.h>
-#include <brushfire/solvers/windows/detail/propagate.h>
-#include <brushfire/solvers/windows/detail/ridge.h>
-#include <brushfire/solvers/windows/detail/sweep.h>
+#include <brushfire/solvers/windows/algebra/envelope.h>
+#include <brushfire/solvers/windows/algebra/merge.h>
+#include <brushfire/solvers/windows/algebra/propagate.h>
+#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/algebra/sweep.h>
+#include <brushfire/solvers/windows/propagation/fan.h>
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <limits>
 #include <random>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -398,4 +398,4 @@ TEST(Algebra, LightFromACornerFillsItsSectorWithTheDistanceToTheCorner) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

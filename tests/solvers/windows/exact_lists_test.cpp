@@ -1,16 +1,16 @@
 // Lists of exact runs on random windows: crossing a face, choosing sides, trimming, waiting.
-#include <brushfire/solvers/windows/detail/exact_cross.h>
-#include <brushfire/solvers/windows/detail/exact_lists.h>
-#include <brushfire/solvers/windows/detail/exact_trim.h>
-#include <brushfire/solvers/windows/detail/propagate.h>
-#include <brushfire/solvers/windows/detail/ridge.h>
+#include <brushfire/solvers/windows/algebra/exact_cross.h>
+#include <brushfire/solvers/windows/algebra/propagate.h>
+#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/propagation/exact_trim.h>
+#include <brushfire/solvers/windows/store/exact_lists.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 namespace {
 
 constexpr int kLists = 4000;
@@ -297,4 +297,4 @@ TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -3,8 +3,8 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/detail/shares.h>
-#include <brushfire/solvers/windows/detail/engine.h>
-#include <brushfire/solvers/windows/detail/structure.h>
+#include <brushfire/solvers/windows/engine.h>
+#include <brushfire/solvers/windows/propagation/structure.h>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include "support/engine_run.h"
 #include "support/same_field.h"
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 namespace {
 
 using test::expect_equal_bits;
@@ -235,9 +235,9 @@ TEST(Parts, ARunThatIsStoppedLeavesNothingBehind) {
 }
 
 TEST(Shares, EveryPartIsTakenOnceAndLoadsAreNearlyEven) {
-  Shares shares(std::chrono::microseconds(20));
+  detail::Shares shares(std::chrono::microseconds(20));
   shares.reset(12, 3);
-  std::vector<Shares::Due> due;
+  std::vector<detail::Shares::Due> due;
   for (Index p = 0; p < 12; ++p) due.push_back({p, 5 + p % 4});
   for (int round = 0; round < 3; ++round) {
     shares.deal(due);
@@ -254,4 +254,4 @@ TEST(Shares, EveryPartIsTakenOnceAndLoadsAreNearlyEven) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

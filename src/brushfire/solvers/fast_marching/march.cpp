@@ -3,12 +3,13 @@
 // Compiled without math errno and floating-point traps (see CMakeLists.txt), which lets compilers turn the loop over
 // the lanes of a block into vector instructions. Nothing is contracted or reordered: every instruction set gives the
 // same bits.
-#include <brushfire/solvers/fast_marching/march.h>
+#include <brushfire/solvers/fast_marching/detail/march.h>
 
-#include <brushfire/solvers/fast_marching/offers.h>
-#include <brushfire/solvers/fast_marching/offers8.h>
-#include <brushfire/solvers/fast_marching/triangle_update.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/core/detail/prefetch.h>
+#include <brushfire/solvers/fast_marching/detail/offers.h>
+#include <brushfire/solvers/fast_marching/detail/offers8.h>
+#include <brushfire/solvers/fast_marching/detail/triangle_update.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@
 #include <queue>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 namespace {
 
 constexpr std::uint8_t kOpen = Openness::kOpen, kShared = Openness::kShared;
@@ -340,4 +341,4 @@ template MarchPart<double> march_part<double>(FrontModel, bool, Variant);
 template void march_label_setting<float>(const Rings<float>&, MarchState<float>&, const std::function<void()>&);
 template void march_label_setting<double>(const Rings<double>&, MarchState<double>&, const std::function<void()>&);
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

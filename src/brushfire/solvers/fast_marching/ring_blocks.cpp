@@ -1,15 +1,16 @@
 // Builds the blocks: writes the sides and triangles around one vertex after the other, unfolds the obtuse corners that
 // are found on the way, and adds what comes of that to the vertices around.
-#include <brushfire/solvers/fast_marching/ring_blocks.h>
+#include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
 
 #include <brushfire/core/cancel.h>
-#include <brushfire/core/planar.h>
-#include <brushfire/core/populate.h>
-#include <brushfire/solvers/fast_marching/bend.h>
-#include <brushfire/solvers/fast_marching/lane_writer.h>
-#include <brushfire/solvers/fast_marching/plain_fan.h>
-#include <brushfire/solvers/fast_marching/unfolded_corners.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/core/detail/planar.h>
+#include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/prefetch.h>
+#include <brushfire/solvers/fast_marching/detail/bend.h>
+#include <brushfire/solvers/fast_marching/detail/lane_writer.h>
+#include <brushfire/solvers/fast_marching/detail/plain_fan.h>
+#include <brushfire/solvers/fast_marching/detail/unfolded_corners.h>
+#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <algorithm>
 #include <bit>
@@ -18,7 +19,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 namespace {
 
 template <class T>
@@ -52,7 +53,7 @@ class RingBuilder {
  private:
   void fill() {
     patches_.resize(mesh_.vertex_count() + 1);
-    populate(patches_);
+    prefault(patches_);
     patches_.back() = {};
     plain_sides_.resize(mesh_.vertex_count());
 #ifdef BRUSHFIRE_HAS_AVX2_VARIANT
@@ -243,7 +244,7 @@ class RingBuilder {
     constexpr Index kAhead = 12;
     for (Index v = 0; v < fans_.none; ++v) {
       poll_();
-      if (v + kAhead < fans_.none) detail::prefetch(&rings_.blocks[v + kAhead]);
+      if (v + kAhead < fans_.none) brushfire::prefetch(&rings_.blocks[v + kAhead]);
       const Patch around = plain_sides_[v] > 0 ? plain_sum(v) : any_sum(v);
       rings_.heads[v].bend = static_cast<T>(front_bend(patches_[v], around));
     }
@@ -393,4 +394,4 @@ Rings<T> build_rings(const Mesh& mesh, Index part_size, Variant variant) {
 template Rings<float> build_rings<float>(const Mesh& mesh, Index part_size, Variant variant);
 template Rings<double> build_rings<double>(const Mesh& mesh, Index part_size, Variant variant);
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

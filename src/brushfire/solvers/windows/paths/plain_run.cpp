@@ -1,0 +1,45 @@
+// A PlainRun as a WindowField.
+#include <brushfire/solvers/windows/paths/plain_run.h>
+
+#include <brushfire/solvers/windows/paths/record.h>
+
+#include <limits>
+#include <utility>
+
+namespace brushfire::windows {
+namespace {
+
+PointRecord record_of(const PlainRun::Record& r) {
+  return {r.value, r.label, {r.ray.source, r.ray.halfedge, r.ray.root, WindowKind::Circular}};
+}
+
+}  // namespace
+
+std::shared_ptr<const WindowField> window_field_of(const PlainRun& run) {
+  auto data = std::make_shared<WindowFieldData>();
+  data->mesh = run.mesh;
+  data->sources.assign(run.problem->sources.begin(), run.problem->sources.end());
+  data->shift = run.shift;
+  data->exact = run.exact;
+  data->view = run.problem->view;
+  PointRecord unknown;
+  if (!run.whole) unknown.value = std::numeric_limits<double>::quiet_NaN();
+  data->bases.assign(run.problem->bases.begin(), run.problem->bases.end());
+  data->vertices.resize(run.mesh.vertex_count(), unknown);
+  for (const PlainRun::Record& r : run.vertices) data->vertices.set(r.vertex, record_of(r));
+  data->targets.assign(run.problem->targets.begin(), run.problem->targets.end());
+  for (const PlainRun::Record& r : run.targets) data->target.push_back(record_of(r));
+  data->all_points = run.problem->options->keep_windows;
+  if (data->all_points) {
+    std::vector<KeptWindow> kept;
+    for (const PlainRun::Window& w : run.windows) {
+      Window& window = kept.emplace_back(KeptWindow{w.halfedge, {}}).window;
+      window.b0 = w.b0, window.b1 = w.b1, window.source = w.source, window.sigma = w.sigma;
+      window.d0 = w.d0, window.d1 = w.d1, window.slack = w.slack, window.root = w.root;
+    }
+    data->keep(kept);
+  }
+  return std::make_shared<WindowField>(std::move(data));
+}
+
+}  // namespace brushfire::windows
