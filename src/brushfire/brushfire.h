@@ -13,6 +13,7 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/nearest_point.h>
 #include <brushfire/mesh/polygons.h>
+#include <brushfire/mesh/reachable.h>
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/mesh/subdivide.h>

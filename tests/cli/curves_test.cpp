@@ -54,7 +54,7 @@ TEST_F(Curves, PathAlongEdgesGoesRoundTheSquare) {
 TEST_F(Curves, MethodWithoutPathsIsAUsageError) {
   const Ended ended = run({"path", "--from", "1", "--to", "3", "--method", "kimmel-sethian"});
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.err.find("exact, dijkstra"), std::string::npos);
+  EXPECT_NE(ended.err.find("exact and dijkstra have"), std::string::npos);
 }
 
 TEST_F(Curves, PathNeedsBothEnds) {

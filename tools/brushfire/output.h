@@ -1,7 +1,7 @@
 // Where a verb's -o goes.
 #pragma once
 
-#include "command_line.h"
+#include "shared.h"
 
 #include <brushfire/io/formats.h>
 #include <brushfire/io/write_lines.h>
@@ -21,13 +21,16 @@ std::string extensions_of(const std::vector<FileFormat>& formats);
 
 // How curves are drawn.
 struct DrawingArguments {
-  std::string unit = "mm", view;
+  std::string view;
   bool outline = false;
 };
 
-// Binds -o for curves, --unit, --view and --outline.
+// Binds --view and --outline.
+void add_drawing(Verb& verb, DrawingArguments& drawing);
+// Binds -o for curves, --view and --outline.
 void add_lines_output(Verb& verb, std::string& output, DrawingArguments& drawing);
-// The options that they stand for. Throws Error(InvalidArgument), also where no curves can be written to such a name.
-LinesOptions lines_options(const std::string& output, const DrawingArguments& drawing);
+// The options that they and --unit stand for. Throws Error(InvalidArgument), also where no curves can be written to
+// such a name.
+LinesOptions lines_options(const std::string& output, const DrawingArguments& drawing, const SharedArguments& shared);
 
 }  // namespace brushfire::tool

@@ -328,22 +328,31 @@ SparseLogMap brought_back(const Domain& domain, const SparseLogMap& map) {
 }  // namespace
 
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
+  DistanceOptions how;
+  how.max_distance = max_radius;
+  how.cancel = cancel;
+  return log_map(solver, source, how);
+}
+
+SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const DistanceOptions& how) {
   if (const Domain& domain = solver.domain(); domain.has_walls()) {
     DistanceSolver on_open(domain.open());
-    return brought_back(domain, log_map(on_open, only_side(domain, source), max_radius, cancel));
+    return brought_back(domain, log_map(on_open, only_side(domain, source), how));
   }
   const LeavingAngles leaving(solver.mesh(), source);
   DistanceOptions options;
   options.method = Method::Exact;
-  options.max_distance = max_radius;
+  options.max_distance = how.max_distance;
+  options.threads = how.threads;
+  options.progress = how.progress;
   options.keep_paths = true;
-  options.cancel = cancel;
+  options.cancel = how.cancel;
   const Source origin{source};
   SparseField field = solver.distance_sparse(std::span(&origin, 1), options);
   SparseLogMap map{std::move(field.vertex), std::move(field.distance), {}, leaving.total()};
   map.angle.assign(map.vertex.size(), kUnknownAngle);
   std::vector<std::size_t> chain;
-  const CancelScope listen(cancel);
+  const CancelScope listen(how.cancel);
   Poll poll(64);
   for (std::size_t i = 0; i < map.vertex.size(); ++i) {
     poll();

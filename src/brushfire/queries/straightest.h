@@ -70,5 +70,7 @@ struct SparseLogMap {
 };
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double max_radius,
                      const CancelToken* cancel = nullptr);
+// Of `how` the max_distance, threads, progress and cancel count.
+SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const DistanceOptions& how);
 
 }  // namespace brushfire
