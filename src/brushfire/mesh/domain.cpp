@@ -2,7 +2,10 @@
 #include <brushfire/mesh/domain.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/mesh/detail/components.h>
 
+#include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -50,6 +53,32 @@ std::vector<double> Domain::spread(std::span<const double> values) const {
   spread.reserve(cut_->original_vertex.size());
   for (const Index v : cut_->original_vertex) spread.push_back(values[v]);
   return spread;
+}
+
+OpenPart open_part(const Domain& domain) {
+  const Mesh &whole = domain.mesh(), &open = domain.open();
+  const detail::Components components = detail::components_of(open);
+  OpenPart part;
+  part.closed_faces = whole.face_count() - open.face_count();
+  part.components = components.count;
+  std::vector<double> area(components.count, 0);
+  for (Index f = 0; f < open.face_count(); ++f) {
+    area[components.of_vertex[open.faces()[f][0]]] += 0.5 * open.double_area(f) * open.unit() * open.unit();
+  }
+  const auto largest = std::max_element(area.begin(), area.end());
+  part.area = std::accumulate(area.begin(), area.end(), 0.0);
+  part.largest_area = area.empty() ? 0 : *largest;
+  std::vector<char> on_largest(whole.vertex_count(), false);
+  for (Index v = 0; v < open.vertex_count(); ++v) {
+    const Index c = components.of_vertex[v];
+    if (c != kNoIndex && c == largest - area.begin()) on_largest[domain.vertex(v)] = true;
+  }
+  for (Index v = 0; v < whole.vertex_count(); ++v) {
+    if (whole.corners(v).empty()) continue;
+    part.closed_vertices += !domain.is_open(v);
+    part.islanders += domain.is_open(v) && !on_largest[v];
+  }
+  return part;
 }
 
 }  // namespace brushfire

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace brushfire {
@@ -55,5 +56,16 @@ class Domain {
   Mesh mesh_;
   std::shared_ptr<const CutMesh> cut_;
 };
+
+// What walls leave of a mesh.
+struct OpenPart {
+  Index closed_faces = 0;
+  Index closed_vertices = 0;  // in closed faces only
+  Index components = 0;       // of what is open
+  double area = 0;            // of what is open, in units of the mesh squared
+  double largest_area = 0;    // of its largest component
+  Index islanders = 0;        // open vertices outside of that: nothing leads there from it
+};
+OpenPart open_part(const Domain& domain);
 
 }  // namespace brushfire

@@ -3,7 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
-#include <brushfire/queries/detail/components.h>
+#include <brushfire/mesh/detail/components.h>
 
 #include <algorithm>
 #include <string>

@@ -7,6 +7,7 @@
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/sleeve.h>
 #include <brushfire/queries/shorten.h>
+#include <brushfire/solvers/detail/walls.h>
 
 #include <algorithm>
 #include <cmath>
@@ -175,6 +176,36 @@ std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source>
     if (field.target_distance[i] == kInfinity) continue;
     static_cast<SurfacePath&>(path) = path_in(solver.domain(), *field.windows, targets[i]);
     path.source = field.target_source[i];
+  }
+  return paths;
+}
+
+std::vector<SourcePath> edge_paths_to(const Domain& domain, std::span<const Source> sources,
+                                      std::span<const SurfacePoint> targets, const DistanceOptions& how) {
+  const Mesh& open = domain.open();
+  const auto check_vertex = [&](const SurfacePoint& p) {
+    if (p.is_nowhere() || locate(domain.mesh(), p).on == On::Vertex) return;
+    throw Error(ErrorCode::InvalidArgument, "paths along edges run between vertices");
+  };
+  for (const Source& s : sources) check_vertex(s.point);
+  for (const SurfacePoint& t : targets) check_vertex(t);
+  DistanceOptions options = how;
+  options.method = Method::Dijkstra;
+  options.targets.assign(targets.begin(), targets.end());
+  const detail::WalledRun walled(domain, sources, options);
+  const DistanceField field = distance(open, walled.sources(), walled.options());
+  std::vector<SourcePath> paths;
+  for (const SurfacePoint& t : targets) {
+    SourcePath& path = paths.emplace_back();
+    Index nearest = kNoIndex;
+    for (const SurfacePoint& side : domain.on_open(t)) {
+      const Index v = locate(open, side).vertex;
+      if (nearest == kNoIndex || field.distance[v] < field.distance[nearest]) nearest = v;
+    }
+    if (nearest == kNoIndex || field.distance[nearest] == kInfinity) continue;
+    static_cast<SurfacePath&>(path) = edge_path_to(open, field, nearest);
+    domain.to_mesh(path.points);
+    path.source = walled.origin(field.source[nearest]);
   }
   return paths;
 }

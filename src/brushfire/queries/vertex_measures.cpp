@@ -4,7 +4,7 @@
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/core/parallel.h>
-#include <brushfire/queries/detail/components.h>
+#include <brushfire/mesh/detail/components.h>
 #include <brushfire/queries/detail/rows.h>
 
 #include <algorithm>
