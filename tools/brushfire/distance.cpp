@@ -1,5 +1,6 @@
 // brushfire distance: the distance of every vertex from the nearest source.
 #include "computing.h"
+#include "fields.h"
 #include "interrupt.h"
 #include "output.h"
 #include "reached.h"
@@ -7,7 +8,6 @@
 #include "surface.h"
 #include "where.h"
 
-#include <brushfire/io/write_field.h>
 #include <brushfire/solvers/distance.h>
 
 #include <chrono>
@@ -147,12 +147,7 @@ void write(const Arguments& arguments, const Run& run, const Surface& surface) {
   const std::vector<double> values = surface.on_file<double>(run.field.distance);
   std::vector<Index> labels;
   if (arguments.labels || !arguments.output.ends_with(".gii")) labels = surface.on_file<Index>(run.field.source);
-  // What lies outside of a mask is no number in GIFTI, and out of reach elsewhere.
-  const std::vector<std::uint8_t> open =
-      arguments.output.ends_with(".gii") ? surface.open_vertices() : std::vector<std::uint8_t>{};
-  write_field(arguments.output, surface.file().mesh,
-              {.values = values, .labels = labels, .mask = open, .structure = surface.file().structure},
-              arguments.output == "-" ? "csv" : "");
+  write_values(surface, arguments.output, {.values = values, .labels = labels});
 }
 
 int distance_verb(const Arguments& arguments, const Talk& talk) {
