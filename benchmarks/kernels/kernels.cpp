@@ -9,7 +9,7 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/fast_marching/detail/triangle_update.h>
+#include <brushfire/solvers/fast_marching/detail/fronts.h>
 #include <brushfire/solvers/windows/algebra/envelope.h>
 #include <brushfire/solvers/windows/algebra/merge.h>
 #include <brushfire/solvers/windows/algebra/propagate.h>
@@ -85,11 +85,13 @@ Run set_up(Method method, Precision precision) {
   };
 }
 
-// The circular front's update of separate triangles, eight lanes at a time where the compiler makes them.
+// The circular front's update of separate triangles, one by one.
 template <class T>
 Run circular_updates() {
+  using Front = fast_marching::portable::FrontOverEdge<fast_marching::CircularFront, T>;
   struct Input {
-    fast_marching::UpdateTriangle<T> at;
+    T length, inverse, x, y, side;
+    bool any_order;
     T t1, t2;
   };
   const auto inputs = std::make_shared<std::vector<Input>>();
@@ -97,14 +99,18 @@ Run circular_updates() {
   for (std::size_t i = 0; i < kTriangles; ++i) {
     const double length = random.uniform(0.5, 1.5), x = random.uniform(-0.5, 1.5), y = random.uniform(0.2, 1.2);
     const Vec2 start{random.uniform(-5, 5), -random.uniform(0.1, 20)};
-    inputs->push_back({{static_cast<T>(length), static_cast<T>(1 / length), static_cast<T>(x), static_cast<T>(y),
-                        static_cast<T>(norm(Vec2{x, y})), i % 8 == 0},
-                       static_cast<T>(norm(start)),
+    inputs->push_back({static_cast<T>(length), static_cast<T>(1 / length), static_cast<T>(x), static_cast<T>(y),
+                       static_cast<T>(norm(Vec2{x, y})), i % 8 == 0, static_cast<T>(norm(start)),
                        static_cast<T>(norm(start - Vec2{length, 0}))});
   }
   return [=] {
     T sum = 0;
-    for (const Input& in : *inputs) sum += fast_marching::CircularFront::update(in.at, in.t1, in.t2).value;
+    for (const Input& in : *inputs) {
+      const auto front = Front::of(in.length, in.inverse, in.t1, in.t2);
+      bool through = false;
+      const T value = front.update(in.x, in.y, in.side, in.any_order, through);
+      sum += through ? value : in.t1 + in.side;
+    }
     return static_cast<double>(sum);
   };
 }
@@ -128,8 +134,12 @@ Window window(Random& random, double b0, double b1, Index root) {
 }
 
 // On its own, so that the compiler's choices for the rest of this file do not show in its count.
-[[gnu::noinline]] windows::Children children_of(const Window& w, const windows::Frame& frame) {
-  return windows::propagate(w, frame, windows::straight_value(w, frame.apex));
+[[gnu::noinline]] double ends_of_children(const Window& w, const windows::Frame& frame) {
+  double sum = 0;
+  windows::propagate(
+      w, frame, [&](const Window& left) { sum += windows::is_sliver(left) ? 0 : left.d0; },
+      [&](const Window& right) { sum += windows::is_sliver(right) ? 0 : right.d1; });
+  return sum;
 }
 
 // A window enters a triangle and leaves through one or both of the other sides.
@@ -147,11 +157,7 @@ Run propagation() {
   }
   return [=] {
     double sum = 0;
-    for (const auto& [f, w] : *inputs) {
-      const windows::Children c = children_of(w, f);
-      if (c.has_left) sum += c.left.d0;
-      if (c.has_right) sum += c.right.d1;
-    }
+    for (const auto& [f, w] : *inputs) sum += ends_of_children(w, f);
     return sum;
   };
 }

@@ -53,6 +53,7 @@
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/io/unfinished.h>
 #include <brushfire/io/write_bytes.h>
+#include <brushfire/io/write_columns.h>
 #include <brushfire/io/write_field.h>
 #include <brushfire/io/write_lines.h>
 #include <brushfire/io/write_mesh.h>

@@ -268,7 +268,7 @@ TEST_F(Program, JsonTellsWhatNobodyWentToFromWhatNobodyCanReach) {
     EXPECT_EQ(number_of(disc.out, "beyond_radius") + number_of(disc.out, "not_visited"), 3) << method;
     const Ended small = run_program({"distance", path("plane.ply"), "-s", "0", "-m", method, "--json", "-t", "1"});
     EXPECT_EQ(number_of(small.out, "unreachable"), 0) << method;
-    if (method != std::string("dijkstra")) EXPECT_GT(number_of(small.out, "not_visited"), 9000) << method;
+    EXPECT_GT(number_of(small.out, "not_visited"), method == std::string("dijkstra") ? -1 : 9000) << method;
     EXPECT_EQ(
         number_of(small.out, "reached") + number_of(small.out, "not_visited") + number_of(small.out, "beyond_radius"),
         number_of(small.out, "vertices"))
@@ -421,8 +421,7 @@ TEST_F(Program, ShapesOfEveryKindAndSizeAreMeshes) {
 
 TEST_F(Program, UsageErrorsEndWithTwoAndOneLine) {
   const std::string mesh = path("square.off");
-  expect_error({"frobnicate"}, 2,
-               "brushfire: The following argument was not expected: frobnicate (see brushfire --help)");
+  expect_error({"frobnicate"}, 2, "brushfire: there is no verb 'frobnicate' (see brushfire --help)");
   expect_error({"info"}, 2, "brushfire: FILE is required (see brushfire info --help)");
   expect_error({"info", mesh, "--colour"}, 2,
                "brushfire: The following argument was not expected: --colour (see brushfire info --help)");

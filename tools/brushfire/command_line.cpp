@@ -224,7 +224,9 @@ int CommandLine::run(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& e) {
       const CLI::App* at = &app;
       for (const CLI::App* sub : app.get_subcommands()) at = sub;
-      return fail(kUsage, e.what() + help_hint(*at));
+      const bool has_word = at == &app && argc > 1 && argv[1][0] != '-';
+      const std::string what = has_word ? "there is no verb " + in_quotes(argv[1]) : e.what();
+      return fail(kUsage, what + help_hint(*at));
     }
     for (const auto& verb : implementation_->verbs) {
       if (!verb->app->parsed()) continue;

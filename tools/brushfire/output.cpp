@@ -42,6 +42,10 @@ void check_output(const std::string& path) {
   as_usage_error(path, [&] { check_field_format(path); });
 }
 
+void check_output(const std::string& path, Columns::Kind kind) {
+  as_usage_error(path, [&] { check_columns_format(path, kind); });
+}
+
 std::string names_of(const std::vector<FileFormat>& formats) {
   return wrapped(formats, ", ", [](const FileFormat& f) { return f.name; });
 }

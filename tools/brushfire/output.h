@@ -4,6 +4,7 @@
 #include "shared.h"
 
 #include <brushfire/io/formats.h>
+#include <brushfire/io/write_columns.h>
 #include <brushfire/io/write_lines.h>
 
 #include <string>
@@ -11,9 +12,10 @@
 
 namespace brushfire::tool {
 
-// Say, before anything is computed, that no field (no curves) can be written under such a name. Throw
+// Say, before anything is computed, that no field (no such columns, no curves) can be written under such a name. Throw
 // Error(InvalidArgument).
 void check_output(const std::string& path);
+void check_output(const std::string& path, Columns::Kind kind);
 
 // For help texts: "PLY, OBJ, OFF", and ".ply .vtk .vtp".
 std::string names_of(const std::vector<FileFormat>& formats);

@@ -6,7 +6,6 @@
 #include "surface.h"
 
 #include <brushfire/core/detail/memory.h>
-#include <brushfire/core/error.h>
 #include <brushfire/figure/ambient_occlusion.h>
 #include <brushfire/figure/render.h>
 #include <brushfire/io/read_field.h>

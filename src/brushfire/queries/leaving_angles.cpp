@@ -9,8 +9,6 @@
 namespace brushfire::detail {
 namespace {
 
-using On = PointLocation::On;
-
 double direction_of(Vec2 v) { return std::atan2(v.y, v.x); }
 
 double wrapped(double angle, double turn) {
@@ -23,6 +21,19 @@ double wrapped(double angle, double turn) {
 LeavingAngles::LeavingAngles(const Mesh& mesh, const SurfacePoint& source)
     : mesh_(mesh), source_(locate(mesh, source)) {
   if (at_vertex()) fan_ = tangent_fan(mesh, source_.vertex);
+}
+
+// Of a leg; of one that does not start at the source, nothing.
+windows::TracedRays::Angle LeavingAngles::of(const WindowField::Leg& leg) const {
+  if (leg.points.size() < 2 || (leg.vertex != kNoIndex && !is_source(leg.vertex))) return {};
+  return {towards(leg.points[leg.points.size() - 2]), sense_in(leg.points.back().face)};
+}
+
+// An angle within the full turn.
+double LeavingAngles::within_turn(double angle) const {
+  constexpr double kNoTurn = 1e-14;  // what rounding takes an angle below 0 by: not a full turn
+  if (at_vertex() && !fan_.closed) return std::clamp(angle, 0.0, fan_.total);
+  return angle < 0 && angle > -kNoTurn ? 0 : wrapped(angle, total());
 }
 
 double LeavingAngles::towards(const SurfacePoint& point) const {
@@ -40,6 +51,21 @@ double LeavingAngles::towards(const SurfacePoint& point) const {
   return f == source_.face ? wrapped(direction_of(d) - base_direction(), 2 * kPi) : over_own_edge(f, c, d);
 }
 
+// 1 where angles grow counter-clockwise in the face, which holds the source; -1 where clockwise.
+double LeavingAngles::sense_in(Index face) const {
+  if (!at_vertex()) return face == source_.face || !runs_as_own(halfedge_in(face)) ? 1 : -1;
+  const auto at = std::find_if(fan_.corners.begin(), fan_.corners.end(),
+                               [&](const FanCorner& c) { return Mesh::face_of(c.corner) == face; });
+  return at == fan_.corners.end() || !at->reversed ? 1 : -1;
+}
+
+// The halfedge along the source's edge in another face.
+Index LeavingAngles::halfedge_in(Index face) const {
+  Index in = mesh_.opposite()[source_.halfedge];
+  while (Mesh::face_of(in) != face) in = mesh_.opposite()[in];
+  return in;
+}
+
 double LeavingAngles::base_direction() const {
   const std::array<Vec2, 3> corners = flat_corners(mesh_, source_.face);
   return direction_of(corners[1] - corners[0]);
@@ -47,15 +73,13 @@ double LeavingAngles::base_direction() const {
 
 // Over the source's own edge into face f: measured from the edge, which both faces have.
 double LeavingAngles::over_own_edge(Index f, const std::array<Vec2, 3>& c, Vec2 d) const {
-  Index in = mesh_.opposite()[source_.halfedge];
-  while (Mesh::face_of(in) != f) in = mesh_.opposite()[in];
+  const Index in = halfedge_in(f);
   const Vec2 in_edge = c[Mesh::next(in) % 3] - c[in % 3];
   const double above = std::atan2(cross(in_edge, d), dot(in_edge, d));  // into f, in [0, pi]
-  const bool same_start = mesh_.from(in) == mesh_.from(source_.halfedge);
   const std::array<Vec2, 3> own_corners = flat_corners(mesh_, source_.face);
   const Vec2 own_edge = own_corners[Mesh::next(source_.halfedge) % 3] - own_corners[source_.halfedge % 3];
   // Below the edge in the source's face's plane, whichever way round the other face lies.
-  const double from_edge = same_start ? -above : above - kPi;
+  const double from_edge = runs_as_own(in) ? -above : above - kPi;
   return wrapped(direction_of(own_edge) + from_edge - base_direction(), 2 * kPi);
 }
 

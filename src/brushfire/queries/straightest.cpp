@@ -6,6 +6,7 @@
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/leaving_angles.h>
 #include <brushfire/queries/detail/tangent_fan.h>
+#include <brushfire/solvers/windows/paths/departures.h>
 
 #include <algorithm>
 #include <cmath>
@@ -230,13 +231,26 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
     throw Error(ErrorCode::InvalidArgument, "a direction must have a finite length > 0");
   }
   const PointLocation at = locate(mesh, point);
-  if (at.on != On::Vertex) return wrapped(angle_in_face(mesh, at.face, 0, direction), 2 * kPi);
+  // A shadow on the surface that is shorter than this share of the direction is made of rounding.
+  constexpr double kShortest = 1e-12;
+  const auto check_shadow = [&](double length) {
+    if (length <= kShortest * size) {
+      throw Error(ErrorCode::InvalidArgument, "the direction is at right angles to the surface there");
+    }
+  };
+  if (at.on != On::Vertex) {
+    double length = 0;
+    const double angle = angle_in_face(mesh, at.face, 0, direction, &length);
+    check_shadow(length);
+    return wrapped(angle, 2 * kPi);
+  }
   const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
-  double best = 0, best_score = -kInfinity;
+  double best = 0, best_score = -kInfinity, longest = 0;
   for (const detail::FanCorner& c : fan.corners) {
     double length = 0;
     const double angle = angle_in_face(mesh, Mesh::face_of(c.corner), c.corner % 3, direction, &length);
     const double inside = std::clamp(angle, 0.0, c.angle);
+    longest = std::max(longest, length);
     // How far the direction reaches along the nearest direction of this face.
     const double score = length * std::cos(angle - inside);
     if (score > best_score) {
@@ -244,7 +258,15 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
       best = fan.around(c.corner, inside);
     }
   }
+  check_shadow(longest);
   return best;
+}
+
+bool is_counter_clockwise(const Mesh& mesh, const SurfacePoint& point) {
+  const PointLocation at = locate(mesh, point);
+  if (at.on != On::Vertex) return true;
+  const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
+  return fan.corners.empty() || !fan.corners.front().reversed;
 }
 
 Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, double length) {
@@ -281,18 +303,18 @@ constexpr double kUnknownAngle = std::numeric_limits<double>::quiet_NaN();
 
 // Sets map.angle along the path to entry i: back along the vertices that the path bends at, to one whose angle is known
 // or to the source. `chain` is room to work in.
-void find_angle(const WindowField& field, const LeavingAngles& leaving, SparseLogMap& map, std::size_t i,
+void find_angle(windows::Departures& departures, const LeavingAngles& leaving, SparseLogMap& map, std::size_t i,
                 std::vector<std::size_t>& chain) {
   chain.clear();
   double angle = 0;
   while (true) {
     chain.push_back(i);
-    const WindowField::Leg leg = field.last_leg(map.vertex[i]);
-    if (leg.vertex == kNoIndex || leaving.is_source(leg.vertex)) {
-      if (leg.points.size() > 1) angle = leaving.towards(leg.points[leg.points.size() - 2]);
+    const windows::Departures::Departure departure = departures.of(map.vertex[i]);
+    if (departure.vertex == kNoIndex || leaving.is_source(departure.vertex)) {
+      angle = leaving.within_turn(departure.angle);
       break;
     }
-    i = static_cast<std::size_t>(std::lower_bound(map.vertex.begin(), map.vertex.end(), leg.vertex) -
+    i = static_cast<std::size_t>(std::lower_bound(map.vertex.begin(), map.vertex.end(), departure.vertex) -
                                  map.vertex.begin());
     if (!std::isnan(map.angle[i])) {
       angle = map.angle[i];
@@ -352,12 +374,14 @@ SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const D
   SparseLogMap map{std::move(field.vertex), std::move(field.distance), {}, leaving.total()};
   map.angle.assign(map.vertex.size(), kUnknownAngle);
   std::vector<std::size_t> chain;
+  windows::Departures departures(*field.windows, map.vertex.size(),
+                                 [&](const WindowField::Leg& leg) { return leaving.of(leg); });
   const CancelScope listen(how.cancel);
   Poll poll(64);
   for (std::size_t i = 0; i < map.vertex.size(); ++i) {
     poll();
     if (leaving.is_source(map.vertex[i])) map.angle[i] = 0;
-    if (std::isnan(map.angle[i])) find_angle(*field.windows, leaving, map, i, chain);
+    if (std::isnan(map.angle[i])) find_angle(departures, leaving, map, i, chain);
   }
   return map;
 }

@@ -13,6 +13,7 @@ namespace brushfire {
 namespace windows {
 inline namespace in_doubles {  // see windows/algebra/real.h
 struct WindowFieldData;
+class Departures;
 }
 }  // namespace windows
 
@@ -58,6 +59,7 @@ class WindowField {
   explicit WindowField(std::shared_ptr<const windows::WindowFieldData> data);
 
  private:
+  friend class windows::Departures;
   std::shared_ptr<const windows::WindowFieldData> data_;
 };
 

@@ -2,7 +2,6 @@
 // environment variable BRUSHFIRE_RANDOM_WINDOWS says.
 #include <brushfire/solvers/windows/algebra/envelope.h>
 #include <brushfire/solvers/windows/algebra/merge.h>
-#include <brushfire/solvers/windows/algebra/propagate.h>
 #include <brushfire/solvers/windows/algebra/ridge.h>
 #include <brushfire/solvers/windows/algebra/sweep.h>
 #include <brushfire/solvers/windows/propagation/fan.h>
@@ -12,6 +11,8 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+
+#include "solvers/windows/children.h"
 
 namespace brushfire::windows {
 namespace {
@@ -90,8 +91,7 @@ TEST(Algebra, ChildrenTileTheParentsIntervalAndKeepItsValues) {
   for (int i = 0; i < count(); ++i) {
     const Frame frame = random.frame();
     const Window w = random.window(frame.length);
-    const double apex_value = straight_value(w, frame.apex);
-    const Children c = propagate(w, frame, apex_value);
+    const Children c = children_of(w, frame);
     if (!c.has_left && !c.has_right) continue;
     const Crossing at = crossing(w, frame.apex);
     const double x = at.across / at.along;

@@ -28,6 +28,13 @@ Mesh ball(double far = 1) {
   return shape.mesh();
 }
 
+// A frame over an edge of such a face has the rounding of that edge, however near the source is.
+TEST(Rounding, KnowsTheEdgesOfFacesOneOfWhoseEdgesHasNoLength) {
+  windows::Unevenness folded;
+  folded.add(2, 2, 0);
+  EXPECT_GE(windows::rounding_of(folded).absolute, 2 * windows::kEpsilon);
+}
+
 TEST(WideNumbers, GiveWhatDoublesGiveOnOrdinaryMeshes) {
   const Mesh mesh = ball();
   const auto narrow = windows::in_doubles::make_engine(mesh, kOnePart, windows::Merging::Always);

@@ -5,6 +5,8 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/queries/detail/tangent_fan.h>
+#include <brushfire/solvers/window_field.h>
+#include <brushfire/solvers/windows/paths/departures.h>
 
 #include <array>
 #include <utility>
@@ -19,6 +21,10 @@ class LeavingAngles {
   double total() const { return at_vertex() ? fan_.total : 2 * kPi; }
   bool is_source(Index vertex) const { return at_vertex() && vertex == source_.vertex; }
 
+  // Of a leg; of one that does not start at the source, nothing.
+  windows::TracedRays::Angle of(const WindowField::Leg& leg) const;
+  // An angle within the full turn.
+  double within_turn(double angle) const;
   // Of a path whose second point this is; an angle as straightest() takes it.
   double towards(const SurfacePoint& point) const;
 
@@ -29,6 +35,9 @@ class LeavingAngles {
 
  private:
   bool at_vertex() const { return source_.on == PointLocation::On::Vertex; }
+  double sense_in(Index face) const;
+  Index halfedge_in(Index face) const;
+  bool runs_as_own(Index halfedge) const { return mesh_.from(halfedge) == mesh_.from(source_.halfedge); }
   double base_direction() const;
   double over_own_edge(Index f, const std::array<Vec2, 3>& c, Vec2 d) const;
 

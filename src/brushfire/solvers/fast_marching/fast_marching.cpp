@@ -6,12 +6,12 @@
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/locality_order.h>
-#include <brushfire/solvers/detail/crew.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
+#include <brushfire/solvers/fast_marching/detail/fronts.h>
 #include <brushfire/solvers/fast_marching/detail/march.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
-#include <brushfire/solvers/fast_marching/detail/triangle_update.h>
+#include <brushfire/solvers/partition/worker_team.h>
 
 #include <algorithm>
 #include <atomic>
@@ -30,10 +30,20 @@ FrontModel front_model(Method method) {
   return method == Method::NovotniKlein2002 ? FrontModel::LiteralCircular : FrontModel::Circular;
 }
 
-double update(FrontModel model, const UpdateTriangle<double>& at, double t1, double t2) {
-  if (model == FrontModel::Planar) return PlanarFront::update(at, t1, t2).value;
-  if (model == FrontModel::LiteralCircular) return LiteralCircularFront::update(at, t1, t2).value;
-  return CircularFront::update(at, t1, t2).value;
+// The value at a target in the frame of an edge (fronts_kernel.h) with values t1 and t2 at its ends; through its first
+// end where the front does not reach it otherwise.
+template <class Front>
+double update(double length, Vec2 at, double t1, double t2) {
+  const auto front = portable::FrontOverEdge<Front, double>::of(length, 1 / length, t1, t2);
+  bool through = false;
+  const double value = front.update(at.x, at.y, norm(at), true, through);
+  return through ? value : t1 + norm(at);
+}
+
+double update(FrontModel model, double length, Vec2 at, double t1, double t2) {
+  if (model == FrontModel::Planar) return update<PlanarFront>(length, at, t1, t2);
+  if (model == FrontModel::LiteralCircular) return update<LiteralCircularFront>(length, at, t1, t2);
+  return update<CircularFront>(length, at, t1, t2);
 }
 
 // The mesh in an order that keeps neighbours close.
@@ -106,7 +116,7 @@ class Marcher {
 
  private:
   void start(const detail::Problem& problem) {
-    crew_.hire(problem.options->threads, rings_.layout.parts.count());
+    workers_.assemble(problem.options->threads, rings_.layout.parts.count());
     for_each_part(state_.used, is_much(state_.touched()), [&](Index part) { state_.reset_part(part); });
     state_.reset();
     final_ = kInfinity;
@@ -123,7 +133,7 @@ class Marcher {
       const double offset = s.offset - base_;
       if (state_.labelled) state_.start[s.label] = static_cast<T>(offset);
       for (const detail::Seed& seed : seeds_.in_sight(mesh_, s.at, crossings, problem.max_distance - s.offset)) {
-        state_.offer(seed.vertex, static_cast<T>(offset + seed.distance), s.label);
+        state_.seed(seed.vertex, static_cast<T>(offset + seed.distance), s.label);
       }
     }
   }
@@ -151,13 +161,13 @@ class Marcher {
   // One round.
   void work(const CancelToken* cancel) {
     constexpr std::size_t kWorthSharing = 64;
-    if (!crew_.team() || state_.load < kWorthSharing) {
+    if (!workers_.team() || state_.load < kWorthSharing) {
       for (const Index part : state_.work) march_part_(rings_, state_, part);
       return;
     }
     due_.clear();
     for (const Index part : state_.work) due_.push_back({part, state_.outlook[part].load});
-    crew_.work(due_, [this, cancel](unsigned, Index part) {
+    workers_.work(due_, [this, cancel](unsigned, Index part) {
       if (!(cancel && cancel->cancelled())) march_part_(rings_, state_, part);
     });
   }
@@ -169,8 +179,8 @@ class Marcher {
     const auto take = [&](unsigned, std::size_t) {
       for (std::size_t i = next++; i < parts.size(); i = next++) act(parts[i]);
     };
-    if (crew_.team() && is_much) {
-      crew_.team()->run(std::min<std::size_t>(crew_.size(), parts.size()), std::ref(take));
+    if (workers_.team() && is_much) {
+      workers_.team()->run(std::min<std::size_t>(workers_.size(), parts.size()), std::ref(take));
     } else {
       take(0, 0);
     }
@@ -265,9 +275,8 @@ class Marcher {
     const Index l = label(v1);
     if (l == kNoIndex || l != label(v2)) return;
     const double started = state_.labelled ? static_cast<double>(state_.start[l]) : 0.0;
-    const double length = mesh_.length(h);
-    const UpdateTriangle<double> triangle{length, 1 / length, at.x, at.y, norm(at), true};
-    const double d = update(front_model(problem.options->method), triangle, value(v1) - started, value(v2) - started);
+    const FrontModel model = front_model(problem.options->method);
+    const double d = update(model, mesh_.length(h), at, value(v1) - started, value(v2) - started);
     offer(base_ + started + d, l);
   }
 
@@ -322,10 +331,10 @@ class Marcher {
   mutable detail::SeedSearch seeds_;
   MarchState<T> state_;
   MarchPart<T> march_part_ = nullptr;  // of this run
-  detail::Crew crew_{kPatience};
-  std::vector<detail::Shares::Due> due_;  // the parts that work in this round
-  double base_ = 0;                       // the lowest offset: values are kept relative to it
-  double final_ = kInfinity;              // where the front stopped
+  partition::WorkerTeam workers_{kPatience};
+  std::vector<partition::Due> due_;  // the parts that work in this round
+  double base_ = 0;                  // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;         // where the front stopped
 };
 
 class FastMarching final : public detail::Engine {

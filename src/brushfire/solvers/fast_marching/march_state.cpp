@@ -68,7 +68,7 @@ void MarchState<T>::reset_part(Index p) {
 }
 
 template <class T>
-void MarchState<T>::offer(Index place, T v, Index source) {
+void MarchState<T>::seed(Index place, T v, Index source) {
   Front& at = front_at[place];
   if (!(labelled ? std::pair(v, source) < std::pair(at.value, label[place]) : v < at.value)) return;
   Part& part = parts[layout->of(place)];
@@ -157,7 +157,7 @@ void MarchState<T>::write_letters(Part& part, Index place) {
     std::vector<Letter>& letters = channel.letters[channel.writes];
     if (std::exchange(channel.last_round, round) != round) part.outbox.push(c);
     channel.lowest = letters.empty() ? falls_into : std::min(channel.lowest, falls_into);
-    letters.push_back({to, labelled ? label[place] : 0, at.value, at.root});
+    letters.push_back({to, labelled ? label[place] : 0, at.value, at.sigma});
   }
 }
 

@@ -11,14 +11,19 @@
 
 #include "store/exact_lists.cpp"
 
+#include "propagation/arrivals.cpp"
 #include "propagation/exact_trim.cpp"
 #include "propagation/links.cpp"
+#include "propagation/own_vertices.cpp"
 #include "propagation/part.cpp"
-#include "propagation/part_lists.cpp"
-#include "propagation/part_windows.cpp"
-#include "propagation/propagation.cpp"
+#include "propagation/pseudo_sources.cpp"
 #include "propagation/results.cpp"
+#include "propagation/single_windows.cpp"
+#include "propagation/sink.cpp"
 #include "propagation/structure.cpp"
 #include "propagation/targets.cpp"
+#include "propagation/window_engine.cpp"
+#include "propagation/window_lists.cpp"
 
 #include "paths/keep_plain.cpp"
+#include "paths/point_values.cpp"

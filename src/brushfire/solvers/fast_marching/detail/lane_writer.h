@@ -18,8 +18,6 @@
 #include <emmintrin.h>
 #endif
 
-#include <brushfire/solvers/fast_marching/detail/vector_target.h>
-
 namespace brushfire::fast_marching {
 
 // A triangle (v; a, b) with v in the origin of its plane: |a|, |b|, a . b, |a x b|.

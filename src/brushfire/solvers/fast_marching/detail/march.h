@@ -1,9 +1,9 @@
-// The march: takes vertices from the queue in order of their values and offers values to the rings around them.
+// The march: takes vertices from the queue in order of their values and updates their neighbours.
 #pragma once
 
+#include <brushfire/core/detail/targets.h>
 #include <brushfire/solvers/fast_marching/detail/march_state.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
-#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <cstdint>
 #include <functional>

@@ -20,18 +20,18 @@ namespace brushfire::fast_marching {
 
 // The state byte of a vertex.
 struct Openness {
-  static constexpr std::uint8_t kOpen = 128;   // the value has not been offered to the neighbours yet
+  static constexpr std::uint8_t kOpen = 128;   // the value has not gone on to the neighbours yet
   static constexpr std::uint8_t kShared = 64;  // stays: the place is a ghost or has some
   static constexpr std::uint8_t kNews = 32;    // of a shared place: its value fell in this round (or the last one)
-  // How often the vertex came up so far; and how often it did so because a part learnt late of another one, which does
-  // not count as one of its own turns, as long as these bits last.
-  static constexpr std::uint8_t kTurns = 3;
-  static constexpr std::uint8_t kLateTurns = 28, kOneLateTurn = 4;
+  // How often the vertex was taken from the queue; and how often because a part learnt late of another one, which does
+  // not count as long as these bits last.
+  static constexpr std::uint8_t kPops = 3;
+  static constexpr std::uint8_t kLatePops = 28, kOneLatePop = 4;
 
-  // With one turn that does not count, if there was any and there may be more of these.
+  // With one time that does not count, if there was any and there may be more of these.
   static constexpr std::uint8_t forgiven(std::uint8_t state) {
-    const bool may = (state & kTurns) != 0 && (state & kLateTurns) != kLateTurns;
-    return static_cast<std::uint8_t>(may ? state - 1 + kOneLateTurn : state);
+    const bool may = (state & kPops) != 0 && (state & kLatePops) != kLatePops;
+    return static_cast<std::uint8_t>(may ? state - 1 + kOneLatePop : state);
   }
 };
 
@@ -45,7 +45,7 @@ struct MarchState {
   // Side by side, as who needs the one needs the other.
   struct Front {
     T value = kUnreached;  // >= 0; +inf: not reached yet
-    T root = 0;            // value minus radius of the front that brought it (circular fronts)
+    T sigma = 0;           // value less radius of the front that brought it (circular fronts)
   };
 
   // What belongs to one part, and no other touches during a round.
@@ -64,7 +64,7 @@ struct MarchState {
   // A value that fell.
   struct Letter {
     Index place, label;  // of the receiver
-    T value, root;
+    T value, sigma;
   };
   // Its sender writes into one half while its receiver reads, and empties, the other one.
   struct alignas(64) Channel {
@@ -108,9 +108,9 @@ struct MarchState {
   }
   // What is below is final.
   T front() const { return static_cast<T>(lowest) / buckets_per_unit; }
-  void offer(Index place, T v, Index source);  // from outside the march: keeps the lowest (value, label)
+  void seed(Index place, T v, Index source);  // from outside the march: keeps the lowest (value, label)
 
-  void begin_run();  // when all is offered
+  void begin_run();  // when all seeds are in
   // Hands letters over and chooses who works in the next round; false where nothing is left.
   bool next_round();
   void tell(Index part);  // writes letters about its news

@@ -8,7 +8,6 @@
 #include <brushfire/core/detail/inline.h>
 #include <brushfire/core/detail/prefetch.h>
 #include <brushfire/core/types.h>
-#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <bit>
 #include <cstddef>

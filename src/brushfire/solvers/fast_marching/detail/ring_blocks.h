@@ -2,10 +2,10 @@
 #pragma once
 
 #include <brushfire/core/detail/inline.h>
+#include <brushfire/core/detail/targets.h>
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/fast_marching/detail/parts.h>
-#include <brushfire/solvers/fast_marching/detail/vector_target.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct alignas(64) RingBlock {
 struct LaneLinks {
   // Bits 0-2 of links[k]: the second side of triangle k (k itself: no triangle). Bits 4-6: the triangle whose second
   // side is side k (k itself: none). Bit 3: the corner at the end of the first side is obtuse and no unfolding splits
-  // it (see UpdateTriangle, any_order); bit 7: the same at the end of the second.
+  // it (see FrontOverEdge, any_order); bit 7: the same at the end of the second.
   std::uint8_t links[kLanes];
 
   static constexpr std::uint8_t kAnyOrderFirst = 8, kAnyOrderSecond = 128;
@@ -53,8 +53,8 @@ struct RingLayout {
 template <class T>
 struct Rings {
   struct Head {
-    T bend = 0;      // by how much the curvature of a front falls that passes the vertex
-    Index more = 0;  // its second block; 0: none
+    T correction = 0;  // by how much the curvature of a front falls that passes the vertex
+    Index more = 0;    // its second block; 0: none
   };
 
   RingLayout layout;

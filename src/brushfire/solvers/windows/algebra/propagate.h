@@ -82,23 +82,20 @@ inline Division divide(const Window& w, Vec2 apex) {
   return r;
 }
 
-// Both, where they are lit; both have the triangle below and their source in it or beyond.
-struct Children {
-  Window left, right;
-  bool has_left = false, has_right = false;
-};
-inline Children propagate(const Window& w, const Frame& frame, Real apex_value) {
-  Children children;
+// Calls left(child) and right(child) for those that are lit; they have the triangle below and their source in it or
+// beyond. They may be slivers.
+template <class Left, class Right>
+[[gnu::always_inline]] inline void propagate(const Window& w, const Frame& frame, Left&& left, Right&& right) {
   const Division d = divide(w, frame.apex);
+  const Real apex_value = straight_value(w, frame.apex);
   if (d.lit_left() && frame.left > 0) {
-    children.left = left_child(w, frame, d, apex_value);
-    children.has_left = is_lit(children.left) && !is_sliver(children.left);
+    const Window child = left_child(w, frame, d, apex_value);
+    if (is_lit(child)) left(child);
   }
   if (d.lit_right() && frame.right > 0) {
-    children.right = right_child(w, frame, d, apex_value);
-    children.has_right = is_lit(children.right) && !is_sliver(children.right);
+    const Window child = right_child(w, frame, d, apex_value);
+    if (is_lit(child)) right(child);
   }
-  return children;
 }
 
 // Whether all light of the window that is worth less than `radius` ends in the triangle: the lines through its other

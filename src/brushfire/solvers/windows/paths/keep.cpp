@@ -26,8 +26,8 @@ void Results::keep() {
     data->vertices.resize(mesh.vertex_count(), unknown);
   }
   for (const Part& part : parts_) {
-    part.for_each_touched([&](Index v) {
-      if (run_.values[v].lower > run_.radius || !is_first_copy(v)) return;
+    part.vertices().for_each_touched([&](Index v) {
+      if (run_.values[v].lower > run_.radius || !is_owner(v)) return;
       data->vertices.set(run_.structure.outer_vertex(v), {run_.values[v].lower, label_of(v), outer(run_.rays[v])});
     });
   }
@@ -38,17 +38,7 @@ void Results::keep() {
   }
   data->exact = !run_.merges();
   data->view = run_.problem->view;
-  data->all_points = run_.problem->options->keep_windows;
-  if (data->all_points) {
-    std::vector<KeptWindow> kept;
-    for (Part& part : parts_) {
-      for (KeptWindow& k : part.kept()) {
-        k.window.root = outer_root(k.window.root);
-        kept.push_back(k);
-      }
-    }
-    data->keep(kept);
-  }
+  data->all_points = point_values();
   field_.windows = std::make_shared<WindowField>(std::move(data));
 }
 

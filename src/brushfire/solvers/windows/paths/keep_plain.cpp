@@ -6,7 +6,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 brushfire::Vec2 plain(const Vec2& p) { return {to_double(p.x), to_double(p.y)}; }
-PlainRun::Ray plain(const Ray& ray) { return {plain(ray.source), ray.halfedge, ray.root}; }
+PlainRay plain(const Ray& ray) { return {plain(ray.source), ray.halfedge, ray.root}; }
 
 }  // namespace
 
@@ -18,8 +18,8 @@ void Results::keep() {
   run.exact = !run_.merges();
   run.whole = !(run_.radius < kInfinity);
   for (const Part& part : parts_) {
-    part.for_each_touched([&](Index v) {
-      if (run_.values[v].lower > run_.radius || !is_first_copy(v)) return;
+    part.vertices().for_each_touched([&](Index v) {
+      if (run_.values[v].lower > run_.radius || !is_owner(v)) return;
       run.vertices.push_back(
           {run_.structure.outer_vertex(v), to_double(run_.values[v].lower), label_of(v), plain(outer(run_.rays[v]))});
     });
@@ -29,15 +29,7 @@ void Results::keep() {
     run.targets.push_back(
         {kNoIndex, to_double(t.lower), t.lower < kInfinity ? label_of(t.ray.root) : kNoIndex, plain(outer(t.ray))});
   }
-  if (run_.problem->options->keep_windows) {
-    for (Part& part : parts_) {
-      for (const KeptWindow& k : part.kept()) {
-        const Window& w = k.window;
-        run.windows.push_back({k.halfedge, outer_root(w.root), plain(w.source), to_double(w.b0), to_double(w.b1),
-                               to_double(w.sigma), to_double(w.d0), to_double(w.d1), to_double(w.slack)});
-      }
-    }
-  }
+  run.all_points = point_values();
   field_.windows = window_field_of(run);
 }
 

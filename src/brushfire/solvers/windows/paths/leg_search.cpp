@@ -21,10 +21,15 @@ namespace brushfire::windows {
 namespace {
 
 using On = PointLocation::On;
+using detail::DoubleDouble, detail::WideFrame, detail::WideVec2, detail::wide_corners, detail::wide_frame,
+    detail::wide_point;
 
 // Vertices that are nearer than this share of the value have the same value as the point, as far as anyone knows: the
 // leg may start from any of them.
 constexpr double kNoDistance = 64 * std::numeric_limits<double>::epsilon();
+// And those that are nearer than this share of the longest edge of a face of both: the weights of a point do not tell
+// them apart.
+constexpr double kNoPlace = 2 * std::numeric_limits<double>::epsilon();
 // What a turn of two arrows is rounded by at most, as a share of the product of their lengths: some hundred operations
 // of 2^-104 each, with room for places that are far larger than what they are compared with.
 constexpr double kNoTurn = 1e-26;
@@ -32,6 +37,8 @@ constexpr double kNoTurn = 1e-26;
 constexpr double kSamePlace = 1e-15;
 // Wedges that are one come soon after each other: only so many are looked at.
 constexpr std::ptrdiff_t kRecent = 32;
+// And so many faces of a way: no way winds round more of them in a circle for long.
+constexpr int kMostBack = 64;
 // Once the value is explained, so many more wedges are looked into for the root that the field names itself.
 constexpr int kPatience = 256;
 // A pass ends after so many wedges. Along the hint a leg needs few for each face that it crosses, or it is going
@@ -44,11 +51,11 @@ constexpr Index kStart = kNoIndex;  // the wedge before the first one
 struct Wedge {
   Index halfedge = kNoIndex;  // of the face that is left through the edge
   Index right_vertex = kNoIndex, left_vertex = kNoIndex;
-  detail::WideVec2 right, left;              // ends of the edge
-  detail::WideVec2 right_limit, left_limit;  // vertices that bound the wedge
-  Index before = kStart;                     // the wedge that it is a part of
-  Index origin = 0;                          // the start whose place is the origin
-  Vec2 guide;                                // where the hint points; 0: nowhere
+  WideVec2 right, left;              // ends of the edge
+  WideVec2 right_limit, left_limit;  // vertices that bound the wedge
+  Index before = kStart;             // the wedge that it is a part of
+  Index origin = 0;                  // the start whose place is the origin
+  Vec2 guide;                        // where the hint points; 0: nowhere
 };
 
 // The point itself, or a vertex at no distance from it.
@@ -65,23 +72,23 @@ struct Goal {
   Index vertex = kNoIndex, source = kNoIndex;
   Index face = kNoIndex;  // that holds it, and the weights there
   std::array<double, 3> weights{0, 0, 0};
-  detail::WideVec2 place;
+  WideVec2 place;
   Index wedge = kStart;
   Index origin = 0;
 };
 
-Vec2 rounded(detail::WideVec2 a) { return {a.x.high, a.y.high}; }
-double length_of(detail::WideVec2 a) { return norm(a).high; }
+Vec2 rounded(WideVec2 a) { return {a.x.high, a.y.high}; }
+double length_of(WideVec2 a) { return norm(a).high; }
 
 // > 0: b lies to the left of a; 0 where that cannot be told.
-int turn(detail::WideVec2 a, detail::WideVec2 b) {
+int turn(WideVec2 a, WideVec2 b) {
   const double t = cross(a, b).high;
   const double room = kNoTurn * norm(rounded(a)) * norm(rounded(b));
   return t > room ? 1 : t < -room ? -1 : 0;
 }
 
 // The same within a half-plane, one limit of which may be opposite of the other.
-bool is_left_of(detail::WideVec2 a, detail::WideVec2 b) {
+bool is_left_of(WideVec2 a, WideVec2 b) {
   const int t = turn(a, b);
   return t > 0 || (t == 0 && dot(a, b).high < 0);
 }
@@ -129,6 +136,11 @@ class LegSearch {
     Index source;
     std::array<double, 3> weights;
   };
+  // A point by its faces. A face that has a vertex twice names it once for every corner.
+  struct Named {
+    Index face;
+    std::array<double, 3> weights;
+  };
   struct Open {
     Index wedge;
     double key;
@@ -155,10 +167,16 @@ class LegSearch {
         const std::array<double, 3> d = corner_distances(mesh_, here);
         for (Index k = 0; k < 3; ++k) {
           const double way = from.before + d[k];
-          if (way <= kNoDistance * value_) add_origin(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
+          if (way <= no_distance(f.face)) add_origin(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
         }
+        for (Index k = 0; k < 3; ++k) add_origin_across(f, 3 * f.face + k, i);
       }
     }
+  }
+  // A point of an edge is known to an epsilon of the edge, whatever the value.
+  double no_distance(Index face) const {
+    const auto l = mesh_.lengths().subspan(3 * std::size_t{face}, 3);
+    return std::max(kNoDistance * value_, kNoPlace * std::max({l[0], l[1], l[2]}));
   }
   void add_origin(Index v, Index corner, double way, Index previous) {
     if (is_origin(v)) return;
@@ -173,12 +191,37 @@ class LegSearch {
     return std::any_of(origins_.begin(), origins_.end(),
                        [&](const Origin& o) { return o.at.on == On::Vertex && o.at.vertex == v; });
   }
+  // The foot of the point on an edge at no distance: other corners of faces without area may lie there.
+  void add_origin_across(const Named& f, Index h, Index previous) {
+    const double weight = f.weights[Mesh::previous(h) % 3], length = mesh_.length(h), room = no_distance(f.face);
+    if (weight == 0 || !(length > 0) || mesh_.opposite()[h] == h || is_origin_on_edge(h)) return;
+    if (!(weight * mesh_.double_areas()[f.face] <= 2 * room * length)) return;
+    const std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, h % 3);
+    const WideVec2 here = wide_point(corners, f.weights);
+    const DoubleDouble share = (here.x - corners[h % 3].x) / (corners[Mesh::next(h) % 3].x - corners[h % 3].x);
+    const double way = origins_[previous].before + std::abs((here.y - corners[h % 3].y).high);
+    if (!(share > 0 && share < 1 && way <= room)) return;
+    PointLocation at;
+    at.on = On::Edge;
+    at.halfedge = h;
+    at.face = f.face;
+    at.weights[h % 3] = (DoubleDouble(1) - share).high;
+    at.weights[Mesh::next(h) % 3] = share.high;
+    origins_.push_back({at, way, previous});
+  }
+  bool is_origin_on_edge(Index h) const {
+    const auto is_on = [&](const Origin& o) {
+      if (o.at.on != On::Edge) return false;
+      Index g = o.at.halfedge;
+      do {
+        if (g == h) return true;
+        g = mesh_.opposite()[g];
+      } while (g != o.at.halfedge);
+      return false;
+    };
+    return std::any_of(origins_.begin(), origins_.end(), is_on);
+  }
 
-  // A point by its faces. A face that has a vertex twice names it once for every corner.
-  struct Named {
-    Index face;
-    std::array<double, 3> weights;
-  };
   std::vector<Named> names_of(const PointLocation& at) const {
     std::vector<Named> names;
     if (at.on == On::Vertex) {
@@ -231,9 +274,9 @@ class LegSearch {
       for (Index i = 0; hinted == kNoIndex && i < 3; ++i) {
         if (i == 0 || mesh_.length(3 * f.face + i) > mesh_.length(3 * f.face + k)) k = i;
       }
-      std::array<detail::WideVec2, 3> corners = detail::wide_corners(mesh_, f.face, k);
-      const detail::WideVec2 here = wide_point(corners, f.weights);
-      for (detail::WideVec2& c : corners) c = c - here;
+      std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, k);
+      const WideVec2 here = wide_point(corners, f.weights);
+      for (WideVec2& c : corners) c = c - here;
       Goal goal;
       goal.face = f.face;
       goal.origin = origin;
@@ -279,16 +322,28 @@ class LegSearch {
     for (Index g = opposite(h); g != h && !done_; g = opposite(g)) enter(number, g);
   }
 
+  // A shortest way crosses a face once: between two visits it could go straight (L11 of docs/tolerance.md). Ways that
+  // wind between few faces for ever are found by looking back a little.
+  bool has_crossed(Index number, Index face) const {
+    if (!(mesh_.double_areas()[face] > 0)) return false;
+    for (int back = 0; number != kStart && back < kMostBack; ++back) {
+      if (Mesh::face_of(wedges_[number].halfedge) == face) return true;
+      number = wedges_[number].before;
+    }
+    return false;
+  }
+
   void enter(Index number, Index g) {
+    if (has_crossed(number, Mesh::face_of(g))) return;
     const Wedge w = wedges_[number];
-    const detail::WideFrame frame = detail::wide_frame(mesh_, g);
-    const detail::WideVec2 edge = w.left - w.right;
-    const detail::WideVec2 along = (detail::DoubleDouble(1) / norm(edge)) * edge, beyond{along.y, -along.x};
+    const WideFrame frame = wide_frame(mesh_, g);
+    const WideVec2 edge = w.left - w.right;
+    const WideVec2 along = (DoubleDouble(1) / norm(edge)) * edge, beyond{along.y, -along.x};
     const bool from_right = mesh_.from(g) == w.right_vertex;
-    const detail::WideVec2 apex =
+    const WideVec2 apex =
         (from_right ? w.right + frame.apex.x * along : w.left - frame.apex.x * along) + frame.apex.y * beyond;
     const Index face = Mesh::face_of(g), top = Mesh::previous(g), top_vertex = mesh_.from(top);
-    std::array<detail::WideVec2, 3> corners;
+    std::array<WideVec2, 3> corners;
     corners[g % 3] = from_right ? w.right : w.left;
     corners[Mesh::next(g) % 3] = from_right ? w.left : w.right;
     corners[top % 3] = apex;
@@ -301,7 +356,7 @@ class LegSearch {
     const Index right_side = from_right ? Mesh::previous(g) : Mesh::next(g);
     const Index left_side = from_right ? Mesh::next(g) : Mesh::previous(g);
     const bool has_right = is_left_of(w.right_limit, apex), has_left = is_left_of(apex, w.left_limit);
-    const detail::WideVec2 left_limit = has_left ? apex : w.left_limit, right_limit = has_right ? apex : w.right_limit;
+    const WideVec2 left_limit = has_left ? apex : w.left_limit, right_limit = has_right ? apex : w.right_limit;
     if (has_right)
       add({right_side, w.right_vertex, top_vertex, w.right, apex, w.right_limit, left_limit, number, w.origin,
            w.guide});
@@ -309,9 +364,7 @@ class LegSearch {
       add({left_side, top_vertex, w.left_vertex, apex, w.left, right_limit, w.left_limit, number, w.origin, w.guide});
   }
 
-  static bool in_wedge(const Wedge& w, detail::WideVec2 p) {
-    return turn(w.right_limit, p) >= 0 && turn(p, w.left_limit) >= 0;
-  }
+  static bool in_wedge(const Wedge& w, WideVec2 p) { return turn(w.right_limit, p) >= 0 && turn(p, w.left_limit) >= 0; }
 
   void add(const Wedge& w) {
     if (!is_left_of(w.right_limit, w.left_limit)) return;  // too narrow to hold more than the way to a vertex
@@ -333,7 +386,7 @@ class LegSearch {
 
   // The part of the wedge's edge that lies in the wedge, from right to left, as shares of the edge.
   static Vec2 visible(const Wedge& w) {
-    const auto share = [&](detail::WideVec2 limit) {
+    const auto share = [&](WideVec2 limit) {
       const double r = -cross(limit, w.right).high, l = cross(limit, w.left).high;
       return r + l > 0 ? std::clamp(r / (r + l), 0.0, 1.0) : kInfinity;
     };
@@ -417,7 +470,7 @@ class LegSearch {
   }
 
   // Those within the face that a way of the wedge has entered.
-  void offer_sources(Goal goal, const std::array<detail::WideVec2, 3>& corners) {
+  void offer_sources(Goal goal, const std::array<WideVec2, 3>& corners) {
     const auto [begin, end] = sources_in_.equal_range(goal.face);
     for (auto s = begin; s != end; ++s) {
       goal.place = wide_point(corners, s->second.weights);
@@ -429,7 +482,7 @@ class LegSearch {
     }
   }
 
-  void offer_corner(Goal goal, Index k, detail::WideVec2 place) {
+  void offer_corner(Goal goal, Index k, WideVec2 place) {
     goal.vertex = mesh_.faces()[goal.face][k];
     if (!(value_of(goal.vertex) < value_) || is_origin(goal.vertex)) return;
     goal.place = place;
@@ -473,7 +526,7 @@ class LegSearch {
 
   // Where the straight way passes through a vertex of the wedge's edge, as far as anyone can see.
   bool end_at_vertex(const Goal& goal, const Wedge& w, WindowField::Leg& leg) const {
-    const auto try_end = [&](Index v, Index corner, detail::WideVec2 place) {
+    const auto try_end = [&](Index v, Index corner, WideVec2 place) {
       if (v == goal.vertex || is_origin(v) || !(value_of(v) < value_)) return false;
       const double along = dot(goal.place, place).high / goal.length,
                    aside = std::abs(cross(goal.place, place).high) / goal.length;
@@ -491,14 +544,14 @@ class LegSearch {
   }
 
   SurfacePoint crossing(const Goal& goal, const Wedge& w) const {
-    const detail::DoubleDouble r = -cross(goal.place, w.right), l = cross(goal.place, w.left), sum = r + l;
+    const DoubleDouble r = -cross(goal.place, w.right), l = cross(goal.place, w.left), sum = r + l;
     double right = 0, left = 0;  // weights
     if (sum.high > kNoTurn * goal.length * norm(rounded(w.left - w.right))) {
       left = std::clamp((r / sum).high, 0.0, 1.0);
       right = std::clamp((l / sum).high, 0.0, 1.0);
     } else {
       // Along the edge: where the way begins.
-      const detail::WideVec2 edge = w.left - w.right;
+      const WideVec2 edge = w.left - w.right;
       left = std::clamp((-dot(w.right, edge) / dot(edge, edge)).high, 0.0, 1.0);
       right = 1 - left;
     }

@@ -29,16 +29,7 @@ std::shared_ptr<const WindowField> window_field_of(const PlainRun& run) {
   for (const PlainRun::Record& r : run.vertices) data->vertices.set(r.vertex, record_of(r));
   data->targets.assign(run.problem->targets.begin(), run.problem->targets.end());
   for (const PlainRun::Record& r : run.targets) data->target.push_back(record_of(r));
-  data->all_points = run.problem->options->keep_windows;
-  if (data->all_points) {
-    std::vector<KeptWindow> kept;
-    for (const PlainRun::Window& w : run.windows) {
-      Window& window = kept.emplace_back(KeptWindow{w.halfedge, {}}).window;
-      window.b0 = w.b0, window.b1 = w.b1, window.source = w.source, window.sigma = w.sigma;
-      window.d0 = w.d0, window.d1 = w.d1, window.slack = w.slack, window.root = w.root;
-    }
-    data->keep(kept);
-  }
+  data->all_points = run.all_points;
   return std::make_shared<WindowField>(std::move(data));
 }
 

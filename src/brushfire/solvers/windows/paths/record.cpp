@@ -1,4 +1,4 @@
-// Records by vertex, and windows by halfedge.
+// Records by vertex.
 #include <brushfire/solvers/windows/paths/record.h>
 
 #include <bit>
@@ -43,16 +43,6 @@ void VertexRecords::set(Index v, const PointRecord& record) {
   } else {
     few_[slot].record = record;
   }
-}
-
-void WindowFieldData::keep(std::span<const KeptWindow> windows) {
-  const std::size_t halfedges = mesh.halfedge_count();
-  first_kept.assign(halfedges + 1, 0);
-  for (const KeptWindow& k : windows) ++first_kept[k.halfedge + 1];
-  for (std::size_t h = 0; h < halfedges; ++h) first_kept[h + 1] += first_kept[h];
-  std::vector<std::size_t> fill(first_kept.begin(), first_kept.end() - 1);
-  kept.resize(windows.size());
-  for (const KeptWindow& k : windows) kept[fill[k.halfedge]++] = k.window;
 }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

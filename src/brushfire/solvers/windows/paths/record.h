@@ -5,6 +5,7 @@
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/windows/algebra/rays.h>
+#include <brushfire/solvers/windows/paths/point_values.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -49,19 +50,14 @@ class VertexRecords {
 struct WindowFieldData {
   Mesh mesh;
   std::vector<detail::LocatedSource> sources;
-  std::vector<Real> bases;  // what is to be added to values, by source, in the mesh's units; empty: 0
-  Real shift = 0;           // what was added to every value so that none is negative
-  bool exact = true;        // no merging: rays lead back to roots
-  bool all_points = false;
-  VertexRecords vertices;                         // [vertex_count]; value NaN: farther than the run went
-  std::vector<PointLocation> targets;             // where not all_points
-  std::vector<PointRecord> target;                // [targets]
-  std::vector<std::size_t> first_kept;            // [halfedge_count + 1] where all_points
-  std::vector<Window> kept;                       // by halfedge
+  std::vector<Real> bases;             // what is to be added to values, by source, in the mesh's units; empty: 0
+  Real shift = 0;                      // what was added to every value so that none is negative
+  bool exact = true;                   // no merging: rays lead back to roots
+  VertexRecords vertices;              // [vertex_count]; value NaN: farther than the run went
+  std::vector<PointLocation> targets;  // where not all_points
+  std::vector<PointRecord> target;     // [targets]
+  std::shared_ptr<const PointValues> all_points;  // where all windows were kept
   std::shared_ptr<const detail::SheetView> view;  // where `mesh` is a single mesh (sheets.h): of the caller's
-
-  // Sets the last two.
-  void keep(std::span<const KeptWindow> windows);
 };
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

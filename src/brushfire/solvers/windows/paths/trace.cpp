@@ -21,14 +21,24 @@ struct Position {
   Index halfedge;  // the next edge to cross, from inside of its face
   Vec2 source;     // the ray's root, in the halfedge's frame: below
   Vec2 point;      // where the ray is: above, or on the edge
+  bool mirrored = false;
 };
 
 class Tracer {
  public:
-  Tracer(const WindowFieldData& data, const Ray& ray, Real value)
-      : data_(data), mesh_(data.mesh), ray_(ray), value_(value) {}
+  Tracer(const WindowFieldData& data, const Ray& ray, Real value, const CrossingListener& knows_the_rest)
+      : data_(data),
+        mesh_(data.mesh),
+        faces_(mesh_.faces()),
+        lengths_(mesh_.lengths()),
+        opposite_(mesh_.opposite()),
+        ray_(ray),
+        value_(value),
+        start_(ray.root < mesh_.vertex_count() ? value_of(ray.root) : 0),
+        knows_the_rest_(knows_the_rest) {}
 
   WindowField::Leg run(const FaceWeights& at) {
+    leg_.points.reserve(16);
     leg_.points.push_back({at.face, at.weights});
     Position here{ray_.halfedge, ray_.source, in_frame(frame_at(ray_.halfedge), ray_.halfedge % 3, at.weights)};
     bool found = ends_in_face(here);
@@ -37,6 +47,9 @@ class Tracer {
     while (!found && budget-- > 0) {
       const Step step = over_edge(here);
       if (step == Step::Lost) return {};
+      if (step == Step::On && knows_the_rest_ &&
+          knows_the_rest_({here.halfedge, here.source, here.point, here.mirrored}))
+        return {};
       found = step == Step::Found || ends_in_face(here);
       if (!found) leave(here);
     }
@@ -48,6 +61,8 @@ class Tracer {
 
   Frame frame_at(Index h) const { return frame_of(shape_of(mesh_, h / 3), h % 3); }
   Real value_of(Index v) const { return data_.vertices[v].value; }
+  Index from(Index h) const { return faces_[h / 3][h % 3]; }
+  Index to(Index h) const { return from(Mesh::next(h)); }
 
   // A real path of this length is there; is it the one that the value means?
   bool is_explained() const {
@@ -58,31 +73,33 @@ class Tracer {
 
   // Over the position's edge into the face beyond, or to a vertex in the way.
   Step over_edge(Position& at) {
-    const Index h = at.halfedge, g = mesh_.opposite()[h];
-    const Real length = mesh_.lengths()[h];
+    const Index h = at.halfedge, g = opposite_[h];
+    const Real length = lengths_[h];
     const Real across = at.source.x * at.point.y - at.source.y * at.point.x, along = at.point.y - at.source.y;
     if (!(at.source.y < 0) || !(along > 0) || !(length > 0)) return Step::Lost;
     const Real x = across / along, rest = length - x;
     const auto ends_at_end = [&](Index v, Index corner, Real place, Real miss) {
+      if (abs(miss) > 2 * kThrough * value_) return false;  // no leg is that long
       return ends_at_vertex(v, {Mesh::face_of(h), corner}, {at.point.x - place, at.point.y},
                             {at.source.x - place, at.source.y}, abs(miss));
     };
-    if (ends_at_end(mesh_.from(h), h % 3, 0, x)) return Step::Found;
-    if (ends_at_end(mesh_.to(h), next3(h % 3), length, rest)) return Step::Found;
+    if (ends_at_end(from(h), h % 3, 0, x)) return Step::Found;
+    if (ends_at_end(to(h), next3(h % 3), length, rest)) return Step::Found;
     const Real way = length_of(at.point.x - x, at.point.y);
     const SurfacePoint& first = leg_.points.front();
     const bool begins_here =
         leg_.points.size() == 1 && first.face == Mesh::face_of(h) && first.weights[previous3(h % 3)] == 0;
     const bool is_sure =
         x > kTooShort * length && rest > kTooShort * length && (begins_here || way > kTooShort * length);
-    if (!is_sure || g == h || mesh_.opposite()[g] != h) return Step::Lost;
+    if (!is_sure || g == h || opposite_[g] != h) return Step::Lost;
     SurfacePoint crossing{Mesh::face_of(h), {0, 0, 0}};
     crossing.weights[next3(h % 3)] = x / length;
     crossing.weights[h % 3] = rest / length;
     if (!begins_here) leg_.points.push_back(crossing);
     leg_.length += way;
-    const bool turned = mesh_.from(g) == mesh_.to(h);
-    at = {g, {turned ? length - at.source.x : at.source.x, -at.source.y}, {turned ? rest : x, 0}};
+    const bool turned = from(g) == to(h);
+    at = {
+        g, {turned ? length - at.source.x : at.source.x, -at.source.y}, {turned ? rest : x, 0}, at.mirrored != !turned};
     return Step::On;
   }
 
@@ -97,7 +114,7 @@ class Tracer {
     const Vec2 end = left ? Vec2{0, 0} : frame.apex;
     const Vec2 u = (1 / side) * (end - origin);
     const auto turn = [&](Vec2 p) { return Vec2{dot(u, p - origin), cross(u, p - origin)}; };
-    at = {h, turn(at.source), turn(at.point)};
+    at = {h, turn(at.source), turn(at.point), at.mirrored};
   }
 
   struct Corner {
@@ -132,15 +149,16 @@ class Tracer {
       const Vec2 p = in_frame(frame_at(h), h % 3, weights);
       const Real way = length_of(p.x - at.point.x, p.y - at.point.y);
       if (!(length_of(p.x - at.source.x, p.y - at.source.y) <= kMissed * way)) return false;
-      return way > kTooShort * mesh_.lengths()[h] && finish(face, weights, way);
+      return way > kTooShort * lengths_[h] && finish(face, weights, way);
     };
     if (ray_.root < n) {
-      if (!(value_of(ray_.root) < value_)) return false;
+      if (!(start_ < value_)) return false;
       leg_.vertex = ray_.root;
       for (Index i = 0; i < 3; ++i) {
+        if (from(3 * face + i) != ray_.root) continue;
         std::array<Real, 3> weights{0, 0, 0};
         weights[i] = 1;
-        if (mesh_.faces()[face][i] == ray_.root && is_root(weights)) return true;
+        if (is_root(weights)) return true;
       }
       leg_.vertex = kNoIndex;
       return false;
@@ -154,15 +172,21 @@ class Tracer {
 
   const WindowFieldData& data_;
   const Mesh& mesh_;
+  const std::span<const Face> faces_;
+  const std::span<const double> lengths_;
+  const std::span<const Index> opposite_;
   const Ray& ray_;
   const Real value_;
+  const Real start_;  // the root's value, where that is a vertex
+  const CrossingListener& knows_the_rest_;
   WindowField::Leg leg_;
 };
 
 }  // namespace
 
-WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, Real value) {
-  return Tracer(data, ray, value).run(at);
+WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, Real value,
+                           const CrossingListener& knows_the_rest) {
+  return Tracer(data, ray, value, knows_the_rest).run(at);
 }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

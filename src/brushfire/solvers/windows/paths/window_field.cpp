@@ -67,47 +67,9 @@ class Look {
   }
 
  private:
-  // The least of: straight from a source in the face, around its corners, along its windows.
   Found evaluate(const PointLocation& at) const {
-    Found best{{at.face, at.weights}, {}};
-    const auto offer = [&](const FaceWeights& f, double value, const Ray& ray, Index label) {
-      if (value < best.record.value || (value == best.record.value && label < best.record.label)) {
-        best = {f, {value, label, ray}};
-      }
-    };
-    const Index n = mesh_.vertex_count();
-    const auto label_of = [&](Index root) { return root >= n ? root - n : data_.vertices[root].label; };
-    for (const FaceWeights& f : windows::faces_around(mesh_, at)) {
-      PointLocation here;
-      here.face = f.face;
-      here.weights = f.weights;
-      const std::array<double, 3> d = corner_distances(mesh_, here);
-      for (Index k = 0; k < 3; ++k) {
-        const Index v = mesh_.faces()[f.face][k];
-        offer(f, data_.vertices[v].value + d[k], {{}, kNoIndex, v, {}}, data_.vertices[v].label);
-      }
-      if (!mesh_.is_face_usable(f.face)) continue;
-      for (Index k = 0; k < 3; ++k) {
-        const Index h = 3 * f.face + k;
-        if (!(mesh_.lengths()[h] > 0)) continue;
-        const windows::Frame frame = windows::frame_of(windows::shape_of(mesh_, f.face), k);
-        const Vec2 p = windows::in_frame(frame, k, f.weights);
-        for (std::size_t i = data_.first_kept[h]; i < data_.first_kept[h + 1]; ++i) {
-          const windows::Window& w = data_.kept[i];
-          offer(f, arrival(w, p).value, {w.source, h, w.root, w.kind}, label_of(w.root));
-        }
-        for (std::size_t s = 0; k == 0 && s < data_.sources.size(); ++s) {
-          if (data_.sources[s].at.on == PointLocation::On::Vertex) continue;
-          for (const FaceWeights& g : windows::faces_around(mesh_, data_.sources[s].at)) {
-            if (g.face != f.face) continue;
-            const Vec2 q = windows::in_frame(frame, k, g.weights);
-            offer(f, data_.sources[s].offset + data_.shift + windows::length_of(p.x - q.x, p.y - q.y),
-                  {q, h, n + static_cast<Index>(s), {}}, static_cast<Index>(s));
-          }
-        }
-      }
-    }
-    return best;
+    const windows::PointValue p = data_.all_points->at(at);
+    return {{p.face, p.weights}, {p.value, p.label, {p.ray.source, p.ray.halfedge, p.ray.root, {}}}};
   }
 
   const windows::WindowFieldData& data_;

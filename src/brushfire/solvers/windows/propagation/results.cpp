@@ -51,7 +51,7 @@ void Results::finish_labels(std::vector<Index>& chain) {
   const Index n = run_.structure.vertex_count();
   std::vector<Origins>& origins = run_.origins;
   for (const Part& part : parts_) {
-    part.for_each_touched([&](Index v) {
+    part.vertices().for_each_touched([&](Index v) {
       chain.clear();
       while (v < n && origins[v].root < n && chain.size() <= n) {
         chain.push_back(v);
@@ -64,9 +64,9 @@ void Results::finish_labels(std::vector<Index>& chain) {
 }
 
 // What is known of a vertex in any part.
-VertexValues Results::all_copies(Index v) const {
+VertexValues Results::with_ghosts(Index v) const {
   VertexValues all = run_.values[v];
-  for (Index c = all.next_copy; c != v && c != kNoIndex; c = run_.values[c].next_copy) {
+  for (Index c = all.next_ghost; c != v && c != kNoIndex; c = run_.values[c].next_ghost) {
     all.upper = std::min(all.upper, run_.values[c].upper);
     if (run_.values[c].lower <= all.lower) all.direct |= run_.values[c].direct;
     all.lower = std::min(all.lower, run_.values[c].lower);
@@ -75,8 +75,8 @@ VertexValues Results::all_copies(Index v) const {
   return all;
 }
 
-bool Results::is_first_copy(Index v) const {
-  return !run_.values[v].has_copies() || run_.structure.inner_vertex(run_.structure.outer_vertex(v)) == v;
+bool Results::is_owner(Index v) const {
+  return !run_.values[v].has_ghosts() || run_.structure.inner_vertex(run_.structure.outer_vertex(v)) == v;
 }
 
 void Results::write_vertices(ThreadTeam* team) {
@@ -98,11 +98,11 @@ void Results::write_vertices(ThreadTeam* team) {
 Results::Tally Results::write_vertices(const Part& part) {
   const bool narrowed = run_.radius < run_.problem->max_distance + run_.shift;
   Tally tally;
-  part.for_each_touched([&](Index v) {
-    if (!is_first_copy(v)) return;
+  part.vertices().for_each_touched([&](Index v) {
+    if (!is_owner(v)) return;
     const Index outer = run_.structure.outer_vertex(v);
     if (run_.problem->touched) run_.problem->touched->push_back(outer);
-    const VertexValues s = all_copies(v);
+    const VertexValues s = with_ghosts(v);
     // Seen by no window yet, or not final when the run stopped.
     if (s.lower == kInfinity || (narrowed && s.lower > run_.radius)) {
       ++tally.beyond_radius;

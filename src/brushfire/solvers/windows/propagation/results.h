@@ -2,9 +2,11 @@
 #pragma once
 
 #include <brushfire/core/parallel.h>
+#include <brushfire/solvers/windows/paths/point_values.h>
 #include <brushfire/solvers/windows/propagation/part.h>
 #include <brushfire/solvers/windows/propagation/run_state.h>
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,15 +16,15 @@ class Results {
  public:
   Results(RunState& run, std::span<Part> parts, DistanceField& field) : run_(run), parts_(parts), field_(field) {}
 
-  // A target is told of a path; see Part::offer_target().
+  // A target is told of a path; see reach_target().
   void offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight = true);
   // The field, and what paths need later where that is wanted. `scratch` is room to work in; `team` may be null.
   void write(std::vector<Index>& scratch, ThreadTeam* team);
 
  private:
   Index label_of(Index root) const;
-  VertexValues all_copies(Index v) const;
-  bool is_first_copy(Index v) const;
+  VertexValues with_ghosts(Index v) const;
+  bool is_owner(Index v) const;
   Rounding rounding_at(Index outer, const VertexValues& values) const;
   Reading read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const;
   Index outer_root(Index root) const;
@@ -38,6 +40,7 @@ class Results {
   Tally write_vertices(const Part& part);
   void write_targets();
   void keep();
+  std::shared_ptr<const PointValues> point_values();  // null where not all windows were kept
 
   RunState& run_;
   std::span<Part> parts_;

@@ -16,7 +16,8 @@ class Unevenness {
   void add(double a, double b, double c) {
     const double longest = std::max({a, b, c}), shortest = std::min({a, b, c});
     longest_ = std::max(longest_, longest);
-    if (!(shortest > 0)) return;  // an edge without length has no direction
+    lever_ = std::max(lever_, longest);
+    if (!(shortest > 0)) return;  // an edge without length has no direction; the other two are each other's
     const double ratio = longest / shortest;
     ratio_ = std::max(ratio_, ratio);
     lever_ = std::max(lever_, ratio * longest);

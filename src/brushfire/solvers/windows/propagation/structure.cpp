@@ -10,7 +10,6 @@
 #include <brushfire/solvers/windows/store/prefetch.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -178,23 +177,6 @@ double typical_defect_of(std::span<const Around> around, std::span<const Bend> b
   return sample.empty() ? 0 : median(sample);
 }
 
-// Appends the numbers of the vertices of faces, ascending, each once. `marks`: a bit for every number, all 0.
-void collect_places(std::span<const WindowFace> faces, std::vector<std::uint64_t>& marks, std::vector<Index>& places) {
-  std::size_t low = marks.size(), high = 0;  // of the words with marks
-  for (const WindowFace& f : faces) {
-    for (const Index place : f.vertex) {
-      const std::size_t word = place / 64;
-      marks[word] |= std::uint64_t{1} << place % 64;
-      low = std::min(low, word), high = std::max(high, word + 1);
-    }
-  }
-  for (std::size_t word = low; word < high; ++word) {
-    for (std::uint64_t bits = std::exchange(marks[word], 0); bits != 0; bits &= bits - 1) {
-      places.push_back(static_cast<Index>(64 * word + static_cast<std::size_t>(std::countr_zero(bits))));
-    }
-  }
-}
-
 }  // namespace
 
 double angle_at(const WindowFace& f, Index i) {
@@ -205,48 +187,33 @@ double angle_at(const WindowFace& f, Index i) {
 // In a part faces are in the order of their least vertices, those of one vertex in the mesh's order.
 Index WindowStructure::inner_face(Index f) const {
   const Face& t = mesh.faces()[f];
-  // A copy of a corner, in each of the parts that may hold the face: of one that is in one part only, if there is any.
+  // A corner, in each of the parts that may hold the face: of one that is in one part only, if there is any.
   Index k = 0;
-  while (k < 2 && next_copy(inner_vertex(t[k])) != kNoIndex) ++k;
+  while (k < 2 && partition.next_ghost(inner_vertex(t[k])) != kNoIndex) ++k;
   Index first = inner_vertex(t[k]);
   while (true) {
     const Index part = part_of_vertex(first);
-    const std::array<Index, 3> v{first, copy_in(part, inner_vertex(t[next3(k)])),
-                                 copy_in(part, inner_vertex(t[previous3(k)]))};
+    const std::array<Index, 3> v{first, ghost_in(part, inner_vertex(t[next3(k)])),
+                                 ghost_in(part, inner_vertex(t[previous3(k)]))};
     const Index least = std::min({v[0], v[1], v[2]});
     const auto key = [&](Index inner) {
       const WindowFace& face = faces[inner];
       return std::pair(std::min({face.vertex[0], face.vertex[1], face.vertex[2]}), order.faces[inner]);
     };
-    Index low = part << part_bits, high = std::min(low + (Index{1} << part_bits), static_cast<Index>(faces.size()));
+    Index low = partition.first_face(part), high = partition.end_face(part);
     while (high - low > 1) {
       const Index middle = low + (high - low) / 2;
       (key(middle) <= std::pair(least, f) ? low : high) = middle;
     }
     if (order.faces[low] == f) return low;
-    first = next_copy(first);
+    first = partition.next_ghost(first);
   }
 }
 
-Index WindowStructure::part_of_vertex(Index v) const {
-  return static_cast<Index>(std::upper_bound(first_vertex.begin(), first_vertex.end(), v) - first_vertex.begin()) - 1;
-}
-
-Index WindowStructure::next_copy(Index v) const {
-  const auto c =
-      std::lower_bound(copies.begin(), copies.end(), v, [](const Copy& copy, Index x) { return copy.vertex < x; });
-  return c != copies.end() && c->vertex == v ? c->next : kNoIndex;
-}
-
-Index WindowStructure::copy_in(Index part, Index v) const {
-  if (is_in(part, v)) return v;
-  if (const Crowd* crowd = crowd_at(v)) return crowd->copies.empty() ? kNoIndex : crowd->copies[part];
-  for (Index c = v; c != kNoIndex;) {
-    if (is_in(part, c)) return c;
-    c = next_copy(c);
-    if (c == v) break;
-  }
-  return kNoIndex;
+Index WindowStructure::ghost_in(Index part, Index v) const {
+  if (partition.is_in(part, v)) return v;
+  if (const Crowd* crowd = crowd_at(v)) return crowd->ghosts.empty() ? kNoIndex : crowd->ghosts[part];
+  return partition.ghost_in(part, v);
 }
 
 const WindowStructure::Crowd* WindowStructure::crowd_at(Index v) const {
@@ -280,7 +247,8 @@ std::span<const Index> WindowStructure::corners_of(Index v, Index part, std::vec
   return room;
 }
 
-WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(locality_order(m)), part_bits(bits) {
+WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
+    : mesh(m), order(locality_order(m)), partition(m.vertex_count(), m.face_count(), bits) {
   const Index n = mesh.vertex_count();
   auto [opposite, links, its_crowds] = connectivity_of(mesh, order);
   crowds = std::move(its_crowds);
@@ -348,40 +316,14 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits) : mesh(m), order(
 
 // From numbers by place in the order to numbers by part, and by place within a part.
 void WindowStructure::cut_into_parts() {
-  const Index n = mesh.vertex_count(), face_count = mesh.face_count();
-  const Index parts = std::max(Index{1}, part_of_face(face_count + (Index{1} << part_bits) - 1));
-  first_vertex = {0, n};
-  if (parts == 1) return;
-  first_vertex.resize(1);
-  std::vector<Index> places;                   // of every inner vertex so far
-  std::vector<Index> copy(n, kNoIndex);        // of every place: its last copy so far
-  std::vector<std::pair<Index, Index>> links;  // from the last copy to the next one
-  places.reserve(n + n / 16);
-  std::vector<std::uint64_t> marks(n / 64 + 1, 0);
-  for (Index part = 0; part < parts; ++part) {
-    const std::span<WindowFace> its = faces_of(part);
-    const std::size_t first = places.size();
-    collect_places(its, marks, places);
-    for (std::size_t v = first; v < places.size(); ++v) {
-      if (copy[places[v]] != kNoIndex) links.emplace_back(copy[places[v]], v);
-      copy[places[v]] = static_cast<Index>(v);
-    }
-    for (WindowFace& f : its) {
-      for (Index& v : f.vertex) v = copy[v];
-    }
-    first_vertex.push_back(static_cast<Index>(places.size()));
-  }
-  for (Index place = 0; place < n; ++place) {
-    if (copy[place] == kNoIndex) places.push_back(place);  // of no face
-  }
-  first_vertex.back() = static_cast<Index>(places.size());
-  renumber(places);
-  close_rings(links);
+  if (faces.empty() || part_of_face(static_cast<Index>(faces.size()) - 1) == 0) return;
+  renumber(partition.number_vertices(mesh.vertex_count(), [&](Index f) -> Index(&)[3] { return faces[f].vertex; }));
+  find_ghosts_of_crowds();
 }
 
 std::span<WindowFace> WindowStructure::faces_of(Index part) {
-  const std::size_t begin = std::size_t{part} << part_bits;
-  return std::span(faces).subspan(begin, std::min(std::size_t{1} << part_bits, faces.size() - begin));
+  const Index begin = partition.first_face(part);
+  return std::span(faces).subspan(begin, partition.end_face(part) - begin);
 }
 
 void WindowStructure::renumber(const std::vector<Index>& places) {
@@ -390,34 +332,22 @@ void WindowStructure::renumber(const std::vector<Index>& places) {
   for (std::size_t v = places.size(); v-- > 0;) {
     outer[v] = order.vertices[places[v]];
     bends[v] = bend[places[v]];
-    order.vertex_rank[outer[v]] = static_cast<Index>(v);  // the first copy comes last
+    order.vertex_rank[outer[v]] = static_cast<Index>(v);  // its number in the first part comes last
   }
   order.vertices = std::move(outer);
   bend = std::move(bends);
 }
 
-void WindowStructure::close_rings(const std::vector<std::pair<Index, Index>>& links) {
-  for (const auto& [copy, next] : links) {
-    copies.push_back({copy, next});
-    copies.push_back({next, kNoIndex});
-  }
-  // Of a vertex' two entries the one that knows the next copy comes first.
-  std::sort(copies.begin(), copies.end(),
-            [](const Copy& a, const Copy& b) { return std::tie(a.vertex, a.next) < std::tie(b.vertex, b.next); });
-  const auto same = [](const Copy& a, const Copy& b) { return a.vertex == b.vertex; };
-  copies.erase(std::unique(copies.begin(), copies.end(), same), copies.end());
-  for (Copy& c : copies) {
-    if (c.next == kNoIndex) c.next = order.vertex_rank[order.vertices[c.vertex]];
-  }
+void WindowStructure::find_ghosts_of_crowds() {
   for (Crowd& crowd : crowds) {
     const Index first = order.vertex_rank[crowd.vertex];
-    if (next_copy(first) == kNoIndex) continue;
-    crowd.copies.assign(part_count(), kNoIndex);
-    Index c = first;
+    if (partition.next_ghost(first) == kNoIndex) continue;
+    crowd.ghosts.assign(part_count(), kNoIndex);
+    Index v = first;
     do {
-      crowd.copies[part_of_vertex(c)] = c;
-      c = next_copy(c);
-    } while (c != first);
+      crowd.ghosts[part_of_vertex(v)] = v;
+      v = partition.next_ghost(v);
+    } while (v != first);
   }
 }
 

@@ -3,11 +3,11 @@
 
 #include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/partition/face_partition.h>
 #include <brushfire/solvers/windows/propagation/face.h>
 #include <brushfire/solvers/windows/propagation/rounding.h>
 
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
@@ -22,40 +22,37 @@ enum class Bend : std::uint8_t { None, Saddle, Boundary, Fans, Full };
 // Vertices and faces are renumbered so that neighbours are near each other in memory; corners keep their places in
 // their faces. "Inner" numbers are used everywhere in a run, the mesh's own only to and from the caller.
 //
-// The faces are cut into parts, runs of as many consecutive ones, on which threads work side by side. Every part has
-// vertices of its own: a vertex whose faces belong to several parts has an inner number in each of them, and these are
-// its copies. How a mesh is cut depends on nothing but the mesh.
+// The faces are cut into parts on which threads work side by side; a vertex has an inner number in each of the parts
+// that its faces belong to: see FacePartition.
 struct WindowStructure {
   // 2^part_bits faces are a part.
   explicit WindowStructure(const Mesh& mesh, unsigned part_bits);
 
-  // Copies counted.
+  // A vertex counts once in each of its parts.
   Index vertex_count() const { return static_cast<Index>(bend.size()); }
-  Index inner_vertex(Index v) const { return order.vertex_rank[v]; }  // the first of its copies
+  Index inner_vertex(Index v) const { return order.vertex_rank[v]; }  // in the first of its parts
   Index outer_vertex(Index v) const { return order.vertices[v]; }
   Index inner_face(Index f) const;  // O(log faces): sources and targets ask, the run itself hardly ever
   Index outer_face(Index f) const { return order.faces[f]; }
   Index inner_halfedge(Index h) const { return 3 * inner_face(h / 3) + h % 3; }
   Index outer_halfedge(Index h) const { return 3 * order.faces[h / 3] + h % 3; }
 
-  Index part_count() const { return static_cast<Index>(first_vertex.size()) - 1; }
-  Index part_of_face(Index f) const { return f >> part_bits; }
-  Index part_of_vertex(Index v) const;  // O(log parts)
-  bool is_in(Index part, Index v) const { return first_vertex[part] <= v && v < first_vertex[part + 1]; }
+  Index part_count() const { return partition.count(); }
+  Index part_of_face(Index f) const { return partition.part_of_face(f); }
+  Index part_of_vertex(Index v) const { return partition.part_of_vertex(v); }  // O(log parts)
+  std::span<WindowFace> faces_of(Index part);
 
-  // A vertex with several copies: where it is in `copies`; the copies of one vertex form a ring.
-  struct Copy {
-    Index vertex, next;
-  };
   // A vertex at which so many faces meet that looking up each of them would take too long, by its outer number, with
   // its corners.
   struct Crowd {
     Index vertex;
     std::vector<Index> corners;
-    std::vector<Index> copies;  // [parts] where it has several; kNoIndex: none there
+    std::vector<Index> ghosts;  // [parts] where it has several; kNoIndex: none there
   };
-  // Whether these are copies of the same vertex.
-  bool is_same(Index v, Index w) const { return v == w || (!copies.empty() && outer_vertex(v) == outer_vertex(w)); }
+  // Whether these are one vertex.
+  bool is_same(Index v, Index w) const {
+    return v == w || (partition.has_ghosts() && outer_vertex(v) == outer_vertex(w));
+  }
   // The corners at v by inner halfedges, ascending; of all faces, or of those in one part. What is returned lasts until
   // `room` is used again.
   std::span<const Index> corners_of(Index v, std::vector<Index>& room) const;
@@ -65,20 +62,15 @@ struct WindowStructure {
     const Index g = faces[h / 3].opposite[h % 3];
     return faces[g / 3].opposite[g % 3] != h;
   }
-  // The next copy of the same vertex; kNoIndex where there is one only. O(log copies).
-  Index next_copy(Index v) const;
-  // v's copy in a part; kNoIndex: it has none there.
-  Index copy_in(Index part, Index v) const;
-  std::span<WindowFace> faces_of(Index part);
+  // v's number in a part; kNoIndex: it has none there.
+  Index ghost_in(Index part, Index v) const;
 
-  Mesh mesh;                        // the caller's
-  LocalityOrder order;              // vertices: [vertex_count()] inner to outer
-  std::vector<WindowFace> faces;    // [face_count]
-  std::vector<Bend> bend;           // [vertex_count()]
-  std::vector<Index> first_vertex;  // [parts + 1]
-  std::vector<Copy> copies;         // ascending
-  std::vector<Crowd> crowds;        // ascending
-  unsigned part_bits = 0;
+  Mesh mesh;                      // the caller's
+  LocalityOrder order;            // vertices: [vertex_count()] inner to outer
+  std::vector<WindowFace> faces;  // [face_count]
+  std::vector<Bend> bend;         // [vertex_count()]
+  partition::FacePartition partition;
+  std::vector<Crowd> crowds;  // ascending
   bool has_spines = false;    // some edge has three faces or more
   double bucket_width = 1;    // half a typical edge
   Unevenness unevenness;      // of the faces' edges
@@ -88,7 +80,7 @@ struct WindowStructure {
   const Crowd* crowd_at(Index v) const;
   void cut_into_parts();
   void renumber(const std::vector<Index>& places);
-  void close_rings(const std::vector<std::pair<Index, Index>>& links);
+  void find_ghosts_of_crowds();
 };
 
 // The angle at corner i.

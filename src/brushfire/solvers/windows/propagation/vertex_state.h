@@ -8,15 +8,15 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // What every window that passes a vertex reads.
 struct alignas(32) VertexValues {
-  Real upper = kInfinity;      // length of the shortest real path known
-  Real lower = kInfinity;      // least value of the windows that see the vertex, after merging
-  Real estimate = kInfinity;   // the least distance that a window expected that saw it, before merging
-  Index next_copy = kNoIndex;  // in another part; the copies of a vertex form a ring. kNoIndex: there is one only
-  bool sent = false;           // among the news that are about to be sent to the other copies
-  bool direct = false;         // `lower` came straight from a source in a face of the vertex
+  Real upper = kInfinity;       // length of the shortest real path known
+  Real lower = kInfinity;       // least value of the windows that see the vertex, after merging
+  Real estimate = kInfinity;    // the least distance that a window expected that saw it, before merging
+  Index next_ghost = kNoIndex;  // in another part; the copies of a vertex form a ring. kNoIndex: there is one only
+  bool sent = false;            // among the news that are about to be sent to the other copies
+  bool direct = false;          // `lower` came straight from a source in a face of the vertex
 
-  bool has_copies() const { return next_copy != kNoIndex; }
-  void forget() { *this = {kInfinity, kInfinity, kInfinity, next_copy, false, false}; }
+  bool has_ghosts() const { return next_ghost != kNoIndex; }
+  void forget() { *this = {kInfinity, kInfinity, kInfinity, next_ghost, false, false}; }
 };
 static_assert(sizeof(VertexValues) == 32 || kWide);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/core/types.h>
+#include <brushfire/solvers/partition/rounds.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -75,20 +76,15 @@ class EventQueue {
     } while (advance_to(last));
     return false;
   }
-  // The number of the bucket of the next event, and how many events it holds; kNever where there is none.
-  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-  struct Next {
-    std::int64_t turn = kNever;
-    std::size_t events = 0;
-  };
-  Next next() const {
-    Next next;
-    for (const Event& e : far_) next.turn = std::min(next.turn, number(e.key));
+  // The number of the bucket of the next event, and how many events it holds.
+  partition::Outlook outlook() const {
+    partition::Outlook next;
+    for (const Event& e : far_) next.bucket = std::min(next.bucket, number(e.key));
     if (near_count_ == 0) return next;
     std::int64_t n = current_;
     std::size_t taken = list_position_ + vertex_position_;
     while (buckets_[n % kBuckets].size() == taken) ++n, taken = 0;
-    return n <= next.turn ? Next{n, buckets_[n % kBuckets].size() - taken} : next;
+    return n <= next.bucket ? partition::Outlook{n, buckets_[n % kBuckets].size() - taken} : next;
   }
   // The halfedge of the list event that is `ahead` places behind the next one, where known; for prefetching.
   Index peek_list(std::size_t ahead) const {
