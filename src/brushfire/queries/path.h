@@ -48,10 +48,15 @@ struct SourcePath : SurfacePath {
 std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source> sources,
                                  std::span<const SurfacePoint> targets, const DistanceOptions& how = {});
 
+// The same along edges, with the paths of edge_path_to(): sources and targets are vertices. Throws
+// Error(InvalidArgument) for others.
+std::vector<SourcePath> edge_paths_to(const Domain& domain, std::span<const Source> sources,
+                                      std::span<const SurfacePoint> targets, const DistanceOptions& how = {});
+
 // The two with a solver of its own.
 class PathFinder {
  public:
-  explicit PathFinder(Mesh mesh);
+  explicit PathFinder(Domain domain);
   ~PathFinder();
   PathFinder(PathFinder&&) noexcept;
   PathFinder& operator=(PathFinder&&) noexcept;
