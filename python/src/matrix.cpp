@@ -2,8 +2,8 @@
 #include "options.h"
 #include "solver.h"
 
+#include <brushfire/core/detail/memory.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
 #include <brushfire/queries/distance_matrix.h>
 
 #include <algorithm>

@@ -12,6 +12,7 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/nearest_point.h>
 #include <brushfire/mesh/polygons.h>
+#include <brushfire/mesh/reachable.h>
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/mesh/subdivide.h>
@@ -43,6 +44,7 @@
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/io/unfinished.h>
 #include <brushfire/io/write_bytes.h>
+#include <brushfire/io/write_columns.h>
 #include <brushfire/io/write_field.h>
 #include <brushfire/io/write_lines.h>
 #include <brushfire/io/write_mesh.h>

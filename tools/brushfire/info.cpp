@@ -17,6 +17,11 @@ constexpr const char* kExamples = R"(Examples:
   brushfire info part.stl --weld 1e-6
 )";
 
+struct Arguments {
+  std::string file;
+  SharedArguments shared;
+};
+
 void add_counts(Record& record, const MeshReport& r) {
   const auto add = [&](const char* key, long long value) { record.add(key, std::int64_t{value}); };
   add("vertices", r.vertices);
@@ -44,9 +49,10 @@ void add_counts(Record& record, const MeshReport& r) {
 }
 
 // The counts that say something about any mesh; the unusual ones stand in the remarks.
-std::string in_words(const std::string& file, const Surface& surface, const std::vector<std::string>& remarks) {
+std::string in_words(const Arguments& a, const Surface& surface, const std::vector<std::string>& remarks) {
   const MeshReport& r = surface.mesh().report();
-  std::string text = file + " (" + surface.file().format + ")\n";
+  const std::string unit = a.shared.unit.empty() ? "" : " " + a.shared.unit;
+  std::string text = a.file + " (" + surface.file().format + ")\n";
   const auto line = [&](const char* name, const std::string& value) {
     char padded[32];
     std::snprintf(padded, sizeof padded, "  %-22s", name);
@@ -57,23 +63,23 @@ std::string in_words(const std::string& file, const Surface& surface, const std:
   line("edges", std::to_string(r.edges));
   line("components", std::to_string(r.components));
   line("Euler characteristic", std::to_string(r.euler_characteristic));
-  line("edge length",
-       readable(r.min_edge_length) + " .. " + readable(r.max_edge_length) + ", mean " + readable(r.mean_edge_length));
-  line("area", readable(r.area));
+  line("edge length", readable(r.min_edge_length) + " .. " + readable(r.max_edge_length) + ", mean " +
+                          readable(r.mean_edge_length) + unit);
+  line("area", readable(r.area) + (unit.empty() ? "" : unit + "^2"));
   for (const std::string& remark : remarks) text += "  - " + remark + "\n";
   return text;
 }
 
-int info(const SurfaceArguments& arguments, const Talk& talk) {
-  const Surface surface(arguments);
+int info(const Arguments& arguments, const Talk& talk) {
+  const Surface surface(arguments.file, arguments.shared);
   std::vector<std::string> remarks = surface.remarks();
   for (std::string& remark : surface.mesh().report().remarks()) remarks.push_back(std::move(remark));
   if (!talk.json) {
-    write_stdout(in_words(arguments.file, surface, remarks));
+    write_stdout(in_words(arguments, surface, remarks));
     return kOk;
   }
   Record record;
-  record.add("file", arguments.file).add("format", surface.file().format);
+  record.add("file", arguments.file).add("format", surface.file().format).add("unit", unit_of(arguments.shared));
   add_counts(record, surface.mesh().report());
   record.add("remarks", remarks);
   write_stdout(record.json());
@@ -83,10 +89,14 @@ int info(const SurfaceArguments& arguments, const Talk& talk) {
 }  // namespace
 
 void add_info(CommandLine& command_line) {
-  const auto arguments = std::make_shared<SurfaceArguments>();
+  const auto arguments = std::make_shared<Arguments>();
   command_line.add("info", "What is in a mesh: counts, sizes, and whatever is unusual", [&](Verb& verb) {
-    add_surface(verb, *arguments);
+    add_surface(verb, arguments->file);
     verb.talks();
+    add_shared(verb, arguments->shared,
+               {.without = {{kStarting, "nothing starts here: info tells what is in the mesh"},
+                            {kComputing, "info computes no distances"},
+                            {{Shared::Scalar, Shared::Name}, "info reads a mesh and no values"}}});
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return info(*arguments, talk); });
   });

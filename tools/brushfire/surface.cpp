@@ -3,20 +3,21 @@
 
 #include "output.h"
 
-#include <brushfire/core/error.h>
 #include <brushfire/io/formats.h>
 #include <brushfire/mesh/weld.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace brushfire::tool {
 
-void add_surface(Verb& verb, SurfaceArguments& arguments) {
-  verb.argument("FILE", arguments.file, ("The mesh, - for standard input: " + names_of(meshes_read())).c_str());
-  verb.option("--weld", arguments.weld, "T", "Join vertices within T of one another (0: equal ones)");
+void add_surface(Verb& verb, std::string& file) {
+  verb.argument("FILE", file, ("The mesh, - for standard input: " + names_of(meshes_read())).c_str());
 }
 
-Surface::Surface(const SurfaceArguments& arguments) : loaded_(read_mesh(arguments.file)), mesh_(loaded_.mesh) {
+Surface::Surface(const std::string& file, const SharedArguments& arguments)
+    : loaded_(read_mesh(file)), mesh_(loaded_.mesh) {
   if (!arguments.weld) return;
-  if (!(*arguments.weld >= 0)) refuse("--weld " + exact(*arguments.weld) + " is not a number >= 0");
   Welded welded = weld(loaded_.mesh, *arguments.weld);
   mesh_ = std::move(welded.mesh);
   vertex_map_ = std::move(welded.vertex_map);
@@ -34,6 +35,28 @@ Where Surface::place(const Where& where) const {
   auto* vertex = std::get_if<VertexPlace>(&on_mesh.place);
   if (vertex != nullptr && vertex->index < vertex_map_.size()) vertex->index = vertex_map_[vertex->index];
   return on_mesh;
+}
+
+Index Surface::file_vertex(Index v) const {
+  if (!is_welded() || v == kNoIndex) return v;
+  return static_cast<Index>(std::find(vertex_map_.begin(), vertex_map_.end(), v) - vertex_map_.begin());
+}
+
+std::vector<double> Surface::on_mesh(std::vector<double> values, const std::string& name) const {
+  if (!is_welded()) return values;
+  std::vector<double> out(mesh_.vertex_count());
+  std::vector<Index> first(mesh_.vertex_count(), kNoIndex);
+  for (Index v = 0; v < vertex_map_.size(); ++v) {
+    const Index joined = vertex_map_[v];
+    if (first[joined] == kNoIndex) {
+      first[joined] = v;
+      out[joined] = values[v];
+    } else if (values[v] != out[joined] && !(std::isnan(values[v]) && std::isnan(out[joined]))) {
+      refuse(name + ": --weld joins vertices " + std::to_string(first[joined]) + " and " + std::to_string(v) +
+             ", which have different values, " + exact(out[joined]) + " and " + exact(values[v]));
+    }
+  }
+  return out;
 }
 
 }  // namespace brushfire::tool

@@ -2,9 +2,10 @@
 // numbers.
 #pragma once
 
-#include "command_line.h"
+#include "shared.h"
 #include "where.h"
 
+#include <brushfire/io/read_field.h>
 #include <brushfire/io/read_mesh.h>
 
 #include <optional>
@@ -14,18 +15,13 @@
 
 namespace brushfire::tool {
 
-struct SurfaceArguments {
-  std::string file;
-  std::optional<double> weld;
-};
-
-// Binds FILE, whose help names every format that is read, and --weld.
-void add_surface(Verb& verb, SurfaceArguments& arguments);
+// Binds FILE, whose help names every format that is read.
+void add_surface(Verb& verb, std::string& file);
 
 class Surface {
  public:
   // Throws what read_mesh() and weld() throw.
-  explicit Surface(const SurfaceArguments& arguments);
+  Surface(const std::string& file, const SharedArguments& arguments);
 
   const Mesh& mesh() const { return mesh_; }          // to compute on
   const LoadedMesh& file() const { return loaded_; }  // as it was read
@@ -36,6 +32,8 @@ class Surface {
   Where place(const Where& where) const;
   // Which vertex of mesh() the file's vertex v is.
   Index vertex(Index v) const { return is_welded() ? vertex_map_[v] : v; }
+  // The first of the file's vertices that became v; kNoIndex stays.
+  Index file_vertex(Index v) const;
 
   // Values on the vertices of mesh(), on those of the file.
   template <class T>
@@ -46,6 +44,9 @@ class Surface {
     for (const Index v : vertex_map_) out.push_back(values[v]);
     return out;
   }
+  // Values on the vertices of the file, on those of mesh(). Throws Error(InvalidArgument) where vertices that were
+  // joined have different ones; `name` is the values' file.
+  std::vector<double> on_mesh(std::vector<double> values, const std::string& name) const;
 
  private:
   LoadedMesh loaded_;

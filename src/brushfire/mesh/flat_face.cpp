@@ -1,7 +1,7 @@
 // Flat faces and shared points.
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
 
 #include <algorithm>
 #include <cmath>

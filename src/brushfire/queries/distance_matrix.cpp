@@ -2,9 +2,9 @@
 #include <brushfire/queries/distance_matrix.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/memory.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
-#include <brushfire/mesh/locality_order.h>
+#include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/queries/detail/rows.h>
 
 #include <algorithm>

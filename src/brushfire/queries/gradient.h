@@ -17,6 +17,10 @@ namespace brushfire {
 // steepest_descent(). O(faces).
 std::vector<Vec3> face_gradients(const Mesh& mesh, std::span<const double> values);
 
+// The same at the vertices: the mean of the gradients of the faces around, weighted by their area; faces with a value
+// of +inf do not count. Zero where no face around has a gradient. [vertex_count]. Throws as face_gradients().
+std::vector<Vec3> vertex_gradients(const Mesh& mesh, std::span<const double> values);
+
 // A direction at a surface point, into one face.
 struct SurfaceDirection {
   Index face = kNoIndex;  // kNoIndex: there is none

@@ -2,9 +2,9 @@
 #include <brushfire/queries/isolines.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/memory.h>
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
-#include <brushfire/core/text.h>
 
 #include <algorithm>
 #include <cmath>

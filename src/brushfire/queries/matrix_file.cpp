@@ -2,8 +2,8 @@
 //
 // PATH.part is the .npy file with holes; PATH.part.rows holds what the matrix is of (a fingerprint) and the numbers of
 // the rows that are in place, each written after its row. A row that was cut off is simply not in the list.
+#include <brushfire/core/detail/memory.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
 #include <brushfire/io/detail/temporary_file.h>
 #include <brushfire/queries/detail/rows.h>
 #include <brushfire/queries/distance_matrix.h>

@@ -2,9 +2,9 @@
 #include <brushfire/queries/path.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/text.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/sleeve.h>
 #include <brushfire/queries/shorten.h>
 
@@ -143,20 +143,42 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
   return path;
 }
 
-SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
-                         const CancelToken* cancel) {
-  if (from.is_nowhere() || to.is_nowhere()) return {};
+std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source> sources,
+                                 std::span<const SurfacePoint> targets, const DistanceOptions& how) {
   DistanceOptions options;
   options.method = Method::Exact;
   options.keep_paths = true;
-  options.targets = {to};
-  options.cancel = cancel;
+  options.targets.assign(targets.begin(), targets.end());
+  options.max_distance = how.max_distance;
+  options.threads = how.threads;
+  options.cancel = how.cancel;
+  const SparseField field = solver.distance_sparse(sources, options);
+  std::vector<SourcePath> paths;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    SourcePath& path = paths.emplace_back();
+    if (field.target_distance[i] == kInfinity) continue;
+    static_cast<SurfacePath&>(path) = path_to(*field.windows, targets[i]);
+    path.source = field.target_source[i];
+  }
+  return paths;
+}
+
+SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
+                         const DistanceOptions& how) {
+  if (from.is_nowhere() || to.is_nowhere()) return {};
   const Source source{from};
-  return path_to(*solver.distance_sparse(std::span(&source, 1), options).windows, to);
+  return paths_to(solver, std::span(&source, 1), std::span(&to, 1), how).front();
+}
+
+SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
+                         const CancelToken* cancel) {
+  DistanceOptions how;
+  how.cancel = cancel;
+  return path_between(solver, from, to, how);
 }
 
 SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed,
-                         const CancelToken* cancel) {
+                         const DistanceOptions& how) {
   if (waypoints.empty()) throw Error(ErrorCode::InvalidArgument, "a path needs at least one waypoint");
   const Mesh& mesh = solver.mesh();
   for (const SurfacePoint& p : waypoints) {
@@ -167,13 +189,23 @@ SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> w
   path.closed = closed;
   path.length = 0;
   path.points.push_back(waypoints.front());
+  DistanceOptions rest = how;
   for (std::size_t i = 0; i + (closed ? 0 : 1) < waypoints.size(); ++i) {
-    const SurfacePath piece = path_between(solver, waypoints[i], waypoints[(i + 1) % waypoints.size()], cancel);
+    const SurfacePath piece = path_between(solver, waypoints[i], waypoints[(i + 1) % waypoints.size()], rest);
     if (piece.points.empty()) return {{}, kInfinity, closed};
     join(mesh, path, piece);
+    if (path.length > how.max_distance) return {{}, kInfinity, closed};
+    rest.max_distance = how.max_distance - path.length;
   }
   if (closed && path.points.size() > 1) path.points.pop_back();  // the first point again
   return path;
+}
+
+SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed,
+                         const CancelToken* cancel) {
+  DistanceOptions how;
+  how.cancel = cancel;
+  return path_through(solver, waypoints, closed, how);
 }
 
 PathFinder::PathFinder(Mesh mesh) : solver_(std::make_unique<DistanceSolver>(std::move(mesh))) {}

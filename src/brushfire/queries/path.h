@@ -16,6 +16,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace brushfire {
 
@@ -41,6 +42,21 @@ SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const
 // at waypoints (shorten() takes it from there). At least one waypoint; two the same after each other add nothing.
 SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed = false,
                          const CancelToken* cancel = nullptr);
+
+// The same within limits: of `how` the max_distance (a longer path is none; for path_through() of the whole), threads
+// and cancel count.
+SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
+                         const DistanceOptions& how);
+SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed,
+                         const DistanceOptions& how);
+
+// From the nearest of the sources to each target, off one run: [targets]. Which source that is, `source` of the path
+// tells: its position in the caller's list. `how` as above. Throws as distance() does.
+struct SourcePath : SurfacePath {
+  Index source = kNoIndex;
+};
+std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source> sources,
+                                 std::span<const SurfacePoint> targets, const DistanceOptions& how = {});
 
 // The two with a solver of its own.
 class PathFinder {

@@ -3,7 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/sleeve.h>
 
 #include <algorithm>

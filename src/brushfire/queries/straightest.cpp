@@ -3,8 +3,9 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/tangent_fan.h>
+#include <brushfire/solvers/windows/paths/departures.h>
 
 #include <algorithm>
 #include <cmath>
@@ -228,13 +229,26 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
     throw Error(ErrorCode::InvalidArgument, "a direction must have a finite length > 0");
   }
   const PointLocation at = locate(mesh, point);
-  if (at.on != On::Vertex) return wrapped(angle_in_face(mesh, at.face, 0, direction), 2 * kPi);
+  // A shadow on the surface that is shorter than this share of the direction is made of rounding.
+  constexpr double kShortest = 1e-12;
+  const auto check_shadow = [&](double length) {
+    if (length <= kShortest * size) {
+      throw Error(ErrorCode::InvalidArgument, "the direction is at right angles to the surface there");
+    }
+  };
+  if (at.on != On::Vertex) {
+    double length = 0;
+    const double angle = angle_in_face(mesh, at.face, 0, direction, &length);
+    check_shadow(length);
+    return wrapped(angle, 2 * kPi);
+  }
   const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
-  double best = 0, best_score = -kInfinity;
+  double best = 0, best_score = -kInfinity, longest = 0;
   for (const detail::FanCorner& c : fan.corners) {
     double length = 0;
     const double angle = angle_in_face(mesh, Mesh::face_of(c.corner), c.corner % 3, direction, &length);
     const double inside = std::clamp(angle, 0.0, c.angle);
+    longest = std::max(longest, length);
     // How far the direction reaches along the nearest direction of this face.
     const double score = length * std::cos(angle - inside);
     if (score > best_score) {
@@ -242,7 +256,15 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
       best = fan.around(c.corner, inside);
     }
   }
+  check_shadow(longest);
   return best;
+}
+
+bool is_counter_clockwise(const Mesh& mesh, const SurfacePoint& point) {
+  const PointLocation at = locate(mesh, point);
+  if (at.on != On::Vertex) return true;
+  const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
+  return fan.corners.empty() || !fan.corners.front().reversed;
 }
 
 Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, double length) {
@@ -265,6 +287,19 @@ class LeavingAngles {
   double total() const { return source_.on == On::Vertex ? fan_.total : 2 * kPi; }
   bool is_source(Index vertex) const { return source_.on == On::Vertex && vertex == source_.vertex; }
 
+  // Of a leg; of one that does not start at the source, nothing.
+  windows::TracedRays::Angle of(const WindowField::Leg& leg) const {
+    if (leg.points.size() < 2 || (leg.vertex != kNoIndex && !is_source(leg.vertex))) return {};
+    return {towards(leg.points[leg.points.size() - 2]), sense_in(leg.points.back().face)};
+  }
+
+  // An angle within the full turn.
+  double within_turn(double angle) const {
+    constexpr double kNoTurn = 1e-14;  // what rounding takes an angle below 0 by: not a full turn
+    if (source_.on == On::Vertex && !fan_.closed) return std::clamp(angle, 0.0, fan_.total);
+    return angle < 0 && angle > -kNoTurn ? 0 : wrapped(angle, total());
+  }
+
   // Of a path whose second point this is.
   double towards(const SurfacePoint& point) const {
     const PointLocation next = locate(mesh_, point);
@@ -282,6 +317,22 @@ class LeavingAngles {
   }
 
  private:
+  // 1 where angles grow counter-clockwise in the face, which holds the source; -1 where clockwise.
+  double sense_in(Index face) const {
+    if (source_.on != On::Vertex) return face == source_.face || !runs_as_own(halfedge_in(face)) ? 1 : -1;
+    const auto at = std::find_if(fan_.corners.begin(), fan_.corners.end(),
+                                 [&](const detail::FanCorner& c) { return Mesh::face_of(c.corner) == face; });
+    return at == fan_.corners.end() || !at->reversed ? 1 : -1;
+  }
+
+  // The halfedge along the source's edge in another face.
+  Index halfedge_in(Index face) const {
+    Index in = mesh_.opposite()[source_.halfedge];
+    while (Mesh::face_of(in) != face) in = mesh_.opposite()[in];
+    return in;
+  }
+  bool runs_as_own(Index halfedge) const { return mesh_.from(halfedge) == mesh_.from(source_.halfedge); }
+
   double base_direction() const {
     const std::array<Vec2, 3> corners = flat_corners(mesh_, source_.face);
     return direction_of(corners[1] - corners[0]);
@@ -289,15 +340,13 @@ class LeavingAngles {
 
   // Over the source's own edge into face f: measured from the edge, which both faces have.
   double over_own_edge(Index f, const std::array<Vec2, 3>& c, Vec2 d) const {
-    Index in = mesh_.opposite()[source_.halfedge];
-    while (Mesh::face_of(in) != f) in = mesh_.opposite()[in];
+    const Index in = halfedge_in(f);
     const Vec2 in_edge = c[Mesh::next(in) % 3] - c[in % 3];
     const double above = std::atan2(cross(in_edge, d), dot(in_edge, d));  // into f, in [0, pi]
-    const bool same_start = mesh_.from(in) == mesh_.from(source_.halfedge);
     const std::array<Vec2, 3> own_corners = flat_corners(mesh_, source_.face);
     const Vec2 own_edge = own_corners[Mesh::next(source_.halfedge) % 3] - own_corners[source_.halfedge % 3];
     // Below the edge in the source's face's plane, whichever way round the other face lies.
-    const double from_edge = same_start ? -above : above - kPi;
+    const double from_edge = runs_as_own(in) ? -above : above - kPi;
     return wrapped(direction_of(own_edge) + from_edge - base_direction(), 2 * kPi);
   }
 
@@ -310,18 +359,18 @@ constexpr double kUnknownAngle = std::numeric_limits<double>::quiet_NaN();
 
 // Sets map.angle along the path to entry i: back along the vertices that the path bends at, to one whose angle is known
 // or to the source. `chain` is room to work in.
-void find_angle(const WindowField& field, const LeavingAngles& leaving, SparseLogMap& map, std::size_t i,
+void find_angle(windows::Departures& departures, const LeavingAngles& leaving, SparseLogMap& map, std::size_t i,
                 std::vector<std::size_t>& chain) {
   chain.clear();
   double angle = 0;
   while (true) {
     chain.push_back(i);
-    const WindowField::Leg leg = field.last_leg(map.vertex[i]);
-    if (leg.vertex == kNoIndex || leaving.is_source(leg.vertex)) {
-      if (leg.points.size() > 1) angle = leaving.towards(leg.points[leg.points.size() - 2]);
+    const windows::Departures::Departure departure = departures.of(map.vertex[i]);
+    if (departure.vertex == kNoIndex || leaving.is_source(departure.vertex)) {
+      angle = leaving.within_turn(departure.angle);
       break;
     }
-    i = static_cast<std::size_t>(std::lower_bound(map.vertex.begin(), map.vertex.end(), leg.vertex) -
+    i = static_cast<std::size_t>(std::lower_bound(map.vertex.begin(), map.vertex.end(), departure.vertex) -
                                  map.vertex.begin());
     if (!std::isnan(map.angle[i])) {
       angle = map.angle[i];
@@ -334,23 +383,34 @@ void find_angle(const WindowField& field, const LeavingAngles& leaving, SparseLo
 }  // namespace
 
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
+  DistanceOptions how;
+  how.max_distance = max_radius;
+  how.cancel = cancel;
+  return log_map(solver, source, how);
+}
+
+SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const DistanceOptions& how) {
   const LeavingAngles leaving(solver.mesh(), source);
   DistanceOptions options;
   options.method = Method::Exact;
-  options.max_distance = max_radius;
+  options.max_distance = how.max_distance;
+  options.threads = how.threads;
+  options.progress = how.progress;
   options.keep_paths = true;
-  options.cancel = cancel;
+  options.cancel = how.cancel;
   const Source origin{source};
   SparseField field = solver.distance_sparse(std::span(&origin, 1), options);
   SparseLogMap map{std::move(field.vertex), std::move(field.distance), {}, leaving.total()};
   map.angle.assign(map.vertex.size(), kUnknownAngle);
   std::vector<std::size_t> chain;
-  const CancelScope listen(cancel);
+  windows::Departures departures(*field.windows, map.vertex.size(),
+                                 [&](const WindowField::Leg& leg) { return leaving.of(leg); });
+  const CancelScope listen(how.cancel);
   Poll poll(64);
   for (std::size_t i = 0; i < map.vertex.size(); ++i) {
     poll();
     if (leaving.is_source(map.vertex[i])) map.angle[i] = 0;
-    if (std::isnan(map.angle[i])) find_angle(*field.windows, leaving, map, i, chain);
+    if (std::isnan(map.angle[i])) find_angle(departures, leaving, map, i, chain);
   }
   return map;
 }

@@ -17,8 +17,13 @@ namespace brushfire {
 double total_angle(const Mesh& mesh, const SurfacePoint& point);
 
 // The angle of a direction in space, projected onto the surface: onto the face, or at a vertex onto the face that it
-// points into most. The mesh needs positions. Throws Error(InvalidArgument) for a direction of length 0.
+// points into most. The mesh needs positions. Throws Error(InvalidArgument) for a direction of length 0, and for one
+// that is at right angles to the surface.
 double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& direction);
+
+// Whether the angles at a point grow counter-clockwise, as the faces there run: they do but at some boundary vertices,
+// and where faces lie the wrong way round.
+bool is_counter_clockwise(const Mesh& mesh, const SurfacePoint& point);
 
 enum class TraceEnd : std::uint8_t {
   Length,       // the whole length was walked
@@ -64,5 +69,7 @@ struct SparseLogMap {
 };
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double max_radius,
                      const CancelToken* cancel = nullptr);
+// Of `how` the max_distance, threads, progress and cancel count.
+SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const DistanceOptions& how);
 
 }  // namespace brushfire

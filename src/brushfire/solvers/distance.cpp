@@ -2,14 +2,14 @@
 #include <brushfire/solvers/distance.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/populate.h>
-#include <brushfire/core/text.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/offsets.h>
-#include <brushfire/solvers/fast_marching/fast_marching.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/fast_marching/detail/fast_marching.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <algorithm>
 #include <array>
@@ -33,9 +33,9 @@ Method engine_of(Method method) {
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
   switch (method) {
     case Method::Windows:
-      return detail::make_windows(mesh);
+      return windows::make_windows(mesh);
     case Method::NovotniKlein:
-      return detail::make_fast_marching(mesh);
+      return fast_marching::make_engine(mesh);
     case Method::Dijkstra:
       return detail::make_dijkstra(mesh);
     default:
@@ -50,7 +50,7 @@ void assign(std::vector<T>& array, std::size_t size, T value) {
   if (array.capacity() < size) {
     array.clear();
     array.reserve(size);
-    populate(array.data(), size * sizeof(T));
+    prefault(array.data(), size * sizeof(T));
   }
   array.assign(size, value);
 }

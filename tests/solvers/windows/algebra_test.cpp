@@ -1,11 +1,10 @@
 // Properties of the window algebra on random windows: 10^5 of them, or as many as the
 // environment variable BRUSHFIRE_RANDOM_WINDOWS says.
-#include <brushfire/solvers/windows/detail/envelope.h>
-#include <brushfire/solvers/windows/detail/fan.h>
-#include <brushfire/solvers/windows/detail/merge.h>
-#include <brushfire/solvers/windows/detail/propagate.h>
-#include <brushfire/solvers/windows/detail/ridge.h>
-#include <brushfire/solvers/windows/detail/sweep.h>
+#include <brushfire/solvers/windows/algebra/envelope.h>
+#include <brushfire/solvers/windows/algebra/merge.h>
+#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/algebra/sweep.h>
+#include <brushfire/solvers/windows/propagation/fan.h>
 
 #include <gtest/gtest.h>
 
@@ -13,7 +12,9 @@
 #include <limits>
 #include <random>
 
-namespace brushfire::detail {
+#include "solvers/windows/children.h"
+
+namespace brushfire::windows {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -90,8 +91,7 @@ TEST(Algebra, ChildrenTileTheParentsIntervalAndKeepItsValues) {
   for (int i = 0; i < count(); ++i) {
     const Frame frame = random.frame();
     const Window w = random.window(frame.length);
-    const double apex_value = straight_value(w, frame.apex);
-    const Children c = propagate(w, frame, apex_value);
+    const Children c = children_of(w, frame);
     if (!c.has_left && !c.has_right) continue;
     const Crossing at = crossing(w, frame.apex);
     const double x = at.across / at.along;
@@ -398,4 +398,4 @@ TEST(Algebra, LightFromACornerFillsItsSectorWithTheDistanceToTheCorner) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -1,16 +1,17 @@
 // Lists of exact runs on random windows: crossing a face, choosing sides, trimming, waiting.
-#include <brushfire/solvers/windows/detail/exact_cross.h>
-#include <brushfire/solvers/windows/detail/exact_lists.h>
-#include <brushfire/solvers/windows/detail/exact_trim.h>
-#include <brushfire/solvers/windows/detail/propagate.h>
-#include <brushfire/solvers/windows/detail/ridge.h>
+#include <brushfire/solvers/windows/algebra/exact_cross.h>
+#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/propagation/exact_trim.h>
+#include <brushfire/solvers/windows/store/exact_lists.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-namespace brushfire::detail {
+#include "solvers/windows/children.h"
+
+namespace brushfire::windows {
 namespace {
 
 constexpr int kLists = 4000;
@@ -81,7 +82,7 @@ std::vector<Window> crossed_envelope(Random& random, double& length) {
     w.d1 = value_at(w, w.b1);
   }
   for (const Window& w : envelope(far)) {
-    const Children c = propagate(w, frame, straight_value(w, frame.apex));
+    const Children c = children_of(w, frame);
     if (c.has_left) result.push_back(c.left);
   }
   length = frame.left;
@@ -106,7 +107,7 @@ TEST(ExactLists, CrossingAFaceEqualsPropagatingEachWindow) {
                                : cross_to_right(w, list.size, routes, sight, frame, block.columns());
       std::vector<Window> expected;
       for (const Window& parent : windows) {
-        const Children c = propagate(parent, frame, straight_value(parent, frame.apex));
+        const Children c = children_of(parent, frame);
         if (left ? c.has_left : c.has_right) expected.push_back(left ? c.left : c.right);
       }
       const std::vector<Window> got = windows_of(block.columns(), count);
@@ -144,7 +145,7 @@ TEST(ExactLists, WhatIsNotSentToOneSideIsReachedAsSoonAlongTheBestWindow) {
     }
     find_routes(w, list.size, frame, sight, best, routes);
     for (Index i = 0; i < list.size; ++i) {
-      const Children c = propagate(windows[i], frame, straight_value(windows[i], frame.apex));
+      const Children c = children_of(windows[i], frame);
       for (const bool left : {true, false}) {
         const bool sent =
             left ? i < routes.left_end && routes.goes_left[i] > 0 : i >= routes.right_begin && routes.goes_right[i] > 0;
@@ -297,4 +298,4 @@ TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

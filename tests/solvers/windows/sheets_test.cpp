@@ -6,8 +6,8 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/windows/detail/links.h>
-#include <brushfire/solvers/windows/detail/spines.h>
+#include <brushfire/solvers/windows/propagation/links.h>
+#include <brushfire/solvers/windows/store/spines.h>
 
 #include <gtest/gtest.h>
 
@@ -217,7 +217,7 @@ TEST(Sheets, OfTwoTriangulationsCarryTheirLightOnce) {
   }
 }
 
-namespace d = detail;
+namespace d = windows;
 
 d::Window window(double b0, double b1, Vec2 source, double sigma) {
   d::Window w;

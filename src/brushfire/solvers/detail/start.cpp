@@ -1,7 +1,7 @@
 // Straight lines inside one face and across one edge.
 #include <brushfire/solvers/detail/start.h>
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
 
 #include <algorithm>
 #include <cmath>
