@@ -1,7 +1,12 @@
-# cmake -D HEADERS=a.h;b.h -D FOLDER=.../src -D OUTPUT=header_examples.cpp -P header_examples.cmake
-# The examples in the comments that public headers begin with, as one program: a function each, called in turn.
-set(functions "")
-set(calls "")
+# cmake -D HEADERS=a.h;b.h -D FOLDER=.../src -D README=... -D OUTPUT=header_examples.cpp -P header_examples.cmake
+# The examples in the comments that public headers begin with, and the README's, as one program: a function each, called
+# in turn.
+file(READ "${README}" text)
+if(NOT text MATCHES "```c\\+\\+\n([^`]+)```")
+  message(FATAL_ERROR "${README} has no block of C++")
+endif()
+set(functions "void readme() {\n${CMAKE_MATCH_1}  std::printf(\"%zu distances\\n\", d.size());\n}\n\n")
+set(calls "  readme();\n")
 foreach(header ${HEADERS})
   file(READ "${FOLDER}/${header}" text)
   if(NOT text MATCHES "// Example:\n((//     [^\n]*\n)+)")
