@@ -229,6 +229,9 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Matrices, Pictures,
             )
         return points
 
+    def _snapped_all(self, xyz: Floats) -> Points:
+        return self._snapped(at(xyz))
+
     def masked(self, open_vertices: npt.ArrayLike) -> Mesh:
         """The mesh of the faces whose three vertices are all open; vertices keep their numbers.
 
@@ -248,6 +251,22 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Matrices, Pictures,
         if self._mesh.has_positions:
             return type(self)(self.vertices, self.faces[chosen])
         return type(self).from_lengths(self.faces[chosen], self._mesh.lengths()[chosen], self.vertex_count)
+
+    def weld(self, tolerance: float) -> tuple[Mesh, npt.NDArray[np.int32]]:
+        """The mesh with vertices that are near one another made one, so that faces that only touch are connected.
+
+        :param tolerance: how near, >= 0, in units of the vertices; 0 joins equal positions. No position moves farther.
+        :return: the mesh, and which of its vertices each of these became, (vertex_count,). Faces keep their numbers.
+        :raises BrushfireError: for a mesh from lengths, and for a tolerance that is no number >= 0.
+
+        >>> import brushfire as bf
+        >>> torn = bf.Mesh([[0, 0], [1, 0], [1, 1], [1, 0], [2, 0], [1, 1]], [[0, 1, 2], [3, 4, 5]])
+        >>> mesh, vertex_map = torn.weld(0)
+        >>> mesh, vertex_map.tolist(), mesh.distance(0)[vertex_map].round(6).tolist()
+        (Mesh(4 vertices, 2 faces), [0, 1, 2, 1, 3, 2], [0.0, 1.0, 1.414214, 1.0, 2.0, 1.414214])
+        """
+        core, vertex_map, _ = _core.weld(self._mesh, number(tolerance, "tolerance"))
+        return type(self)._of(core), vertex_map
 
     @property
     def area(self) -> float:

@@ -5,6 +5,7 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/nearest_point.h>
+#include <brushfire/queries/log_coordinates.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/shorten.h>
 #include <brushfire/queries/straightest.h>
@@ -34,13 +35,15 @@ using OptionalWeights = std::optional<Triples<double>>;
 
 // No points and +inf where there is no path. `tighten`: pulled straight where it bends at waypoints.
 nb::tuple path(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed,
-               bool tighten) {
+               bool tighten, double max_distance) {
   const Mesh& mesh = solver.mesh();
   Computation computation{nb::none()};
   return path_to_numpy(computation.run(false, [&] {
     const std::vector<SurfacePoint> places = targets_from(mesh, {index, weights});
-    SurfacePath found =
-        solver.with([&](DistanceSolver& s) { return path_through(s, places, closed, computation.cancel()); });
+    DistanceOptions how;
+    how.max_distance = max_distance;
+    how.cancel = computation.cancel();
+    SurfacePath found = solver.with([&](DistanceSolver& s) { return path_through(s, places, closed, how); });
     if (tighten && !found.points.empty()) found = shorten(mesh, found.points, closed);
     return found;
   }));
@@ -58,25 +61,24 @@ double length(const Mesh& mesh, const Vector<std::int64_t>& index, const Optiona
 // From the nearest source to every target, off one field: (source, paths).
 nb::tuple paths(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
                 const Vector<double>& offsets, const Vector<std::int64_t>& target_index,
-                const OptionalWeights& target_weights) {
+                const OptionalWeights& target_weights, double max_distance) {
   const Mesh& mesh = solver.mesh();
   Computation computation{nb::none()};
-  SparseField field;
-  const std::vector<SurfacePath> found = computation.run(false, [&] {
-    DistanceOptions options;
-    options.method = Method::Exact;
-    options.keep_paths = true;
-    options.targets = targets_from(mesh, {target_index, target_weights});
-    options.cancel = computation.cancel();
+  const std::vector<SourcePath> found = computation.run(false, [&] {
+    DistanceOptions how;
+    how.max_distance = max_distance;
+    how.cancel = computation.cancel();
+    const std::vector<SurfacePoint> targets = targets_from(mesh, {target_index, target_weights});
     const std::vector<Source> sources = sources_from(mesh, {index, weights}, offsets);
-    solver.with([&](DistanceSolver& s) { s.distance_sparse(sources, options, field); });
-    std::vector<SurfacePath> all;
-    for (const SurfacePoint& target : options.targets) all.push_back(path_to(*field.windows, target));
-    return all;
+    return solver.with([&](DistanceSolver& s) { return paths_to(s, sources, targets, how); });
   });
   nb::list list;
-  for (const SurfacePath& p : found) list.append(path_to_numpy(p));
-  return nb::make_tuple(to_numpy_signed(std::move(field.target_source)), list);
+  std::vector<Index> nearest;
+  for (const SourcePath& p : found) {
+    list.append(path_to_numpy(p));
+    nearest.push_back(p.source);
+  }
+  return nb::make_tuple(to_numpy_signed(std::move(nearest)), list);
 }
 
 // Along edges, from the nearest source's vertex.
@@ -127,16 +129,29 @@ nb::tuple angle_at(const Mesh& mesh, const Vector<std::int64_t>& index, const Op
   return nb::make_tuple(angle_of(mesh, at, {d[0], d[1], d[2]}), total_angle(mesh, at));
 }
 
-// Of the vertices that are reached: (vertex, radius, angle, total angle).
+// Of the vertices that are reached: (vertex, radius, angle, total angle, uv). With a direction angles count from there.
 nb::tuple logarithmic(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
-                      double max_radius) {
-  const SurfacePoint source = single_point_from(solver.mesh(), {index, weights});
+                      double max_radius, const std::optional<Triples<double>>& direction) {
+  const Mesh& mesh = solver.mesh();
+  const SurfacePoint source = single_point_from(mesh, {index, weights});
+  std::optional<Vec3> first;
+  if (direction) {
+    if (direction->shape(0) != 1) throw Error(ErrorCode::InvalidArgument, "a direction has three components");
+    first = {direction->data()[0], direction->data()[1], direction->data()[2]};
+  }
   Computation computation{nb::none()};
+  std::vector<double> flat;
   SparseLogMap map = computation.run(false, [&] {
-    return solver.with([&](DistanceSolver& s) { return log_map(s, source, max_radius, computation.cancel()); });
+    SparseLogMap found =
+        solver.with([&](DistanceSolver& s) { return log_map(s, source, max_radius, computation.cancel()); });
+    SparseLogMap turned = found;
+    turn(mesh, source, first, turned);
+    for (const auto& [u, v] : flat_coordinates(mesh, source, turned)) flat.insert(flat.end(), {u, v});
+    return first ? turned : found;
   });
+  const std::size_t count = map.vertex.size();
   return nb::make_tuple(to_numpy_signed(std::move(map.vertex)), to_numpy(std::move(map.radius)),
-                        to_numpy(std::move(map.angle)), map.total_angle);
+                        to_numpy(std::move(map.angle)), map.total_angle, to_numpy(std::move(flat), {count, 2}));
 }
 
 }  // namespace
@@ -146,14 +161,14 @@ void bind_curves(nb::module_& m) {
       .def(nb::init<const Mesh&>(), nb::arg("mesh"), nb::call_guard<nb::gil_scoped_release>())
       .def("nearest", nearest, nb::arg("xyz").noconvert());
   m.def("path", path, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-        nb::arg("closed"), nb::arg("tighten"));
+        nb::arg("closed"), nb::arg("tighten"), nb::arg("max_distance"));
   m.def("shorten", shortened, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"));
   m.def("length_of", length, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"));
   m.def("paths", paths, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert(),
-        nb::arg("target_weights").noconvert().none());
+        nb::arg("target_weights").noconvert().none(), nb::arg("max_distance"));
   m.def("edge_path", edge_path, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("offsets").noconvert(), nb::arg("target"));
   m.def("angle_of", angle_at, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
@@ -161,7 +176,7 @@ void bind_curves(nb::module_& m) {
   m.def("trace", trace, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("angle"), nb::arg("direction").noconvert().none(), nb::arg("length"));
   m.def("log_map", logarithmic, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-        nb::arg("max_radius"));
+        nb::arg("max_radius"), nb::arg("direction").noconvert().none());
 }
 
 }  // namespace brushfire::python

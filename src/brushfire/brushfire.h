@@ -28,6 +28,7 @@
 #include <brushfire/queries/distance_matrix.h>
 #include <brushfire/queries/gradient.h>
 #include <brushfire/queries/isolines.h>
+#include <brushfire/queries/log_coordinates.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/sampling.h>
 #include <brushfire/queries/shorten.h>
