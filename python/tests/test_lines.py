@@ -13,7 +13,7 @@ TORN = [[0, 0], [1, 0], [1, 1], [1, 0], [2, 0], [1, 1]], [[0, 1, 2], [3, 4, 5]]
 
 @pytest.mark.parametrize("extension", ["csv", "json", "obj", "ply", "vtp"])
 def test_curves_come_back_from_every_format_that_is_read(bumpy, tmp_path, extension):
-    paths, _ = bumpy.paths([0, 1], [150, 42])
+    paths, _ = bumpy.paths([0, 1], [130, 42])
     file = tmp_path / f"paths.{extension}"
     bf.write(file, paths)
     again = bf.read_lines(file, bumpy)
