@@ -104,8 +104,11 @@ std::string json(const Arguments& a, const Surface& surface, const SurfacePoint&
                  const PlaceFinder& finder) {
   const Index count = surface.file().mesh.vertex_count();
   const std::vector<Index> is_reachable = [&] {
-    const std::vector<std::uint8_t> on_mesh = reachable(surface.mesh(), std::span(&source, 1));
-    return surface.on_file<Index>(std::vector<Index>(on_mesh.begin(), on_mesh.end()));
+    const Domain& domain = surface.domain();
+    const std::vector<std::uint8_t> on_open = reachable(domain.open(), domain.on_open(source));
+    std::vector<Index> on_mesh(domain.mesh().vertex_count(), 0);
+    for (Index v = 0; v < on_open.size(); ++v) on_mesh[domain.vertex(v)] |= on_open[v];
+    return surface.on_file<Index>(on_mesh);
   }();
   const auto connected = std::count(is_reachable.begin(), is_reachable.end(), 1);
   const auto reached = static_cast<std::int64_t>(map.vertex.size());
@@ -140,11 +143,14 @@ int log_map_verb(const Arguments& a, const Talk& talk) {
   finder.tell(talk);
 
   options.progress = talk.progress("log map");
-  DistanceSolver solver(mesh);
+  DistanceSolver solver(surface.domain());
   SparseLogMap map = log_map(solver, source, options);
   talk.end_progress();
-  const bool on_border = is_on_border(mesh, source);
-  turn(mesh, source, direction, on_border, map);
+  // Directions are those in what is open; a source that has several sides was refused.
+  const Mesh& open = surface.domain().open();
+  const SurfacePoint side = surface.domain().on_open(source).front();
+  const bool on_border = is_on_border(open, side);
+  turn(open, side, direction, on_border, map);
   map = on_file(surface, std::move(map));
 
   if (!a.output.empty()) {

@@ -102,8 +102,9 @@ void check(const Arguments& a) {
 }
 
 template <class T>
-std::uint64_t write_sparse(const Arguments& arguments, const Mesh& mesh, Places rows, const MatrixOptions& options) {
-  const SparseMatrix<T> matrix = distances_within<T>(mesh, *arguments.shared.radius, rows, options);
+std::uint64_t write_sparse(const Arguments& arguments, const Domain& domain, Places rows,
+                           const MatrixOptions& options) {
+  const SparseMatrix<T> matrix = distances_within<T>(domain, *arguments.shared.radius, rows, options);
   write_sparse_matrix(arguments.output, matrix);
   return matrix.value.size();
 }
@@ -132,11 +133,11 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
   const bool is_float = arguments.type == "float32";
   std::uint64_t entries = row_count * column_count;
   if (is_sparse(arguments.output)) {
-    entries = is_float ? write_sparse<float>(arguments, mesh, rows, options)
-                       : write_sparse<double>(arguments, mesh, rows, options);
+    entries = is_float ? write_sparse<float>(arguments, surface.domain(), rows, options)
+                       : write_sparse<double>(arguments, surface.domain(), rows, options);
   } else {
-    write_distance_matrix(arguments.output, mesh, rows, columns, is_float ? ValueType::Float32 : ValueType::Float64,
-                          options);
+    write_distance_matrix(arguments.output, surface.domain(), rows, columns,
+                          is_float ? ValueType::Float32 : ValueType::Float64, options);
   }
   const double solve_s = seconds_since(start);
   talk.end_progress();

@@ -163,7 +163,7 @@ void find_paths(const Surface& surface, PlaceFinder& places, const DistanceOptio
   const Mesh& mesh = surface.mesh();
   std::vector<SurfacePoint> targets;
   for (const Where& w : shown.ends) targets.push_back(places.target(surface.place(w)));
-  DistanceSolver solver(mesh);
+  DistanceSolver solver(surface.domain());
   const std::vector<SourcePath> found = paths_to(solver, shown.sources, targets, how);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i].points.empty()) throw Unreachable(shown.ends[i].text, how.max_distance < kInfinity);
@@ -173,13 +173,13 @@ void find_paths(const Surface& surface, PlaceFinder& places, const DistanceOptio
 }
 
 // Distances from the sources by one method, and what is drawn with them.
-Panel solved_panel(const Arguments& a, const Mesh& mesh, const Shown& shown, DistanceOptions options,
+Panel solved_panel(const Arguments& a, const Domain& domain, const Shown& shown, DistanceOptions options,
                    const Talk& talk) {
   Panel panel;
-  panel.mesh = mesh;
-  for (const Source& source : shown.sources) panel.dots.push_back(position(mesh, source.point));
+  panel.mesh = domain.mesh();
+  for (const Source& source : shown.sources) panel.dots.push_back(position(panel.mesh, source.point));
   options.progress = talk.progress("distance");
-  const DistanceField field = distance(mesh, shown.sources, options);
+  const DistanceField field = distance(domain, shown.sources, options);
   talk.end_progress();
   panel.scalar = field.distance;
   panel.paths = shown.paths;
@@ -254,7 +254,7 @@ std::vector<Panel> solved_panels(const Arguments& a, const Surface& surface, Pla
   find_paths(surface, places, methods.front(), shown);
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    panels.push_back(solved_panel(a, surface.mesh(), shown, methods[i], talk));
+    panels.push_back(solved_panel(a, surface.domain(), shown, methods[i], talk));
     if (methods.size() > 1) panels.back().title = a.shared.methods[i];
   }
   return panels;
