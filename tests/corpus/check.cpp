@@ -23,9 +23,8 @@ constexpr Real kTruthRounding = 0x1p-63L;
 constexpr Real kSure = 1e-15L;
 // With 237 bits a window takes a tenth of a millisecond and more: beyond so many the quad's word is taken.
 constexpr std::uint64_t kMostWindowsOfOctuple = 200'000;
-
-// Of so many cases one is asked about with 237 bits whether or not anything seems wrong.
-constexpr std::uint64_t kOctupleEvery = 16;
+// Of so many cases one is asked about with 237 bits whether or not anything seems wrong, where that is quickly done.
+constexpr std::uint64_t kOctupleEvery = 16, kFewWindowsOfOctuple = 2'000;
 
 constexpr double kSolveSeconds = 2, kTruthSeconds = 5, kOctupleSeconds = 120;
 
@@ -108,11 +107,11 @@ double bound_of(const DistanceField& field, Index v) {
   return field.error_bound.empty() ? kInfinity : field.error_bound[v];
 }
 
-// Of points of a face: what rounding may do to its corners, it may do to them.
-double bound_in(const DistanceField& field, const Face& face) {
+// Of points that are no vertices: the largest of the field. (That of a vertex next to a source may know of no frames.)
+double largest_bound(const DistanceField& field) {
   double bound = 0;
-  for (const Index v : face) {
-    if (field.error_bound[v] < kInfinity) bound = std::max(bound, field.error_bound[v]);
+  for (const double b : field.error_bound) {
+    if (b < kInfinity) bound = std::max(bound, b);
   }
   return bound;
 }
@@ -197,8 +196,8 @@ const oracle::Truth& Examination::truth() {
 }
 
 // Gives the truth twice the digits, where that is to be had; whether it makes a difference.
-bool Examination::more_digits_differ() {
-  if (arithmetic_ == Arithmetic::Octuple || truth().windows > kMostWindowsOfOctuple) return false;
+bool Examination::more_digits_differ(std::uint64_t most_windows) {
+  if (arithmetic_ == Arithmetic::Octuple || truth().windows > most_windows) return false;
   limit_processor_time(kOctupleSeconds);
   arithmetic_ = Arithmetic::Octuple;
   const std::vector<Real> before = truth_.distance;
@@ -236,11 +235,12 @@ Outcome Examination::run(std::uint64_t index, std::size_t start, const Task& tas
     return other(task);
   };
   Outcome outcome = once();
-  if (task.kind == Task::Kind::Truth && index % kOctupleEvery == 0) outcome.unsure = more_digits_differ();
+  if (task.kind == Task::Kind::Truth && index % kOctupleEvery == 0)
+    outcome.unsure = more_digits_differ(kFewWindowsOfOctuple);
   const bool last_bits = task.kind == Task::Kind::Lower || task.kind == Task::Kind::Upper;
   if (outcome.good() || last_bits) return outcome;
   // Before a solver is blamed, the oracle is asked again with twice the digits.
-  const bool changed = more_digits_differ();
+  const bool changed = more_digits_differ(kMostWindowsOfOctuple);
   limit_processor_time(kSolveSeconds);
   outcome = once();
   outcome.unsure = changed;
@@ -278,7 +278,7 @@ Outcome Examination::targets() {
     const Index source = field.target_source[i];
     const double offset = source < sources.size() ? sources[source].offset : 0;
     const Real truth = truth_.target[i];
-    const double room = bound_in(field, case_.mesh.faces()[case_.targets[i].face]);
+    const double room = largest_bound(field);
     const Real length = std::abs(truth - offset);
     const bool wrong = same_reach({field.target_distance[i], truth, length, kInfinity}, "", out) &&
                        std::abs(field.target_distance[i] - truth) > room + Real{kExactPromise} * length;
@@ -377,7 +377,7 @@ Outcome Examination::paths() {
   }
   for (std::size_t i = 0; i < case_.targets.size(); ++i) {
     const SurfacePoint& to = case_.targets[i];
-    hold_path(*field.windows, to, truth().target[i], bound_in(field, case_.mesh.faces()[to.face]), out);
+    hold_path(*field.windows, to, truth().target[i], largest_bound(field), out);
   }
   return out;
 }
