@@ -19,6 +19,7 @@ struct Once {
 constexpr Once kWrongOnce[] = {
     {"soup", 2, 2, "paths", "source and target in one face with a repeated vertex"},
     {"far-point", 2, 47, "paths", "a search for a leg that wound round a spike"},
+    {"collinear", 2, 44, "targets", "an oracle whose light turned back in a face without area"},
     {"mutilated", 2, 76, "exact", "no bound where every face has an edge without length"},
     {"tiny-clusters", 2, 14, "dijkstra", "distances to corners from three lengths"},
 };

@@ -104,7 +104,7 @@ std::array<double, 3> corner_weights(Index k) {
 class LegSearch {
  public:
   explicit LegSearch(const LegQuestion& question)
-      : ask_(question), mesh_(question.mesh), value_(question.value), room_(kAgreement * question.value) {
+      : ask_(question), mesh_(question.mesh), value_(question.value), room_(question.room) {
     for (Index s = 0; s < ask_.sources.size(); ++s) {
       const PointLocation& place = ask_.sources[s].at;
       if (place.on == On::Vertex) {
