@@ -286,7 +286,8 @@ TEST(LogMap, AnglesAreThoseOfTheShortestPathsOnManySheets) {
 }
 
 TEST(LogMap, AnglesLieWithinTheFullTurn) {
-  const std::vector<Mesh> meshes{shapes::plane(8, 8).mesh(), shapes::cone(8, 12, 1, 0.5).mesh(), shapes::saddle(8).mesh()};
+  const std::vector<Mesh> meshes{shapes::plane(8, 8).mesh(), shapes::cone(8, 12, 1, 0.5).mesh(),
+                                 shapes::saddle(8).mesh()};
   for (const Mesh& mesh : meshes) {
     for (Index v = 0; v < mesh.vertex_count(); v += 5) {
       const LogMap map = log_map(mesh, vertex_point(mesh, v));
