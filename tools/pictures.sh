@@ -22,5 +22,6 @@ awk -F, 'NR > 1 { print $3 % 4 == 3 ? 0 : 1 }' "$temporary/cells.csv" >"$tempora
 $brushfire render "$scan" --source 0 --mask "$temporary/mask.txt" --isolines 30 --bar-title distance "${view[@]}" \
   --size 560x480 -o docs/images/walls.png
 $brushfire sample "$scan" --count 200 --lloyd --quiet >"$temporary/sites.txt"
-$brushfire render "$scan" --sources "$temporary/sites.txt" --labels "${view[@]}" --size 560x480 -o docs/images/cells.png
+$brushfire render "$scan" --sources "$temporary/sites.txt" --labels --no-bar "${view[@]}" --size 480x420 \
+  -o docs/images/cells.png
 ls -l docs/images/bunny.png docs/images/error.png docs/images/brushfire.webp
