@@ -3,6 +3,12 @@
 // Every row is one run of a solver; rows are shared out to threads, each with a solver of its own, and a row depends on
 // nothing but itself: the numbers are bit-identical for any number of threads and for any selection of rows and
 // columns.
+//
+// Example:
+//     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;
+//     const std::vector<brushfire::Place> rows{brushfire::Index{0}, brushfire::Index{2}};
+//     const std::vector<float> matrix = brushfire::distance_matrix<float>(mesh, rows, std::nullopt);
+//     std::printf("from vertex 2 to vertex 1: %g\n", matrix[mesh.vertex_count() + 1]);
 #pragma once
 
 #include <brushfire/mesh/domain.h>

@@ -1,4 +1,14 @@
 // Shortest paths.
+//
+// Example:
+//     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;
+//     brushfire::PathFinder paths(mesh);
+//     const brushfire::SurfacePath path =
+//         paths.between(brushfire::vertex_point(mesh, 0), brushfire::vertex_point(mesh, 2));
+//     for (const brushfire::SurfacePoint& p : path.points) {
+//       const brushfire::Vec3 at = brushfire::position(mesh, p);
+//       std::printf("%g %g %g\n", at.x, at.y, at.z);
+//     }
 #pragma once
 
 #include <brushfire/queries/surface_path.h>

@@ -1,4 +1,10 @@
 // distance(): from a mesh and sources to a distance field. The front door of all solvers.
+//
+// Example:
+//     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;
+//     const std::vector<brushfire::Source> sources{{brushfire::vertex_point(mesh, 0)}};
+//     const brushfire::DistanceField field = brushfire::distance(mesh, sources, {.tolerance = 1e-4});
+//     std::printf("vertex 2 is %g away, to within %g\n", field.distance[2], field.error_bound[2]);
 #pragma once
 
 #include <brushfire/core/progress.h>
@@ -50,8 +56,8 @@ inline constexpr double kMaxTolerance = 0.1;
 struct DistanceOptions {
   Method method = Method::Windows;
   // Method::Windows: |value - distance| <= tolerance * distance at every vertex (of the path's length, where sources
-  // have offsets); in [0, kMaxTolerance]. 0 is exact, and so is what is asked for so nearly
-  // that an exact run is quicker (on scans: 1e-3 at some thousand vertices, 1e-4 at some hundred thousand).
+  // have offsets); in [0, kMaxTolerance]. 0 is exact. A tolerance so small that an exact run is quicker gets the exact
+  // run (on scans: 1e-3 at some thousand vertices, 1e-4 at some hundred thousand).
   double tolerance = 1e-3;
   Bound bound = Bound::Estimate;           // Method::Windows only
   Precision precision = Precision::Float;  // methods that have only one ignore it
