@@ -178,12 +178,12 @@ class Cells(OnMesh):
         method: str | None = None,
         tolerance: float | None = None,
         offset: npt.ArrayLike = 0.0,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         progress: Progress = None,
     ) -> tuple[Floats, Labels]:
         """The ``count`` nearest sources of every vertex.
 
-        :param sources, method, tolerance, offset, max_distance, progress: as for :meth:`distance`.
+        :param sources, method, tolerance, offset, radius, progress: as for :meth:`distance`.
         :return: distances, (vertex_count, count), ascending along each row, +inf for no more; and which source each is of.
 
         >>> import brushfire as bf
@@ -193,7 +193,7 @@ class Cells(OnMesh):
         ([3.0, 4.0], [2, 0])
         """
         start = self._arrays(sources, "sources")
-        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, max_distance)
+        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, radius)
         with shown(progress, "nearest sources") as report:
             return _core.nearest_sources(
                 self._space, start.index, start.weights, given, whole(count, "count", _MOST), chosen, report

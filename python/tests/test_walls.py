@@ -168,3 +168,11 @@ def test_boundaries_are_curves(strip: bf.Mesh) -> None:
 
 def test_voronoi_has_a_dual(strip: bf.Mesh) -> None:
     assert strip.voronoi([0, 4, 12], method="exact").dual.tolist() == [[0, 1, 2]]
+
+
+def test_gradients_know_what_is_blocked(strip: bf.Mesh) -> None:
+    walled = strip.walled(faces=[6, 7])
+    uphill = walled.gradient(V[:, 0])
+    assert uphill[0] == pytest.approx([1, 0, 0]) and (uphill[[6, 7]] == 0).all()
+    assert walled.gradient(V[:, 0], on="vertices")[4] == pytest.approx([0, 0, 0])
+    assert strip.gradient(V[:, 0], on="vertices")[4] == pytest.approx([1, 0, 0])
