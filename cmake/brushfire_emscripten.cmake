@@ -31,10 +31,11 @@ if(BRUSHFIRE_IO)
     adler32.c compress.c crc32.c deflate.c inffast.c inflate.c inftrees.c trees.c zutil.c)
   brushfire_fetch_c(expat ${pool}/e/expat/expat_2.7.1.orig.tar.gz
     85372797ff0673a8fc4a6be16466bb5a0ca28c0dcf3c6f7ac1686b4a3ba2aabb expat/lib/ xmlparse.c xmlrole.c xmltok.c)
-  # What its configure script would write, as Debian has it.
-  file(WRITE ${CMAKE_BINARY_DIR}/expat_config/expat_config.h "#include <unistd.h>\n#define BYTEORDER 1234\n"
-    "#define HAVE_ARC4RANDOM_BUF 1\n#define arc4random_buf(bytes, size) getentropy(bytes, size)\n"
-    "#define XML_CONTEXT_BYTES 1024\n#define XML_DTD 1\n#define XML_GE 1\n#define XML_NS 1\n")
+  # What its configure script would write, as Debian has it; random numbers are those of the surroundings.
+  file(WRITE ${CMAKE_BINARY_DIR}/expat_config/expat_config.h "#define BYTEORDER 1234\n#define XML_CONTEXT_BYTES 1024\n"
+    "#define XML_DTD 1\n#define XML_GE 1\n#define XML_NS 1\n#define HAVE_ARC4RANDOM_BUF 1\n#include <stddef.h>\n"
+    "__attribute__((import_module(\"wasi_snapshot_preview1\"), import_name(\"random_get\")))\n"
+    "int brushfire_random(void*, size_t);\n#define arc4random_buf(bytes, size) brushfire_random(bytes, size)\n")
   target_include_directories(brushfire_expat PRIVATE ${CMAKE_BINARY_DIR}/expat_config)
   add_library(ZLIB::ZLIB ALIAS brushfire_zlib)
   add_library(EXPAT::EXPAT ALIAS brushfire_expat)

@@ -22,6 +22,7 @@ if is_new_enough; then exec "$@"; fi
 make_machine() {
   [ "$(id -u)" = 0 ] || lacking "no emscripten 3.1.69 here, and only root can make a chroot for it"
   command -v debootstrap >/dev/null || lacking "no emscripten 3.1.69 here, and no debootstrap to fetch it with"
+  unshare --mount true 2>/dev/null || lacking "no emscripten 3.1.69 here, and this machine makes no chroots"
   printf '\033[1mDebian 13 and its emscripten into %s\033[0m\n' "$machine" >&2
   local part
   part=$(mktemp -d "$machine.part-XXXXXX")

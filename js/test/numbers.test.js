@@ -42,7 +42,7 @@ for (const [name, make, source] of meshes) {
         const d = difference(mesh.distance(sources, options).distance, readNpy(out));
         assert.ok(d <= 1e-12, `${args.join(' ')}: off by ${d}`);
       }
-      native('distance', file, '--source', `face:${face}:0.2,0.3,0.5`, '--source', `at:${x},${y},${z + 0.01}@0.25`, '--method', 'exact', '-o', out);
+      native('distance', file, '--source', `f:${face}:0.2,0.3,0.5`, '--source', `at:${x},${y},${z + 0.01}@0.25`, '--method', 'exact', '-o', out);
       const d = difference(mesh.distance([{ face, weights: [0.2, 0.3, 0.5] }, { at: [x, y, z + 0.01], offset: 0.25 }], { method: 'exact' }).distance, readNpy(out));
       assert.ok(d <= 1e-12, `places: off by ${d}`);
     });
