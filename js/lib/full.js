@@ -193,6 +193,11 @@ export class Library extends CoreLibrary {
     return { values, vertices: vertices.length > 0 ? vertices : null, name, format };
   }
 
+  // 256 colours of a map of the pictures, four bytes each.
+  colormap(name) {
+    return this.module.call('colormap_table', [text(name, 'name')])[0];
+  }
+
   compare(values, reference, options = {}) {
     checkNames(options, ['vertexWeights']);
     const [numbers, ...measures] = this.module.call('compare_run', [doubles(values, 'values'), doubles(reference, 'reference'),

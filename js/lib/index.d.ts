@@ -365,6 +365,8 @@ export interface Cut extends CutFacts, CutCalls, Owned {
 interface LibraryCalls {
   /** One value per vertex from a file's bytes. */
   readField(content: Uint8Array | ArrayBuffer, fileName?: string, options?: { name?: string }): LoadedField;
+  /** 256 colours from the low end to the high one: red, green, blue, alpha. */
+  colormap(name: 'viridis' | 'magma' | 'cividis'): Uint8Array;
   compare(values: Numbers, reference: Numbers, options?: { vertexWeights?: Numbers }): Comparison;
 }
 

@@ -120,7 +120,7 @@ export class Module {
     const address = this.#exports.allocate(array.byteLength) >>> 0;
     if (address === 0) throw new BrushfireError('too_large', `out of memory: no room for ${array.byteLength} bytes`);
     given.push(address);
-    new array.constructor(this.#exports.memory.buffer, address, array.length).set(array);
+    new Uint8Array(this.#exports.memory.buffer, address, array.byteLength).set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
     return [address, array.length];
   }
 

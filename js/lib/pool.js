@@ -174,6 +174,10 @@ export class Pool {
     return this.submit(null, 'readField', args);
   }
 
+  colormap(...args) {
+    return this.submit(null, 'colormap', args);
+  }
+
   compare(...args) {
     return this.submit(null, 'compare', args);
   }

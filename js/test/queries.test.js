@@ -161,6 +161,13 @@ test('arrays of every kind make the same mesh', () => {
   }
 });
 
+test('colour maps are those of pictures', () => {
+  assert.deepEqual([...bf.colormap('viridis').subarray(0, 4)], [68, 1, 84, 255]);
+  assert.deepEqual([...bf.colormap('viridis').subarray(-4)], [253, 231, 37, 255]);
+  assert.equal(bf.colormap('magma').length, 1024);
+  assert.throws(() => bf.colormap('jet'), { code: 'invalid_argument' });
+});
+
 test('welding and subdividing', () => {
   const soup = bf.read(bf.shape('cube', 3).write('stl'), 'cube.stl');
   const loose = bf.mesh([...soup.vertices, ...soup.vertices], [...soup.faces, ...soup.faces.map((v) => v + soup.vertexCount)]);
