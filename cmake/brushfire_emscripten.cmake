@@ -41,15 +41,14 @@ if(BRUSHFIRE_IO)
   add_library(EXPAT::EXPAT ALIAS brushfire_expat)
 endif()
 
-# brushfire_prefer_size(TARGET PREFIX...): files of the library whose speed nobody waits for are compiled to be small, as
-# a page fetches them before it can begin. docs/decisions/web.md has what that costs and brings.
-function(brushfire_prefer_size target)
+# brushfire_small(TARGET OPTION PATTERN...): these files of the library, whose speed nobody waits for, are compiled to be
+# small: a page fetches them before it can begin. docs/decisions/web.md has what that costs and brings.
+function(brushfire_small target option)
   get_target_property(files ${target} SOURCES)
-  foreach(prefix ${ARGN})
-    foreach(file ${files})
-      if(file MATCHES "src/brushfire/${prefix}")
-        set_property(SOURCE ${file} TARGET_DIRECTORY ${target} APPEND PROPERTY COMPILE_OPTIONS -Oz)
-      endif()
-    endforeach()
+  list(JOIN ARGN "|" patterns)
+  foreach(file ${files})
+    if(file MATCHES "src/brushfire/(${patterns})")
+      set_property(SOURCE ${file} TARGET_DIRECTORY ${target} APPEND PROPERTY COMPILE_OPTIONS ${option})
+    endif()
   endforeach()
 endfunction()

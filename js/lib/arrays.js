@@ -1,5 +1,5 @@
 // What callers give, as the typed arrays that the module takes. No copy where it is one already.
-import { invalid } from './errors.js';
+import { BrushfireError, invalid } from './errors.js';
 
 const described = (x) => (x === null ? 'null' : Array.isArray(x) ? 'an array' : typeof x === 'object' ? x.constructor?.name ?? 'an object' : String(x));
 
@@ -29,7 +29,7 @@ export function doubles(x, what) {
   return isBig(numbers) ? Float64Array.from(numbers, Number) : new Float64Array(numbers);
 }
 
-// Vertex numbers of faces: what is no number of a vertex becomes one that no mesh has, and is named by the module.
+// Vertex numbers of faces.
 export function indices(x, what) {
   const numbers = flat(x, what);
   if (numbers instanceof Uint32Array) return numbers;
@@ -38,7 +38,7 @@ export function indices(x, what) {
   for (let i = 0; i < numbers.length; ++i) {
     const n = Number(numbers[i]);
     if (!Number.isInteger(n) || n < 0 || n > 0xffffffff) {
-      throw invalid(`${what}: entry ${i} is ${n}, which is no vertex number`);
+      throw new BrushfireError('invalid_mesh', `face ${Math.floor(i / 3)} names vertex ${n}, which cannot exist`);
     }
     result[i] = n;
   }

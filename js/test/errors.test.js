@@ -32,6 +32,7 @@ const cases = [
   ['index_out_of_range', () => mesh.distance({ face: 400, weights: [1, 0, 0] }), /face 400 does not exist/],
   ['index_out_of_range', () => mesh.cut({ faces: [400] }), /face 400 does not exist/],
   ['invalid_mesh', () => bf.mesh([0, 0, 0], [0, 1, 2]), /./],
+  ['invalid_mesh', () => bf.mesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, -2]), /face 0 names vertex -2, which cannot exist/],
   ['invalid_mesh', () => bf.mesh([0, 0, 0, 1, 0, 0, 0, NaN, 0], [0, 1, 2]), /finite/],
   ['file_malformed', () => bf.read(text('ply\nformat ascii 1.0\nelement vertex 1\n'), 'a.ply'), /^a\.ply/],
   ['file_malformed', () => bf.read(new Uint8Array(0), 'a.ply'), /empty/],
@@ -84,7 +85,7 @@ test('messages are those of the command line program', { skip: withoutNative }, 
   writeFileSync(file, mesh.write('ply'));
   writeFileSync(inFolder('bad.ply'), 'ply\nformat ascii 1.0\nelement vertex 1\n');
   const runs = [
-    [['distance', file, '--source', '0', '--tolerance', '-1'], () => mesh.distance(0, { tolerance: -1 })],
+    [['path', file, '--from', '0', '--to', 'f:400:1,0,0'], () => mesh.path([0, { face: 400, weights: [1, 0, 0] }])],
     [['info', inFolder('bad.ply')], () => bf.read(text('ply\nformat ascii 1.0\nelement vertex 1\n'), inFolder('bad.ply'))],
   ];
   for (const [args, call] of runs) {

@@ -86,7 +86,7 @@ test('files are what the program writes, byte for byte', { skip: withoutNative }
   const { distance, source } = mesh.distance(0);
   for (const format of ['ply', 'vtk', 'npy', 'gii', 'obj']) {
     native('distance', file, '--source', '0', '-o', inFolder(`field.${format}`));
-    const ours = mesh.write(format, { values: distance, labels: source });
+    const ours = mesh.write(format, { values: distance, ...(format !== 'gii' && { labels: source }) }); // it has one array
     assert.deepEqual(Buffer.from(ours), readFileSync(inFolder(`field.${format}`)), format);
   }
 });

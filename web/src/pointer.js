@@ -62,7 +62,7 @@ export function listen(canvas, app, { setSources, look, undo }) {
       '+': () => app.scene.zoom(0.9),
       '-': () => app.scene.zoom(1 / 0.9),
       Home: () => app.scene.home(),
-      Enter: () => { const p = middle(); if (p) setSources([p]).then(() => look(p)); },
+      Enter: () => { const p = middle(); if (p) setSources([p]).then(() => look(app.state.sources[0])); },
       a: () => { const p = middle(); if (p) setSources([...app.state.sources, p]); },
       ' ': () => look(middle()),
     };
