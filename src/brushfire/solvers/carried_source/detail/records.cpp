@@ -1,0 +1,342 @@
+// Writes the record of one vertex after the other: the sides of its fans, those over unrolled faces, and what is
+// offered over them.
+#include <brushfire/solvers/carried_source/detail/records.h>
+
+#include <brushfire/core/cancel.h>
+#include <brushfire/core/planar.h>
+#include <brushfire/solvers/carried_source/detail/unrolled.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <unordered_map>
+
+namespace brushfire::carried_source {
+namespace {
+
+constexpr double kSeamRounding = 1e-9;  // of angles, by far
+constexpr Index kMostSupports = Index{1} << (32 - Update<float>::kSupportShift);
+
+struct DraftSide {
+  Index end = kNoIndex;
+  double length = 0;
+  Direction here, there;
+  bool conduit = false;  // along the edge of a face that names a vertex twice: without a direction
+};
+
+struct DraftUpdate {
+  Index support = 0, target = 0;
+  double length = 0;  // of the edge
+  Vec2 at;
+  Hand hand = Hand::Left, hand_there = Hand::Right;
+  bool same_turn = true, seam = false;
+  Index sector = 0;
+  double need = 0, bulge = 0;
+};
+
+Hand hand_if(bool left) { return left ? Hand::Left : Hand::Right; }
+
+// How much later than v, at least, the front reaches the target: it lies on the line from b to the target, or farther
+// from v. Let that line have the distance h from v, and v's foot the distance m from the target: a source at distance r
+// from v, r >= |vb|, beyond the edge, reaches the target from at least m + sqrt(r^2 - h^2) away; and
+// r - sqrt(r^2 - h^2) <= h^2 / (2 (r - h)).
+void set_need(double along, double from_other, DraftUpdate& u) {
+  double foot = 0;
+  if (from_other > 0) {
+    const double shorter = std::min(along, from_other), longer = std::max(along, from_other);
+    const double product = 0.5 * (shorter * shorter + (longer - u.length) * (longer + u.length));
+    foot = std::clamp(product / from_other, -along, along);
+  }
+  u.need = foot;
+  u.bulge = 0.5 * (foot > 0 ? (along - foot) * (along + foot) : along * along);
+}
+
+template <class T>
+class RecordBuilder {
+ public:
+  explicit RecordBuilder(const Mesh& mesh) : mesh_(mesh), fans_(mesh), unroller_(mesh, fans_) {}
+
+  Records<T> build() {
+    out_.vertex_count = mesh_.vertex_count();
+    out_.lenses.emplace_back();  // number 0: nothing comes through
+    unroll_all();
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      poll_();
+      write(v);
+    }
+    out_.offset.push_back(out_.data.size());
+    if (mesh_.halfedge_count() > 0 && sum_of_lengths_ > 0) {
+      out_.mean_edge = sum_of_lengths_ / static_cast<double>(mesh_.halfedge_count());
+    }
+    // To where it lies aligned, with room behind for what is asked for ahead of time.
+    UninitializedArray<std::byte> loose(out_.data.size() + 2 * Records<T>::kAlignment);
+    loose.swap(out_.data);
+    std::memcpy(out_.data.data() + (out_.base() - out_.data.data()), loose.data(), loose.size());
+    return std::move(out_);
+  }
+
+ private:
+  void unroll_all() {
+    split_.resize(mesh_.halfedge_count());
+    std::vector<Index> count(mesh_.vertex_count() + std::size_t{1}, 0);
+    for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
+      poll_();
+      sum_of_lengths_ += mesh_.length(h);
+      if (!mesh_.is_face_usable(Mesh::face_of(h)) || !unroller_.is_obtuse(h)) continue;
+      split_[h] = unroller_.unroll(h, triangles_);
+    }
+    for (const UnrolledTriangle& t : triangles_) ++count[t.right.vertex], ++count[t.left.vertex];
+    begin_.assign(1, 0);
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) begin_.push_back(begin_.back() + count[v]);
+    std::vector<std::size_t> at(begin_.begin(), begin_.end() - 1);
+    by_vertex_.resize(begin_.back());
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      by_vertex_[at[triangles_[i].right.vertex]++] = {i, true};
+      by_vertex_[at[triangles_[i].left.vertex]++] = {i, false};
+    }
+  }
+
+  // Whether a direction is that of a closed fan's first side, seen as its last.
+  bool is_seam(Index v, const Direction& at) const {
+    const std::span<const Sector> sectors = fans_.sectors(v);
+    if (at.sector >= sectors.size()) return false;
+    return at.angle > sectors[at.sector].around - kSeamRounding;
+  }
+  Direction shared(Index v, const Direction& at) const { return is_seam(v, at) ? fans_.within(v, at.fan, 0) : at; }
+
+  // The sides and updates of v inside one of its faces.
+  void add_face(Index v, Index h) {
+    const Index next = Mesh::next(h), previous = Mesh::previous(h);
+    const Index own = fans_.side(h, true), other = fans_.side(h, false);
+    const double l = mesh_.length(h), k = mesh_.length(previous), across = mesh_.length(next);
+    const double area = mesh_.double_area(Mesh::face_of(h));
+    const Index p = mesh_.to(h), q = mesh_.from(previous);
+    sides_[own] = {p, l, shared(v, fans_.direction(h, true)), shared(p, fans_.direction(next, false)), false};
+    sides_[other] = {q, k, shared(v, fans_.direction(h, false)), shared(q, fans_.direction(previous, true)), false};
+    const bool left = !fans_.corner(h).mirrored;
+    if (l > 0 && !split_[previous]) {
+      const Direction back = fans_.direction(previous, true);
+      DraftUpdate u{own,
+                    other,
+                    l,
+                    apex_over_edge(l, k, across, area),
+                    hand_if(left),
+                    hand_if(fans_.corner(next).mirrored),
+                    !fans_.corner(previous).mirrored,
+                    is_seam(q, back),
+                    back.sector};
+      set_need(k, across, u);
+      updates_.push_back(u);
+    }
+    if (k > 0 && !split_[next]) {
+      const Direction back = fans_.direction(next, false);
+      DraftUpdate u{other,
+                    own,
+                    k,
+                    apex_over_edge(k, l, across, area),
+                    hand_if(!left),
+                    hand_if(!fans_.corner(previous).mirrored),
+                    fans_.corner(next).mirrored,
+                    is_seam(p, back),
+                    back.sector};
+      set_need(l, across, u);
+      updates_.push_back(u);
+    }
+  }
+
+  // What v, the right or the left one of an unrolled triangle, offers to its corner.
+  void add_unrolled(const UnrolledTriangle& t, bool is_right) {
+    const UnrolledEnd &own = is_right ? t.right : t.left, &other = is_right ? t.left : t.right;
+    const Index corner = mesh_.from(t.corner);
+    const double length = norm(other.at - own.at), along = norm(own.at);
+    if (!(length > 0)) return;
+    DraftUpdate u;
+    u.support = side(own.side_to_other, {other.vertex, length, own.to_other, other.to_other, false});
+    u.target = side(own.side_to_corner, {corner, along, own.to_corner, shared(corner, own.from_corner), false});
+    u.length = length;
+    const Vec2 edge = (1 / length) * (other.at - own.at);
+    u.at = {-dot(own.at, edge), std::abs(cross(own.at, edge))};
+    u.hand = hand_if(own.same_turn == is_right);
+    u.hand_there = hand_if(other.same_turn != is_right);
+    u.same_turn = t.corner_same_turn == is_right;
+    u.seam = is_seam(corner, own.from_corner);
+    u.sector = own.from_corner.sector;
+    set_need(along, norm(other.at), u);
+    updates_.push_back(u);
+  }
+
+  // The number of a side, of a fan or of its own; those of one unrolling follow each other.
+  Index side(Index of_fan, const DraftSide& draft) {
+    if (of_fan != kNoIndex) return of_fan;
+    constexpr std::size_t kRecent = 4;
+    const std::size_t own = sides_.size() - fans_.side_count(at_);
+    for (std::size_t i = 0; i < std::min(own, kRecent); ++i) {
+      const DraftSide& s = sides_[sides_.size() - 1 - i];
+      if (s.end == draft.end && s.length == draft.length && s.here.angle == draft.here.angle && !s.conduit) {
+        return static_cast<Index>(sides_.size() - 1 - i);
+      }
+    }
+    sides_.push_back(draft);
+    return static_cast<Index>(sides_.size() - 1);
+  }
+
+  void add_conduits(Index v, Index h) {
+    for (const Index g : {h, Mesh::previous(h)}) {
+      const Index end = mesh_.from(g) == v ? mesh_.to(g) : mesh_.from(g);
+      if (end != v) sides_.push_back({end, mesh_.length(g), {}, {}, true});
+    }
+  }
+
+  void write(Index v) {
+    at_ = v;
+    sides_.assign(fans_.side_count(v), {});
+    updates_.clear();
+    for (const Index h : mesh_.corners(v)) {
+      if (mesh_.is_face_usable(Mesh::face_of(h))) add_face(v, h);
+    }
+    for (std::size_t i = begin_[v]; i < begin_[v + 1]; ++i)
+      add_unrolled(triangles_[by_vertex_[i].triangle], by_vertex_[i].is_right);
+    for (const Index h : mesh_.corners(v)) {
+      if (!mesh_.is_face_usable(Mesh::face_of(h))) add_conduits(v, h);
+    }
+    std::stable_sort(updates_.begin(), updates_.end(),
+                     [](const DraftUpdate& a, const DraftUpdate& b) { return a.target < b.target; });
+    const auto beyond = [](const DraftUpdate& u) { return u.support >= kMostSupports; };
+    updates_.erase(std::remove_if(updates_.begin(), updates_.end(), beyond), updates_.end());
+    put_record(v);
+  }
+
+  void put_record(Index v) {
+    align();
+    out_.offset.push_back(out_.data.size());
+    const std::span<const Sector> sectors = fans_.sectors(v);
+    const double around = sectors.empty() || fans_.is_odd(v) ? kInfinity : sectors.front().around;
+    out_.around.push_back(around < kInfinity
+                              ? Around<T>{static_cast<T>(std::cos(around)), static_cast<T>(std::sin(around))}
+                              : Around<T>{});
+    head_ = {};
+    head_.sides = static_cast<Index>(sides_.size());
+    for (const DraftUpdate& u : updates_) head_.reach = std::max(head_.reach, static_cast<T>(u.length));
+    set_optics(v);
+    put(&head_, 1);
+    put_ends();
+    align(alignof(Side<T>));
+    put(full_sides_.data(), full_sides_.size());
+    if (head_.has_dark) put(dark_.data(), dark_.size());
+    if (head_.has_lenses) put(lens_numbers_.data(), lens_numbers_.size());
+    for (const DraftUpdate& u : updates_) {
+      Update<T> packed{static_cast<T>(u.at.x), static_cast<T>(u.at.y), u.support << Update<T>::kSupportShift};
+      packed.bits |= u.sector << Update<T>::kSectorShift;
+      packed.bits |= u.hand == Hand::Right ? Update<T>::kHere : 0;
+      packed.bits |= u.hand_there == Hand::Right ? Update<T>::kThere : 0;
+      packed.bits |= u.same_turn ? Update<T>::kSameTurn : 0;
+      packed.bits |= u.seam ? Update<T>::kSeam : 0;
+      put(&packed, 1);
+    }
+  }
+
+  void put_ends() {
+    constexpr T kAnywhere = std::numeric_limits<T>::max();
+    std::size_t u = 0;
+    for (Index k = 0; k < sides_.size(); ++k) {
+      SideEnd<T> e{sides_[k].end, static_cast<T>(sides_[k].length), 0, static_cast<Index>(u)};
+      for (; u < updates_.size() && updates_[u].target == k; ++u) {
+        e.need = std::min(e.need, static_cast<T>(updates_[u].need));
+        e.bulge = std::max(e.bulge, static_cast<T>(updates_[u].bulge));
+      }
+      put(&e, 1);
+    }
+    const SideEnd<T> last{0, kAnywhere, 0, static_cast<Index>(u)};
+    put(&last, 1);
+  }
+
+  void set_optics(Index v) {
+    full_sides_.assign(sides_.size(), {});
+    dark_.assign(sides_.size(), {});
+    lens_numbers_.assign(sides_.size(), {{kNoIndex, kNoIndex}, {kNoIndex, kNoIndex}});
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+      const DraftSide& d = sides_[k];
+      Side<T>& s = full_sides_[k];
+      s.length = static_cast<T>(d.length);
+      if (d.conduit) {
+        s.c = s.s = s.end_c = s.end_s = 0;
+        continue;
+      }
+      s.c = static_cast<T>(std::cos(d.here.angle)), s.s = static_cast<T>(std::sin(d.here.angle));
+      s.end_c = static_cast<T>(std::cos(d.there.angle)), s.end_s = static_cast<T>(std::sin(d.there.angle));
+      s.sector = static_cast<std::uint8_t>(d.there.sector);
+      set_optics(v, d.here, s.turned, dark_[k].here, lens_numbers_[k].here);
+      set_optics(d.end, d.there, s.end_turned, dark_[k].end, lens_numbers_[k].end);
+      for (const SectorSet set : {dark_[k].here[0], dark_[k].here[1], dark_[k].end[0], dark_[k].end[1]}) {
+        head_.has_dark |= set != 0;
+      }
+    }
+  }
+
+  void set_optics(Index v, const Direction& at, SectorSet* turned, SectorSet* dark, Index* lenses) {
+    if (!fans_.is_odd(v)) {
+      const SightSets sets = sight_of(fans_.sectors(v), at.angle);
+      for (int i = 0; i < 2; ++i) turned[i] = sets.turned[i], dark[i] = sets.dark[i];
+      return;
+    }
+    head_.has_lenses = 1;
+    const auto [ends, is_new] = fan_ends_.try_emplace(v);
+    if (is_new) ends->second = ends_of_fans(mesh_, fans_, v);
+    for (const Hand hand : {Hand::Left, Hand::Right}) {
+      const auto i = static_cast<std::size_t>(hand);
+      turned[i] = dark[i] = 0;
+      const Lenses through = lenses_of(fans_.sectors(v), ends->second, at, hand);
+      const bool some = std::any_of(through.begin(), through.end(), [](const Lens& l) { return l.lit; });
+      lenses[i] = some ? static_cast<Index>(out_.lenses.size()) : 0;
+      if (some) out_.lenses.push_back(through);
+    }
+  }
+
+  template <class U>
+  void put(const U* from, std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<U>);
+    const std::size_t size = out_.data.size();
+    out_.data.resize(size + count * sizeof(U));
+    if (count > 0) std::memcpy(out_.data.data() + size, from, count * sizeof(U));
+  }
+  void align(std::size_t to = alignof(Side<T>)) {
+    while (out_.data.size() % to != 0) out_.data.push_back(std::byte{0});
+  }
+
+  const Mesh& mesh_;
+  Fans fans_;
+  Unroller unroller_;
+  Poll poll_;
+  Records<T> out_;
+  double sum_of_lengths_ = 0;
+  std::unordered_map<Index, std::vector<FanEnd>> fan_ends_;  // of odd vertices
+  std::vector<bool> split_;                                  // by corner: obtuse, and unrolled into acute ones
+  std::vector<UnrolledTriangle> triangles_;
+  struct Share {
+    std::size_t triangle = 0;
+    bool is_right = true;
+  };
+  std::vector<std::size_t> begin_;
+  std::vector<Share> by_vertex_;
+  // Of the vertex at hand.
+  Index at_ = 0;
+  std::vector<DraftSide> sides_;
+  std::vector<DraftUpdate> updates_;
+  RecordHead<T> head_;
+  std::vector<Side<T>> full_sides_;
+  std::vector<DarkSets> dark_;
+  std::vector<LensNumbers> lens_numbers_;
+};
+
+}  // namespace
+
+template <class T>
+Records<T> build_records(const Mesh& mesh) {
+  return RecordBuilder<T>(mesh).build();
+}
+
+template Records<float> build_records<float>(const Mesh& mesh);
+template Records<double> build_records<double>(const Mesh& mesh);
+
+}  // namespace brushfire::carried_source
