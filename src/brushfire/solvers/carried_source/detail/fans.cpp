@@ -40,27 +40,27 @@ Fans::Fans(const Mesh& mesh) : mesh_(mesh), opposite_(mesh.opposite()) {
 }
 
 void Fans::build(Index v) {
-  all_.clear(), fan_end_.clear(), around_.clear();
-  Index sides = 0;
+  all_.clear(), ranges_.clear(), around_.clear();
+  bool odd = false;
   for (const Index h : mesh_.corners(v)) {
     if (corners_[h].high != kNotYet || !mesh_.is_face_usable(Mesh::face_of(h))) continue;
     const bool closed = string_together({h, false});
-    lay_out(closed, static_cast<Index>(around_.size()), sides);
-    sides += static_cast<Index>(fan_.size()) + (closed ? 0 : 1);
-    around_.push_back(closed ? corners_[fan_.back().corner].high : kInfinity);
+    ranges_.push_back({static_cast<Index>(all_.size()), static_cast<Index>(all_.size() + fan_.size()), closed});
     all_.insert(all_.end(), fan_.begin(), fan_.end());
-    fan_end_.push_back(static_cast<Index>(all_.size()));
-    // An end that is no boundary.
-    const auto meets_more = [&](Index h1) { return opposite_[h1] != h1; };
+    for (const Loose& at : fan_) corners_[at.corner].high = 0;
     const Loose first = fan_.front(), last = fan_.back();
-    if (!closed && (meets_more(first.mirrored ? Mesh::previous(first.corner) : first.corner) ||
-                    meets_more(last.mirrored ? last.corner : Mesh::previous(last.corner)))) {
-      odd_[v] = true;
-    }
+    const auto meets_more = [&](Index side) { return opposite_[side] != side; };
+    odd |= !closed && (meets_more(first.mirrored ? Mesh::previous(first.corner) : first.corner) ||
+                       meets_more(last.mirrored ? last.corner : Mesh::previous(last.corner)));
+  }
+  odd_[v] = odd || ranges_.size() > 1;
+  Index sides = 0;
+  for (const Range& range : ranges_) {
+    sides = lay_out(range, static_cast<Index>(around_.size()), sides, range.closed && !odd_[v]);
+    around_.push_back(range.closed ? corners_[all_[range.end - 1].corner].high : kInfinity);
   }
   side_count_[v] = sides;
-  if (around_.size() > 1) odd_[v] = true;
-  share_sectors(v, static_cast<Index>(around_.size()));
+  share_sectors();
 }
 
 // The corner beyond one side of a corner; none where the edge has not exactly two faces.
@@ -91,43 +91,43 @@ bool Fans::string_together(Loose from) {
   return closed;
 }
 
-void Fans::lay_out(bool closed, Index fan, Index first_side) {
+// Returns the number of the next side.
+Index Fans::lay_out(const Range& range, Index fan, Index side, bool ends_meet) {
+  const Index first_side = side;
   double angle = 0;
-  Index side = first_side;
-  for (const Loose& at : fan_) {
-    FanCorner& c = corners_[at.corner];
-    c.mirrored = at.mirrored;
+  for (Index k = range.begin; k < range.end; ++k) {
+    FanCorner& c = corners_[all_[k].corner];
+    c.mirrored = all_[k].mirrored;
     c.fan = fan;
     c.first_side = side++;
     c.last_side = side;
     c.low = angle;
-    angle += angle_at(mesh_, at.corner);
+    angle += angle_at(mesh_, all_[k].corner);
     c.high = angle;
   }
-  if (closed) corners_[fan_.back().corner].last_side = first_side;
+  if (ends_meet) corners_[all_[range.end - 1].corner].last_side = first_side;
+  return ends_meet ? side : side + 1;
 }
 
 // One fan may have all sectors; several have equal numbers of them, without the shared one.
-void Fans::share_sectors(Index v, Index fans) {
+void Fans::share_sectors() {
+  const auto fans = static_cast<Index>(ranges_.size());
   const Index each = fans <= 1 ? kSectors : std::max<Index>(1, kSharedSector / fans);
   const std::size_t first = sectors_.size();
-  for (Index fan = 0, begin = 0; fan < fans; ++fan) {
-    const Index count = fan_end_[fan] - begin, used = std::min(each, count);
+  for (Index fan = 0; fan < fans; ++fan) {
+    const Range& range = ranges_[fan];
+    const Index count = range.end - range.begin, used = std::min(each, count);
+    const bool is_beyond = fans > 1 && fan >= kSharedSector;
     for (Index k = 0; k < count; ++k) {
-      FanCorner& c = corners_[all_[begin + k].corner];
-      if (fans > 1 && sectors_.size() - first >= kSharedSector && k == 0) {  // beyond
-        for (Index j = begin; j < fan_end_[fans - 1]; ++j) corners_[all_[j].corner].sector = kSharedSector;
-        return;
-      }
-      if (k == 0 || (std::uint64_t{k} * used) / count != (std::uint64_t{k - 1} * used) / count) {
-        sectors_.push_back({c.low, c.low, around_[fan], fan});
-      }
+      FanCorner& c = corners_[all_[range.begin + k].corner];
+      c.sector = kSharedSector;
+      if (is_beyond) continue;
+      const auto part = [&](Index i) { return std::uint64_t{i} * used / count; };
+      if (k == 0 || part(k) != part(k - 1)) sectors_.push_back({c.low, c.low, around_[fan], fan});
       sectors_.back().high = c.high;
       c.sector = static_cast<std::uint8_t>(sectors_.size() - 1 - first);
     }
-    begin = fan_end_[fan];
   }
-  static_cast<void>(v);
 }
 
 Direction Fans::within(Index v, Index fan, double angle) const {

@@ -34,14 +34,15 @@ struct Direction {
 // A corner of a usable face in a fan of its vertex, counter-clockwise there; `mirrored`: it is clockwise in its face.
 struct FanCorner {
   double low = 0, high = 0;
-  Index first_side = 0, last_side = 0;  // by number at the vertex: fans have their own, of a shared edge as well
+  Index first_side = 0, last_side = 0;  // by number at the vertex
   Index fan = 0;
   std::uint8_t sector = 0;
   bool mirrored = false;
 };
 
 // Faces that meet over edges of two faces follow each other in a fan; a boundary or an edge of more faces ends it.
-// Faces that name a vertex twice are in no fan.
+// Faces that name a vertex twice are in no fan. At an odd vertex every fan has sides of its own, a first and a last one
+// also where it is closed.
 class Fans {
  public:
   explicit Fans(const Mesh& mesh);
@@ -78,8 +79,12 @@ class Fans {
   void build(Index v);
   Loose beside(Loose at, bool forward) const;
   bool string_together(Loose from);
-  void lay_out(bool closed, Index fan, Index first_side);
-  void share_sectors(Index v, Index fans);
+  struct Range {
+    Index begin = 0, end = 0;  // in all_
+    bool closed = false;
+  };
+  Index lay_out(const Range& range, Index fan, Index side, bool ends_meet);
+  void share_sectors();
   void name_edges();
 
   const Mesh& mesh_;
@@ -91,7 +96,7 @@ class Fans {
   std::vector<Index> edge_;  // by halfedge; empty where no vertex is odd
   // Of the vertex at hand: one fan, and all of them one after the other.
   std::vector<Loose> fan_, all_;
-  std::vector<Index> fan_end_;
+  std::vector<Range> ranges_;
   std::vector<double> around_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <brushfire/solvers/fast_marching/vector_target.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -22,6 +23,10 @@ constexpr T kNews = 1 - 4 * kEpsilon<T>;
 template <class T>
 constexpr T kTie = 1 + 8 * kEpsilon<T>;
 
+using detail::prefetch;
+constexpr std::size_t kFrontAhead = 12, kRecordAhead = 6, kEndsAhead = 3, kRecordLines = 7, kCacheLine = 64;
+constexpr Index kUsualSides = 6;
+
 }  // namespace
 
 template <class T>
@@ -37,6 +42,9 @@ struct March<T>::Turn {
 template <class T>
 March<T>::March(const Records<T>& records) : records_(records), fronts_(records.vertex_count) {
   for (Index v = 0; v < records.vertex_count; ++v) fronts_[v].around = records.around[v];
+  // One more than there can be: the last one is written and not counted.
+  lists_.ahead.resize(records.most_sides + 1), lists_.alongs.resize(records.most_sides + 1);
+  lists_.closed.resize(records.most_sides), lists_.offers.resize(records.most_updates + 1);
   per_unit_ = static_cast<T>(1 / (kBucketWidth * records.mean_edge));
   slack_ = static_cast<T>(kSlack * records.mean_edge);
   farther_ = static_cast<T>(kFarther * records.mean_edge);
@@ -117,7 +125,7 @@ BRUSHFIRE_INLINE SourceAt<T> March<T>::see(const Front& f, const Side<T>& side, 
 
 template <class T>
 template <bool kLabelled>
-BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, const Update<T>& u, const Side<T>& to) {
+BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, Update u, const Side<T>& to) {
   const Index support = u.support(), hand = u.hand(), there = u.hand_there();
   const Side<T>& by = at.sides[support];
   const Front& other = fronts_[at.ends[support].end];
@@ -126,12 +134,17 @@ BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, 
   const SourceAt<T> a = see(at.front, by, false, hand, at.lenses ? at.lenses[support].here[hand] : kNoIndex, dark_here);
   SourceAt<T> b = see(other, by, true, there, at.lenses ? at.lenses[support].end[there] : kNoIndex, dark_there);
   b.x = by.length - b.x;
-  const Offer<T> o = offer_over<T>(by.length, u.x, u.y, to.length, at.front.value, other.value, a, b);
+  // The target in the frame of the edge.
+  const T right = hand == 0 ? T(1) : T(-1), own_turn = right * at.front.around.s;
+  const T tc = u.across() ? to.c * at.front.around.c - to.s * own_turn : to.c;
+  const T ts = u.across() ? to.s * at.front.around.c + to.c * own_turn : to.s;
+  const T x = to.length * (tc * by.c + ts * by.s), y = to.length * magnitude(ts * by.c - tc * by.s);
+  const Offer<T> o = offer_over<T>(by.length, x, y, to.length, at.front.value, other.value, a, b);
   // Into the target's frame, where the way back to the vertex has a known direction.
   const Around<T> around = fronts_[target.end].around;
   const T c = u.seam() ? around.c : to.end_c, s = u.seam() ? around.s : to.end_s;
-  const T sign = u.same_turn() ? T(1) : T(-1), inverse = T(-1) / to.length, y = sign * u.y;
-  const T turn_c = (c * u.x + s * y) * inverse, turn_s = (s * u.x - c * y) * inverse, oy = sign * o.y;
+  const T sign = u.same_turn() ? T(1) : T(-1), inverse = T(-1) / to.length, sy = sign * y;
+  const T turn_c = (c * x + s * sy) * inverse, turn_s = (s * x - c * sy) * inverse, oy = sign * o.y;
   accept<kLabelled>(target.end, {o.value, o.sigma, o.x * turn_c - oy * turn_s, o.x * turn_s + oy * turn_c}, u.sector(),
                     at.front.label);
   ++updates_;
@@ -153,43 +166,39 @@ BRUSHFIRE_INLINE void March<T>::turn(Index v) {
                 record.sides(),
                 head.has_dark ? record.dark() : nullptr,
                 head.has_lenses ? record.lenses() : nullptr};
-  const Update<T>* const updates = record.updates();
+  const Update* const updates = record.updates();
   const T r = front.value - front.sigma, later = r > head.reach ? 1 / (r - head.reach) : kAnywhere;
   const T now = front.value - slack_;
+  // Lists are made without branches: which sides lead ahead and which ends are closed cannot be foreseen.
+  Index ahead = 0, offers = 0, alongs = 0;
   for (Index k = 0; k < head.sides; ++k) {
     const SideEnd<T>& e = at.ends[k];
-    if (!(fronts_[e.end].value > now + e.need - e.bulge * later)) continue;
-    bool offered = false;
-    for (Index i = e.first_update; i < at.ends[k + 1].first_update; ++i) {
-      const Front& b = fronts_[at.ends[updates[i].support()].end];
-      if (b.state != kClosed) continue;
-      if constexpr (kLabelled) {
-        if (b.label != front.label) continue;
-      }
-      offer<kLabelled>(at, e, updates[i], at.sides[k]);
-      offered = true;
+    const Front& end = fronts_[e.end];
+    lists_.ahead[ahead] = k;
+    ahead += end.value > now + e.need - e.bulge * later ? 1u : 0u;
+    bool closed = end.state == kClosed;
+    if constexpr (kLabelled) closed &= end.label == front.label;
+    lists_.closed[k] = closed ? 1 : 0;
+  }
+  for (Index i = 0; i < ahead; ++i) {
+    const Index k = lists_.ahead[i], before = offers;
+    for (Index u = at.ends[k].first_update; u < at.ends[k + 1].first_update; ++u) {
+      lists_.offers[offers] = {k, updates[u]};
+      offers += lists_.closed[updates[u].support()];
     }
-    if (offered) continue;
+    lists_.alongs[alongs] = k;
+    alongs += offers == before ? 1u : 0u;
+  }
+  for (Index i = 0; i < offers; ++i) {
+    const auto [k, update] = lists_.offers[i];
+    offer<kLabelled>(at, at.ends[k], update, at.sides[k]);
+  }
+  for (Index i = 0; i < alongs; ++i) {
+    const Index k = lists_.alongs[i];
     const Side<T>& side = at.sides[k];
-    const T x = side.length * side.end_c, y = side.length * side.end_s;
+    const T x = side.length * side.end_c, y = side.length * side.end_s, value = front.value + side.length;
     const bool conduit = (side.end_c == 0) & (side.end_s == 0);
-    accept<kLabelled>(e.end, {front.value + side.length, conduit ? front.value + side.length : front.value, x, y},
-                      side.sector, front.label);
-  }
-}
-
-template <class T>
-BRUSHFIRE_INLINE void March<T>::prefetch_after(std::size_t i) const {
-  using detail::prefetch;
-  constexpr std::size_t kRecordAhead = 6, kFrontAhead = 12, kLines = 8, kLine = 64;
-  const Pile& bucket = queue_.current();
-  if (i + kFrontAhead < bucket.size()) {
-    prefetch(&fronts_[bucket[i + kFrontAhead]]);
-    prefetch(&records_.offset[bucket[i + kFrontAhead]]);
-  }
-  if (i + kRecordAhead < bucket.size()) {
-    const std::byte* const at = records_.base() + records_.offset[bucket[i + kRecordAhead]];
-    for (std::size_t k = 0; k < kLines; ++k) prefetch(at + k * kLine);
+    accept<kLabelled>(at.ends[k].end, {value, conduit ? value : front.value, x, y}, side.sector, front.label);
   }
 }
 
@@ -197,8 +206,21 @@ template <class T>
 template <bool kLabelled>
 void March<T>::work_labelled() {
   for (std::size_t i = 0; i < queue_.current().size(); ++i) {
-    prefetch_after(i);
-    const Index v = queue_.current()[i];
+    // Written here: compilers take a function that only asks ahead for one that does nothing.
+    const Pile& bucket = queue_.current();
+    if (i + kFrontAhead < bucket.size()) {
+      prefetch(&fronts_[bucket[i + kFrontAhead]]);
+      prefetch(&records_.offset[bucket[i + kFrontAhead]]);
+    }
+    if (i + kRecordAhead < bucket.size()) {
+      const std::byte* const at = records_.base() + records_.offset[bucket[i + kRecordAhead]];
+      for (std::size_t k = 0; k < kRecordLines; ++k) prefetch(at + k * kCacheLine);
+    }
+    if (i + kEndsAhead < bucket.size()) {
+      const Record<T> record = records_[bucket[i + kEndsAhead]];
+      for (Index k = 0; k < std::min(kUsualSides, record.head().sides); ++k) prefetch(&fronts_[record.ends()[k].end]);
+    }
+    const Index v = bucket[i];
     if (fronts_[v].state == kWaiting) turn<kLabelled>(v);
   }
   queue_.clear_current();

@@ -72,16 +72,27 @@ class March {
   template <bool kLabelled>
   void turn(Index v);
   template <bool kLabelled>
-  void offer(const Turn& at, const SideEnd<T>& target, const Update<T>& u, const Side<T>& to);
+  void offer(const Turn& at, const SideEnd<T>& target, Update u, const Side<T>& to);
   SourceAt<T> see(const Front& f, const Side<T>& side, bool at_end, Index hand, Index lenses, SectorSet dark) const;
   template <bool kLabelled>
   void accept(Index v, const Offer<T>& offer, Index sector, Index label);
-  void prefetch_after(std::size_t i) const;
 
   BucketQueue::Bucket bucket_of(T value) const;
 
+  // Of the turn at hand.
+  struct PlannedOffer {
+    Index side = 0;
+    Update update;
+  };
+  struct Lists {
+    std::vector<Index> ahead, alongs;  // sides
+    std::vector<std::uint8_t> closed;  // by side
+    std::vector<PlannedOffer> offers;
+  };
+
   const Records<T>& records_;
   std::vector<Front> fronts_;
+  Lists lists_;
   BucketQueue queue_;
   Pile touched_;
   T per_unit_ = 1, slack_ = 0, farther_ = 0;

@@ -3,7 +3,6 @@
 #include <brushfire/solvers/carried_source/detail/records.h>
 
 #include <brushfire/core/cancel.h>
-#include <brushfire/core/planar.h>
 #include <brushfire/solvers/carried_source/detail/unrolled.h>
 
 #include <algorithm>
@@ -16,7 +15,7 @@ namespace brushfire::carried_source {
 namespace {
 
 constexpr double kSeamRounding = 1e-9;  // of angles, by far
-constexpr Index kMostSupports = Index{1} << (32 - Update<float>::kSupportShift);
+constexpr Index kMostSupports = Index{1} << (32 - Update::kSupportShift);
 
 struct DraftSide {
   Index end = kNoIndex;
@@ -28,7 +27,6 @@ struct DraftSide {
 struct DraftUpdate {
   Index support = 0, target = 0;
   double length = 0;  // of the edge
-  Vec2 at;
   Hand hand = Hand::Left, hand_there = Hand::Right;
   bool same_turn = true, seam = false;
   Index sector = 0;
@@ -100,7 +98,7 @@ class RecordBuilder {
   // Whether a direction is that of a closed fan's first side, seen as its last.
   bool is_seam(Index v, const Direction& at) const {
     const std::span<const Sector> sectors = fans_.sectors(v);
-    if (at.sector >= sectors.size()) return false;
+    if (at.sector >= sectors.size() || fans_.is_odd(v)) return false;
     return at.angle > sectors[at.sector].around - kSeamRounding;
   }
   Direction shared(Index v, const Direction& at) const { return is_seam(v, at) ? fans_.within(v, at.fan, 0) : at; }
@@ -110,7 +108,6 @@ class RecordBuilder {
     const Index next = Mesh::next(h), previous = Mesh::previous(h);
     const Index own = fans_.side(h, true), other = fans_.side(h, false);
     const double l = mesh_.length(h), k = mesh_.length(previous), across = mesh_.length(next);
-    const double area = mesh_.double_area(Mesh::face_of(h));
     const Index p = mesh_.to(h), q = mesh_.from(previous);
     sides_[own] = {p, l, shared(v, fans_.direction(h, true)), shared(p, fans_.direction(next, false)), false};
     sides_[other] = {q, k, shared(v, fans_.direction(h, false)), shared(q, fans_.direction(previous, true)), false};
@@ -120,7 +117,6 @@ class RecordBuilder {
       DraftUpdate u{own,
                     other,
                     l,
-                    apex_over_edge(l, k, across, area),
                     hand_if(left),
                     hand_if(fans_.corner(next).mirrored),
                     !fans_.corner(previous).mirrored,
@@ -134,7 +130,6 @@ class RecordBuilder {
       DraftUpdate u{other,
                     own,
                     k,
-                    apex_over_edge(k, l, across, area),
                     hand_if(!left),
                     hand_if(!fans_.corner(previous).mirrored),
                     fans_.corner(next).mirrored,
@@ -155,8 +150,6 @@ class RecordBuilder {
     u.support = side(own.side_to_other, {other.vertex, length, own.to_other, other.to_other, false});
     u.target = side(own.side_to_corner, {corner, along, own.to_corner, shared(corner, own.from_corner), false});
     u.length = length;
-    const Vec2 edge = (1 / length) * (other.at - own.at);
-    u.at = {-dot(own.at, edge), std::abs(cross(own.at, edge))};
     u.hand = hand_if(own.same_turn == is_right);
     u.hand_there = hand_if(other.same_turn != is_right);
     u.same_turn = t.corner_same_turn == is_right;
@@ -218,20 +211,29 @@ class RecordBuilder {
     head_ = {};
     head_.sides = static_cast<Index>(sides_.size());
     for (const DraftUpdate& u : updates_) head_.reach = std::max(head_.reach, static_cast<T>(u.length));
+    out_.most_sides = std::max(out_.most_sides, head_.sides);
+    out_.most_updates = std::max(out_.most_updates, static_cast<Index>(updates_.size()));
     set_optics(v);
     put(&head_, 1);
     put_ends();
-    align(alignof(Side<T>));
+    put_updates();
+    align();
     put(full_sides_.data(), full_sides_.size());
     if (head_.has_dark) put(dark_.data(), dark_.size());
     if (head_.has_lenses) put(lens_numbers_.data(), lens_numbers_.size());
+  }
+
+  void put_updates() {
     for (const DraftUpdate& u : updates_) {
-      Update<T> packed{static_cast<T>(u.at.x), static_cast<T>(u.at.y), u.support << Update<T>::kSupportShift};
-      packed.bits |= u.sector << Update<T>::kSectorShift;
-      packed.bits |= u.hand == Hand::Right ? Update<T>::kHere : 0;
-      packed.bits |= u.hand_there == Hand::Right ? Update<T>::kThere : 0;
-      packed.bits |= u.same_turn ? Update<T>::kSameTurn : 0;
-      packed.bits |= u.seam ? Update<T>::kSeam : 0;
+      Update packed{u.support << Update::kSupportShift};
+      packed.bits |= u.sector << Update::kSectorShift;
+      packed.bits |= u.hand == Hand::Right ? Update::kHere : 0;
+      packed.bits |= u.hand_there == Hand::Right ? Update::kThere : 0;
+      packed.bits |= u.same_turn ? Update::kSameTurn : 0;
+      packed.bits |= u.seam ? Update::kSeam : 0;
+      // The target is less than half a turn away: if it seems to lie on the other hand, the angles began anew.
+      const double turn = sides_[u.target].here.angle - sides_[u.support].here.angle;
+      packed.bits |= (u.hand == Hand::Left ? turn < -kSeamRounding : turn > kSeamRounding) ? Update::kAcross : 0;
       put(&packed, 1);
     }
   }
@@ -300,8 +302,8 @@ class RecordBuilder {
     out_.data.resize(size + count * sizeof(U));
     if (count > 0) std::memcpy(out_.data.data() + size, from, count * sizeof(U));
   }
-  void align(std::size_t to = alignof(Side<T>)) {
-    while (out_.data.size() % to != 0) out_.data.push_back(std::byte{0});
+  void align() {
+    while (out_.data.size() % alignof(Side<T>) != 0) out_.data.push_back(std::byte{0});
   }
 
   const Mesh& mesh_;

@@ -41,22 +41,22 @@ struct LensNumbers {
   Index here[2], end[2];  // kNoIndex: the sets say it
 };
 
-// Over the edge to the end of the side `support`, to (x, y) in that edge's frame.
-template <class T>
+// Over the edge to the end of the side `support`, to the end of the side whose update it is.
 struct Update {
-  T x = 0, y = 0;
   std::uint32_t bits = 0;
 
-  static constexpr std::uint32_t kHere = 1, kThere = 2, kSameTurn = 4, kSeam = 8;
-  static constexpr int kSectorShift = 4, kSupportShift = 8;
+  static constexpr std::uint32_t kHere = 1, kThere = 2, kSameTurn = 4, kSeam = 8, kAcross = 16;
+  static constexpr int kSectorShift = 5, kSupportShift = 9;
   Index support() const { return bits >> kSupportShift; }
   Index sector() const { return bits >> kSectorShift & 15u; }  // of the target, that the offer comes through
   Index hand() const { return bits & kHere; }                  // of the target, seen from the vertex
   Index hand_there() const { return bits >> 1 & 1u; }          // seen from the support's end
-  // Whether the target's angles run the same way round as the edge's frame.
+  // Whether the target's angles run the same way round as the frame of the edge in which the target is above.
   bool same_turn() const { return (bits & kSameTurn) != 0; }
   // Whether the way back to the vertex is the last side of the target's fan, at the sum of all angles.
   bool seam() const { return (bits & kSeam) != 0; }
+  // Whether the first side of the vertex's own fan lies between support and target, or is one of them as the last.
+  bool across() const { return (bits & kAcross) != 0; }
 };
 
 template <class T>
@@ -81,16 +81,14 @@ class Record {
   BRUSHFIRE_INLINE const SideEnd<T>* ends() const {
     return reinterpret_cast<const SideEnd<T>*>(at_ + sizeof(RecordHead<T>));
   }
+  BRUSHFIRE_INLINE const Update* updates() const { return reinterpret_cast<const Update*>(ends() + head().sides + 1); }
   BRUSHFIRE_INLINE const Side<T>* sides() const {
-    const auto at = reinterpret_cast<std::uintptr_t>(ends() + head().sides + 1);
+    const auto at = reinterpret_cast<std::uintptr_t>(updates() + ends()[head().sides].first_update);
     return reinterpret_cast<const Side<T>*>((at + alignof(Side<T>) - 1) / alignof(Side<T>) * alignof(Side<T>));
   }
   BRUSHFIRE_INLINE const DarkSets* dark() const { return reinterpret_cast<const DarkSets*>(sides() + head().sides); }
   BRUSHFIRE_INLINE const LensNumbers* lenses() const {
     return reinterpret_cast<const LensNumbers*>(dark() + (head().has_dark ? head().sides : 0));
-  }
-  BRUSHFIRE_INLINE const Update<T>* updates() const {
-    return reinterpret_cast<const Update<T>*>(lenses() + (head().has_lenses ? head().sides : 0));
   }
 
  private:
@@ -100,8 +98,9 @@ class Record {
 template <class T>
 struct Records {
   Index vertex_count = 0;
-  double mean_edge = 1;               // in mesh.unit()
-  std::vector<std::uint64_t> offset;  // [vertex_count + 1] in bytes
+  Index most_sides = 0, most_updates = 0;  // of a vertex
+  double mean_edge = 1;                    // in mesh.unit()
+  std::vector<std::uint64_t> offset;       // [vertex_count + 1] in bytes
   UninitializedArray<std::byte> data;
   std::vector<Around<T>> around;  // [vertex_count]
   std::vector<Lenses> lenses;
