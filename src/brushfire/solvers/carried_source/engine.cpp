@@ -32,14 +32,14 @@ class Marcher {
     for (const LocatedSource& s : problem.sources) sources_.push_back({local_.location(s.at), s.offset, s.label});
     targets_.clear();
     for (const PointLocation& at : problem.targets) targets_.push_back(local_.location(at));
-    start();
+    start(problem.max_distance);
     march(problem);
     for (std::size_t i = 0; i < targets_.size(); ++i) evaluate(i, field);
     write(problem, field);
   }
 
  private:
-  void start() {
+  void start(double max_distance) {
     march_.reset();
     final_ = kInfinity;
     base_ = kInfinity;
@@ -47,7 +47,7 @@ class Marcher {
     march_.label_fronts(sources_.size() > 1);
     for (const LocatedSource& s : sources_) {
       const double offset = s.offset - base_;
-      for (const Points::Near& n : points_.around(s.at)) {
+      for (const Points::Near& n : points_.around(s.at, records_.most_unrolled, max_distance - s.offset)) {
         const auto value = static_cast<T>(offset + n.distance);
         march_.begin_at({n.vertex, value, n.seen ? static_cast<T>(offset) : value, static_cast<T>(n.to_source.x),
                          static_cast<T>(n.to_source.y), n.sector, s.label});

@@ -202,26 +202,35 @@ BRUSHFIRE_INLINE void March<T>::turn(Index v) {
   }
 }
 
+// In passes: what falls into the bucket while it is worked on has its turn afterwards, by its value. Where edges are
+// much shorter than the bucket is wide, corrections run through it in order then, instead of chasing each other.
 template <class T>
 template <bool kLabelled>
 void March<T>::work_labelled() {
-  for (std::size_t i = 0; i < queue_.current().size(); ++i) {
-    // Written here: compilers take a function that only asks ahead for one that does nothing.
-    const Pile& bucket = queue_.current();
-    if (i + kFrontAhead < bucket.size()) {
-      prefetch(&fronts_[bucket[i + kFrontAhead]]);
-      prefetch(&records_.offset[bucket[i + kFrontAhead]]);
+  for (std::size_t begin = 0, end = 0; (end = queue_.current().size()) > begin; begin = end) {
+    pass_.assign(queue_.current().begin() + begin, queue_.current().end());
+    if (begin > 0) {
+      std::sort(pass_.begin(), pass_.end(), [&](Index v, Index w) {
+        return fronts_[v].value != fronts_[w].value ? fronts_[v].value < fronts_[w].value : v < w;
+      });
     }
-    if (i + kRecordAhead < bucket.size()) {
-      const std::byte* const at = records_.base() + records_.offset[bucket[i + kRecordAhead]];
-      for (std::size_t k = 0; k < kRecordLines; ++k) prefetch(at + k * kCacheLine);
+    for (std::size_t i = 0; i < pass_.size(); ++i) {
+      // Written here: compilers take a function that only asks ahead for one that does nothing.
+      if (i + kFrontAhead < pass_.size()) {
+        prefetch(&fronts_[pass_[i + kFrontAhead]]);
+        prefetch(&records_.offset[pass_[i + kFrontAhead]]);
+      }
+      if (i + kRecordAhead < pass_.size()) {
+        const std::byte* const at = records_.base() + records_.offset[pass_[i + kRecordAhead]];
+        for (std::size_t k = 0; k < kRecordLines; ++k) prefetch(at + k * kCacheLine);
+      }
+      if (i + kEndsAhead < pass_.size()) {
+        const Record<T> record = records_[pass_[i + kEndsAhead]];
+        const Index sides = std::min(kUsualSides, record.head().sides);
+        for (Index k = 0; k < sides; ++k) prefetch(&fronts_[record.ends()[k].end]);
+      }
+      if (fronts_[pass_[i]].state == kWaiting) turn<kLabelled>(pass_[i]);
     }
-    if (i + kEndsAhead < bucket.size()) {
-      const Record<T> record = records_[bucket[i + kEndsAhead]];
-      for (Index k = 0; k < std::min(kUsualSides, record.head().sides); ++k) prefetch(&fronts_[record.ends()[k].end]);
-    }
-    const Index v = bucket[i];
-    if (fronts_[v].state == kWaiting) turn<kLabelled>(v);
   }
   queue_.clear_current();
 }

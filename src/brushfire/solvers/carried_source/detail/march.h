@@ -26,7 +26,7 @@ template <class T>
 class March {
  public:
   static constexpr T kUnreached = std::numeric_limits<T>::infinity();
-  static constexpr int kMostTurns = 8;
+  static constexpr int kMostTurns = 16;
 
   explicit March(const Records<T>& records);
 
@@ -95,6 +95,7 @@ class March {
   Lists lists_;
   BucketQueue queue_;
   Pile touched_;
+  std::vector<Index> pass_;
   T per_unit_ = 1, slack_ = 0, farther_ = 0;
   bool labelled_ = false;
   std::uint64_t turns_ = 0, updates_ = 0;

@@ -30,7 +30,7 @@ void Points::add_face(Index f, const std::array<double, 3>& weights) {
   }
 }
 
-std::span<const Points::Near> Points::around(const PointLocation& at) {
+std::span<const Points::Near> Points::around(const PointLocation& at, int crossings, double limit) {
   near_.clear();
   if (at.on == PointLocation::On::Vertex) {
     near_.push_back({at.vertex, 0, {}, true, 0});
@@ -49,6 +49,14 @@ std::span<const Points::Near> Points::around(const PointLocation& at) {
       add_face(Mesh::face_of(g), weights);
       g = mesh_.opposite(g);
     } while (g != h);
+  }
+  if (at.on == PointLocation::On::Vertex) return near_;
+  for (const detail::Seed& s : seeds_.in_sight(mesh_, at, crossings, limit)) {
+    if (s.corner == kNoIndex) continue;
+    const FanCorner& corner = fans().corner(s.corner);
+    const double angle = corner.mirrored ? corner.high - s.turn : corner.low + s.turn;
+    near_.push_back(
+        {s.vertex, s.distance, {s.distance * std::cos(angle), s.distance * std::sin(angle)}, true, corner.sector});
   }
   return near_;
 }

@@ -24,8 +24,10 @@ class Points {
     bool seen = true;  // false: the direction has no meaning, the vertex becomes a source of its own
     Index sector = 0;
   };
-  // Lasts until the next call.
-  std::span<const Near> around(const PointLocation& at);
+  // The corners of its faces; of a point that is no vertex also those that it sees across up to `crossings` edges, not
+  // farther than `limit`: an obtuse corner is offered nothing over its own edge, behind which the point may lie. Lasts
+  // until the next call.
+  std::span<const Near> around(const PointLocation& at, int crossings, double limit);
 
   // The vertices at the corners of all faces that hold the point, and how far they are.
   std::span<const detail::Seed> corners(const PointLocation& at) { return seeds_.in_own_faces(mesh_, at); }

@@ -82,7 +82,9 @@ class RecordBuilder {
       poll_();
       sum_of_lengths_ += mesh_.length(h);
       if (!mesh_.is_face_usable(Mesh::face_of(h)) || !unroller_.is_obtuse(h)) continue;
-      split_[h] = unroller_.unroll(h, triangles_);
+      int crossed = 0;
+      split_[h] = unroller_.unroll(h, triangles_, crossed);
+      out_.most_unrolled = std::max(out_.most_unrolled, crossed);
     }
     for (const UnrolledTriangle& t : triangles_) ++count[t.right.vertex], ++count[t.left.vertex];
     begin_.assign(1, 0);

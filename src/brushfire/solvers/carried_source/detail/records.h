@@ -99,6 +99,7 @@ template <class T>
 struct Records {
   Index vertex_count = 0;
   Index most_sides = 0, most_updates = 0;  // of a vertex
+  int most_unrolled = 0;                   // faces behind one obtuse corner
   double mean_edge = 1;                    // in mesh.unit()
   std::vector<std::uint64_t> offset;       // [vertex_count + 1] in bytes
   UninitializedArray<std::byte> data;

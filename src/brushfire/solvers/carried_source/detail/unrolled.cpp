@@ -47,7 +47,7 @@ UnrolledEnd Unroller::end(Index corner, const Anchor& at, const Anchor& other, I
   return e;
 }
 
-bool Unroller::unroll(Index corner, std::vector<UnrolledTriangle>& triangles) const {
+bool Unroller::unroll(Index corner, std::vector<UnrolledTriangle>& triangles, int& crossed) const {
   const Index across = Mesh::next(corner), third = Mesh::previous(corner);
   const double to_right = mesh_.length(corner), to_left = mesh_.length(third);
   const bool same_turn = !fans_.corner(corner).mirrored;
@@ -57,9 +57,10 @@ bool Unroller::unroll(Index corner, std::vector<UnrolledTriangle>& triangles) co
   right.side_to_corner = fans_.side(across, false), left.side_to_corner = fans_.side(third, true);
   Anchor right_end = right, left_end = left;
   Index over = across;
-  for (int crossed = 0; crossed < kMostFaces && mesh_.length(over) > 0; ++crossed) {
+  for (crossed = 0; crossed < kMostFaces && mesh_.length(over) > 0;) {
     const Index g = mesh_.neighbour(over);
     if (g == over) return false;
+    ++crossed;
     // The face behind, counter-clockwise in the plane: left end, right end, apex; `g` runs that way unless mirrored.
     const bool mirrored = mesh_.from(g) != left_end.vertex;
     const Index to_apex_from_left = mirrored ? Mesh::next(g) : Mesh::previous(g);

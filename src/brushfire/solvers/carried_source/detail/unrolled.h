@@ -32,8 +32,9 @@ class Unroller {
 
   bool is_obtuse(Index corner) const;
   // Appends the triangles that split the angle at an obtuse corner. Whether they split it into acute ones; false where
-  // it ended before: at a boundary, at an edge of more faces, after kMostFaces.
-  bool unroll(Index corner, std::vector<UnrolledTriangle>& triangles) const;
+  // it ended before: at a boundary, at an edge of more faces, after kMostFaces. `crossed`: how many
+  // faces it looked at.
+  bool unroll(Index corner, std::vector<UnrolledTriangle>& triangles, int& crossed) const;
 
  private:
   static constexpr int kMostFaces = 64;
