@@ -59,7 +59,7 @@ class Marcher {
     const double last = last_front(problem);
     std::size_t first_open_target = 0;
     while (march_.advance()) {
-      const double front = base_ + static_cast<double>(march_.front());
+      const double front = base_ + static_cast<double>(march_.settled());
       while (first_open_target < targets_.size() && is_final(targets_[first_open_target], front)) ++first_open_target;
       const bool all_final = !targets_.empty() && first_open_target == targets_.size();
       if (front > last || all_final) {

@@ -17,6 +17,9 @@ constexpr double kSlack = 0.02;
 // Of two sources that give the same value the one that is farther by this foretells more vertices rightly: a ray that
 // passes a vertex closely ties, in rounding, with the way through that vertex.
 constexpr double kFarther = 0.1;
+// How far the front is ahead of values that no longer change. Near sources, and where edges are long, a vertex may be
+// reached over an edge one end of which is farther than itself, and so late. Flat meshes stay exact with this.
+constexpr double kSettling = 2;
 
 template <class T>
 constexpr T kNews = 1 - 4 * kEpsilon<T>;
@@ -47,6 +50,7 @@ March<T>::March(const Records<T>& records) : records_(records), fronts_(records.
   lists_.closed.resize(records.most_sides), lists_.offers.resize(records.most_updates + 1);
   per_unit_ = static_cast<T>(1 / (kBucketWidth * records.mean_edge));
   slack_ = static_cast<T>(kSlack * records.mean_edge);
+  settling_ = static_cast<T>(kSettling * records.mean_edge);
   farther_ = static_cast<T>(kFarther * records.mean_edge);
 }
 
@@ -61,6 +65,7 @@ void March<T>::reset() {
   touched_.clear();
   queue_.reset();
   turns_ = updates_ = 0;
+  settled_ = 0;
 }
 
 template <class T>
@@ -85,6 +90,7 @@ template <class T>
 template <bool kLabelled>
 BRUSHFIRE_INLINE void March<T>::accept(Index v, const Offer<T>& o, Index sector, Index label) {
   Front& f = fronts_[v];
+  if (f.value < settled_) return;
   const bool news = o.value < f.value * kNews<T>;
   const bool tie = (o.value < f.value * kTie<T>)&(o.sigma < f.sigma - farther_);
   bool lower_label = false;
@@ -237,6 +243,7 @@ void March<T>::work_labelled() {
 
 template <class T>
 void March<T>::work() {
+  settled_ = settled();
   if (labelled_) {
     work_labelled<true>();
   } else {

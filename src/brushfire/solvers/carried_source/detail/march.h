@@ -40,6 +40,8 @@ class March {
   bool advance() { return queue_.advance(); }
   // No vertex that still waits lies before it.
   T front() const { return static_cast<T>(queue_.cursor()) / per_unit_; }
+  // Values below no longer change.
+  T settled() const { return front() - settling_; }
   void work();
 
   T value(Index v) const { return fronts_[v].value; }
@@ -96,7 +98,7 @@ class March {
   BucketQueue queue_;
   Pile touched_;
   std::vector<Index> pass_;
-  T per_unit_ = 1, slack_ = 0, farther_ = 0;
+  T per_unit_ = 1, slack_ = 0, farther_ = 0, settling_ = 0, settled_ = 0;
   bool labelled_ = false;
   std::uint64_t turns_ = 0, updates_ = 0;
 };
