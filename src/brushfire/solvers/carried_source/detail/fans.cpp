@@ -11,18 +11,17 @@ namespace {
 
 constexpr double kNotYet = -1;  // of a corner that is in no fan
 
-double angle_at(const Mesh& mesh, Index h) {
-  const double a = mesh.length(h), b = mesh.length(Mesh::previous(h)), c = mesh.length(Mesh::next(h));
+// At the corner between sides a and b, c opposite.
+double angle_between(double a, double b, double c, double double_area) {
   const double shorter = std::min(a, b), longer = std::max(a, b);
   const double dot = 0.5 * (shorter * shorter + (longer - c) * (longer + c));  // keeps digits in needles
-  return std::atan2(mesh.double_area(Mesh::face_of(h)), dot);
+  return std::atan2(double_area, dot);
 }
 
 }  // namespace
 
-Fans::Fans(const Mesh& mesh) : mesh_(mesh), opposite_(mesh.opposite()) {
-  static_cast<void>(mesh.lengths());  // of all: angles are asked for one by one
-  static_cast<void>(mesh.double_areas());
+Fans::Fans(const Mesh& mesh)
+    : mesh_(mesh), opposite_(mesh.opposite()), lengths_(mesh.lengths()), areas_(mesh.double_areas()) {
   corners_.resize(mesh.halfedge_count());
   for (FanCorner& c : corners_) c.high = kNotYet;
   side_count_.resize(mesh.vertex_count());
@@ -102,7 +101,8 @@ Index Fans::lay_out(const Range& range, Index fan, Index side, bool ends_meet) {
     c.first_side = side++;
     c.last_side = side;
     c.low = angle;
-    angle += angle_at(mesh_, all_[k].corner);
+    const Index h = all_[k].corner;
+    angle += angle_between(lengths_[h], lengths_[Mesh::previous(h)], lengths_[Mesh::next(h)], areas_[Mesh::face_of(h)]);
     c.high = angle;
   }
   if (ends_meet) corners_[all_[range.end - 1].corner].last_side = first_side;

@@ -89,6 +89,7 @@ class Fans {
 
   const Mesh& mesh_;
   std::span<const Index> opposite_;
+  std::span<const double> lengths_, areas_;
   std::vector<FanCorner> corners_;  // by halfedge
   std::vector<Sector> sectors_;
   std::vector<Index> sector_begin_, side_count_;

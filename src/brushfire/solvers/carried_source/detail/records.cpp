@@ -3,25 +3,25 @@
 #include <brushfire/solvers/carried_source/detail/records.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/solvers/carried_source/detail/optics.h>
 #include <brushfire/solvers/carried_source/detail/unrolled.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <unordered_map>
+#include <tuple>
 
 namespace brushfire::carried_source {
 namespace {
 
-constexpr double kSeamRounding = 1e-9;  // of angles, by far
+constexpr double kTurnRounding = 1e-9;  // of angles, by far
 constexpr Index kMostSupports = Index{1} << (32 - Update::kSupportShift);
 
 struct DraftSide {
   Index end = kNoIndex;
   double length = 0;
-  Direction here, there;
-  bool conduit = false;  // along the edge of a face that names a vertex twice: without a direction
+  Optic here, there;  // all 0 along the edge of a face that names a vertex twice: it has no direction
 };
 
 struct DraftUpdate {
@@ -53,17 +53,18 @@ void set_need(double along, double from_other, DraftUpdate& u) {
 template <class T>
 class RecordBuilder {
  public:
-  explicit RecordBuilder(const Mesh& mesh) : mesh_(mesh), fans_(mesh), unroller_(mesh, fans_) {}
+  explicit RecordBuilder(const Mesh& mesh)
+      : mesh_(mesh), fans_(mesh), lengths_(mesh.lengths()), optics_(mesh, fans_), unroller_(mesh, fans_) {}
 
   Records<T> build() {
     out_.vertex_count = mesh_.vertex_count();
-    out_.lenses.emplace_back();  // number 0: nothing comes through
     unroll_all();
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       poll_();
       write(v);
     }
     out_.offset.push_back(out_.data.size());
+    out_.lenses = optics_.take_lenses();
     if (mesh_.halfedge_count() > 0 && sum_of_lengths_ > 0) {
       out_.mean_edge = sum_of_lengths_ / static_cast<double>(mesh_.halfedge_count());
     }
@@ -80,7 +81,7 @@ class RecordBuilder {
     std::vector<Index> count(mesh_.vertex_count() + std::size_t{1}, 0);
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
       poll_();
-      sum_of_lengths_ += mesh_.length(h);
+      sum_of_lengths_ += lengths_[h];
       if (!mesh_.is_face_usable(Mesh::face_of(h)) || !unroller_.is_obtuse(h)) continue;
       int crossed = 0;
       split_[h] = unroller_.unroll(h, triangles_, crossed);
@@ -97,49 +98,36 @@ class RecordBuilder {
     }
   }
 
-  // Whether a direction is that of a closed fan's first side, seen as its last.
-  bool is_seam(Index v, const Direction& at) const {
-    const std::span<const Sector> sectors = fans_.sectors(v);
-    if (at.sector >= sectors.size() || fans_.is_odd(v)) return false;
-    return at.angle > sectors[at.sector].around - kSeamRounding;
-  }
-  Direction shared(Index v, const Direction& at) const { return is_seam(v, at) ? fans_.within(v, at.fan, 0) : at; }
-
   // The sides and updates of v inside one of its faces.
   void add_face(Index v, Index h) {
     const Index next = Mesh::next(h), previous = Mesh::previous(h);
     const Index own = fans_.side(h, true), other = fans_.side(h, false);
-    const double l = mesh_.length(h), k = mesh_.length(previous), across = mesh_.length(next);
+    const double l = lengths_[h], k = lengths_[previous], across = lengths_[next];
     const Index p = mesh_.to(h), q = mesh_.from(previous);
-    sides_[own] = {p, l, shared(v, fans_.direction(h, true)), shared(p, fans_.direction(next, false)), false};
-    sides_[other] = {q, k, shared(v, fans_.direction(h, false)), shared(q, fans_.direction(previous, true)), false};
-    const bool left = !fans_.corner(h).mirrored;
+    const auto set = [&](Index number, Index end, double length, Index number_there) {
+      DraftSide& side = sides_[number];
+      if (side.end == kNoIndex) side = {end, length, optics_.side(v, number), optics_.side(end, number_there)};
+    };
+    set(own, p, l, fans_.side(next, false));
+    set(other, q, k, fans_.side(previous, true));
+    const bool mirrored = fans_.corner(h).mirrored;
+    const FanCorner &at_p = fans_.corner(next), &at_q = fans_.corner(previous);
     if (l > 0 && !split_[previous]) {
-      const Direction back = fans_.direction(previous, true);
-      DraftUpdate u{own,
-                    other,
-                    l,
-                    hand_if(left),
-                    hand_if(fans_.corner(next).mirrored),
-                    !fans_.corner(previous).mirrored,
-                    is_seam(q, back),
-                    back.sector};
-      set_need(k, across, u);
-      updates_.push_back(u);
+      DraftUpdate u{own, other, l, hand_if(!mirrored), hand_if(at_p.mirrored), !at_q.mirrored};
+      set_target(q, fans_.direction(previous, true), k, across, u);
     }
     if (k > 0 && !split_[next]) {
-      const Direction back = fans_.direction(next, false);
-      DraftUpdate u{other,
-                    own,
-                    k,
-                    hand_if(!left),
-                    hand_if(!fans_.corner(previous).mirrored),
-                    fans_.corner(next).mirrored,
-                    is_seam(p, back),
-                    back.sector};
-      set_need(l, across, u);
-      updates_.push_back(u);
+      DraftUpdate u{other, own, k, hand_if(mirrored), hand_if(!at_q.mirrored), at_p.mirrored};
+      set_target(p, fans_.direction(next, false), l, across, u);
     }
+  }
+
+  // `back`: of the target, to v.
+  void set_target(Index target, const Direction& back, double along, double from_other, DraftUpdate& u) {
+    u.seam = optics_.is_seam(target, back);
+    u.sector = back.sector;
+    set_need(along, from_other, u);
+    updates_.push_back(u);
   }
 
   // What v, the right or the left one of an unrolled triangle, offers to its corner.
@@ -149,37 +137,34 @@ class RecordBuilder {
     const double length = norm(other.at - own.at), along = norm(own.at);
     if (!(length > 0)) return;
     DraftUpdate u;
-    u.support = side(own.side_to_other, {other.vertex, length, own.to_other, other.to_other, false});
-    u.target = side(own.side_to_corner, {corner, along, own.to_corner, shared(corner, own.from_corner), false});
+    u.support = side(own.side_to_other, other.vertex, length, own.to_other, other.to_other);
+    u.target = side(own.side_to_corner, corner, along, own.to_corner, own.from_corner);
     u.length = length;
     u.hand = hand_if(own.same_turn == is_right);
     u.hand_there = hand_if(other.same_turn != is_right);
     u.same_turn = t.corner_same_turn == is_right;
-    u.seam = is_seam(corner, own.from_corner);
-    u.sector = own.from_corner.sector;
-    set_need(along, norm(other.at), u);
-    updates_.push_back(u);
+    set_target(corner, own.from_corner, along, norm(other.at), u);
   }
 
   // The number of a side, of a fan or of its own; those of one unrolling follow each other.
-  Index side(Index of_fan, const DraftSide& draft) {
+  Index side(Index of_fan, Index end, double length, const Direction& here, const Direction& there) {
     if (of_fan != kNoIndex) return of_fan;
     constexpr std::size_t kRecent = 4;
     const std::size_t own = sides_.size() - fans_.side_count(at_);
     for (std::size_t i = 0; i < std::min(own, kRecent); ++i) {
       const DraftSide& s = sides_[sides_.size() - 1 - i];
-      if (s.end == draft.end && s.length == draft.length && s.here.angle == draft.here.angle && !s.conduit) {
+      if (s.end == end && s.length == length && s.here.angle == here.angle) {
         return static_cast<Index>(sides_.size() - 1 - i);
       }
     }
-    sides_.push_back(draft);
+    sides_.push_back({end, length, optics_.of(at_, here), optics_.of(end, there)});
     return static_cast<Index>(sides_.size() - 1);
   }
 
   void add_conduits(Index v, Index h) {
     for (const Index g : {h, Mesh::previous(h)}) {
       const Index end = mesh_.from(g) == v ? mesh_.to(g) : mesh_.from(g);
-      if (end != v) sides_.push_back({end, mesh_.length(g), {}, {}, true});
+      if (end != v) sides_.push_back({end, lengths_[g], {}, {}});
     }
   }
 
@@ -195,8 +180,9 @@ class RecordBuilder {
     for (const Index h : mesh_.corners(v)) {
       if (!mesh_.is_face_usable(Mesh::face_of(h))) add_conduits(v, h);
     }
-    std::stable_sort(updates_.begin(), updates_.end(),
-                     [](const DraftUpdate& a, const DraftUpdate& b) { return a.target < b.target; });
+    const auto order = [](const DraftUpdate& u) { return std::tie(u.target, u.support, u.sector, u.length); };
+    std::sort(updates_.begin(), updates_.end(),
+              [&](const DraftUpdate& a, const DraftUpdate& b) { return order(a) < order(b); });
     const auto beyond = [](const DraftUpdate& u) { return u.support >= kMostSupports; };
     updates_.erase(std::remove_if(updates_.begin(), updates_.end(), beyond), updates_.end());
     put_record(v);
@@ -215,7 +201,7 @@ class RecordBuilder {
     for (const DraftUpdate& u : updates_) head_.reach = std::max(head_.reach, static_cast<T>(u.length));
     out_.most_sides = std::max(out_.most_sides, head_.sides);
     out_.most_updates = std::max(out_.most_updates, static_cast<Index>(updates_.size()));
-    set_optics(v);
+    set_optics();
     put(&head_, 1);
     put_ends();
     put_updates();
@@ -235,7 +221,7 @@ class RecordBuilder {
       packed.bits |= u.seam ? Update::kSeam : 0;
       // The target is less than half a turn away: if it seems to lie on the other hand, the angles began anew.
       const double turn = sides_[u.target].here.angle - sides_[u.support].here.angle;
-      packed.bits |= (u.hand == Hand::Left ? turn < -kSeamRounding : turn > kSeamRounding) ? Update::kAcross : 0;
+      packed.bits |= (u.hand == Hand::Left ? turn < -kTurnRounding : turn > kTurnRounding) ? Update::kAcross : 0;
       put(&packed, 1);
     }
   }
@@ -255,7 +241,7 @@ class RecordBuilder {
     put(&last, 1);
   }
 
-  void set_optics(Index v) {
+  void set_optics() {
     full_sides_.assign(sides_.size(), {});
     dark_.assign(sides_.size(), {});
     lens_numbers_.assign(sides_.size(), {{kNoIndex, kNoIndex}, {kNoIndex, kNoIndex}});
@@ -263,37 +249,16 @@ class RecordBuilder {
       const DraftSide& d = sides_[k];
       Side<T>& s = full_sides_[k];
       s.length = static_cast<T>(d.length);
-      if (d.conduit) {
-        s.c = s.s = s.end_c = s.end_s = 0;
-        continue;
-      }
-      s.c = static_cast<T>(std::cos(d.here.angle)), s.s = static_cast<T>(std::sin(d.here.angle));
-      s.end_c = static_cast<T>(std::cos(d.there.angle)), s.end_s = static_cast<T>(std::sin(d.there.angle));
+      s.c = static_cast<T>(d.here.c), s.s = static_cast<T>(d.here.s);
+      s.end_c = static_cast<T>(d.there.c), s.end_s = static_cast<T>(d.there.s);
       s.sector = static_cast<std::uint8_t>(d.there.sector);
-      set_optics(v, d.here, s.turned, dark_[k].here, lens_numbers_[k].here);
-      set_optics(d.end, d.there, s.end_turned, dark_[k].end, lens_numbers_[k].end);
-      for (const SectorSet set : {dark_[k].here[0], dark_[k].here[1], dark_[k].end[0], dark_[k].end[1]}) {
-        head_.has_dark |= set != 0;
+      for (int i = 0; i < 2; ++i) {
+        s.turned[i] = d.here.sets.turned[i], s.end_turned[i] = d.there.sets.turned[i];
+        dark_[k].here[i] = d.here.sets.dark[i], dark_[k].end[i] = d.there.sets.dark[i];
+        lens_numbers_[k].here[i] = d.here.lenses[i], lens_numbers_[k].end[i] = d.there.lenses[i];
+        head_.has_dark |= (d.here.sets.dark[i] | d.there.sets.dark[i]) != 0;
+        head_.has_lenses |= d.here.lenses[i] != kNoIndex || d.there.lenses[i] != kNoIndex;
       }
-    }
-  }
-
-  void set_optics(Index v, const Direction& at, SectorSet* turned, SectorSet* dark, Index* lenses) {
-    if (!fans_.is_odd(v)) {
-      const SightSets sets = sight_of(fans_.sectors(v), at.angle);
-      for (int i = 0; i < 2; ++i) turned[i] = sets.turned[i], dark[i] = sets.dark[i];
-      return;
-    }
-    head_.has_lenses = 1;
-    const auto [ends, is_new] = fan_ends_.try_emplace(v);
-    if (is_new) ends->second = ends_of_fans(mesh_, fans_, v);
-    for (const Hand hand : {Hand::Left, Hand::Right}) {
-      const auto i = static_cast<std::size_t>(hand);
-      turned[i] = dark[i] = 0;
-      const Lenses through = lenses_of(fans_.sectors(v), ends->second, at, hand);
-      const bool some = std::any_of(through.begin(), through.end(), [](const Lens& l) { return l.lit; });
-      lenses[i] = some ? static_cast<Index>(out_.lenses.size()) : 0;
-      if (some) out_.lenses.push_back(through);
     }
   }
 
@@ -310,12 +275,13 @@ class RecordBuilder {
 
   const Mesh& mesh_;
   Fans fans_;
+  std::span<const double> lengths_;  // by halfedge
+  Optics optics_;
   Unroller unroller_;
   Poll poll_;
   Records<T> out_;
   double sum_of_lengths_ = 0;
-  std::unordered_map<Index, std::vector<FanEnd>> fan_ends_;  // of odd vertices
-  std::vector<bool> split_;                                  // by corner: obtuse, and unrolled into acute ones
+  std::vector<bool> split_;  // by corner: obtuse, and unrolled into acute ones
   std::vector<UnrolledTriangle> triangles_;
   struct Share {
     std::size_t triangle = 0;

@@ -21,8 +21,8 @@ Index side_along(const Mesh& mesh, const Fans& fans, Index h, Index vertex) {
 }  // namespace
 
 bool Unroller::is_obtuse(Index corner) const {
-  const double a = mesh_.length(corner), b = mesh_.length(Mesh::previous(corner));
-  const double across = mesh_.length(Mesh::next(corner));
+  const double a = lengths_[corner], b = lengths_[Mesh::previous(corner)];
+  const double across = lengths_[Mesh::next(corner)];
   return a > 0 && b > 0 && a * a + b * b < across * across * (1 - kRightAngle);
 }
 
@@ -49,15 +49,15 @@ UnrolledEnd Unroller::end(Index corner, const Anchor& at, const Anchor& other, I
 
 bool Unroller::unroll(Index corner, std::vector<UnrolledTriangle>& triangles, int& crossed) const {
   const Index across = Mesh::next(corner), third = Mesh::previous(corner);
-  const double to_right = mesh_.length(corner), to_left = mesh_.length(third);
+  const double to_right = lengths_[corner], to_left = lengths_[third];
   const bool same_turn = !fans_.corner(corner).mirrored;
-  Vec2 at_left = apex_over_edge(to_right, to_left, mesh_.length(across), mesh_.double_area(Mesh::face_of(corner)));
+  Vec2 at_left = apex_over_edge(to_right, to_left, lengths_[across], mesh_.double_area(Mesh::face_of(corner)));
   // What is left of the angle lies between right and left; the edge between right_end and left_end is crossed next.
   Anchor right = anchor(across, false, {to_right, 0}, at_left), left = anchor(third, false, at_left, {0, 0});
   right.side_to_corner = fans_.side(across, false), left.side_to_corner = fans_.side(third, true);
   Anchor right_end = right, left_end = left;
   Index over = across;
-  for (crossed = 0; crossed < kMostFaces && mesh_.length(over) > 0;) {
+  for (crossed = 0; crossed < kMostFaces && lengths_[over] > 0;) {
     const Index g = mesh_.neighbour(over);
     if (g == over) return false;
     ++crossed;
@@ -67,9 +67,9 @@ bool Unroller::unroll(Index corner, std::vector<UnrolledTriangle>& triangles, in
     const Index to_apex_from_right = mirrored ? Mesh::previous(g) : Mesh::next(g);
     const Index at_apex = Mesh::previous(g), apex = mesh_.from(at_apex);
     if (apex == mesh_.from(corner)) return false;
-    const Vec2 own = apex_over_edge(mesh_.length(g), mesh_.length(to_apex_from_left), mesh_.length(to_apex_from_right),
+    const Vec2 own = apex_over_edge(lengths_[g], lengths_[to_apex_from_left], lengths_[to_apex_from_right],
                                     mesh_.double_area(Mesh::face_of(g)));
-    const Vec2 along = (1 / mesh_.length(g)) * (right_end.at - left_end.at);
+    const Vec2 along = (1 / lengths_[g]) * (right_end.at - left_end.at);
     const Vec2 at = left_end.at + own.x * along + own.y * Vec2{-along.y, along.x};
     // At the apex the next vertex counter-clockwise is the left end.
     const Anchor behind = anchor(at_apex, mirrored, at, left_end.at);

@@ -28,7 +28,7 @@ struct UnrolledTriangle {
 
 class Unroller {
  public:
-  Unroller(const Mesh& mesh, const Fans& fans) : mesh_(mesh), fans_(fans) {}
+  Unroller(const Mesh& mesh, const Fans& fans) : mesh_(mesh), fans_(fans), lengths_(mesh.lengths()) {}
 
   bool is_obtuse(Index corner) const;
   // Appends the triangles that split the angle at an obtuse corner. Whether they split it into acute ones; false where
@@ -54,6 +54,7 @@ class Unroller {
 
   const Mesh& mesh_;
   const Fans& fans_;
+  std::span<const double> lengths_;
 };
 
 }  // namespace brushfire::carried_source
