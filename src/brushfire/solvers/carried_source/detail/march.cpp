@@ -26,9 +26,15 @@ constexpr T kNews = 1 - 4 * kEpsilon<T>;
 template <class T>
 constexpr T kTie = 1 + 8 * kEpsilon<T>;
 
+// Without a branch: which it is cannot be foreseen.
+template <class T>
+BRUSHFIRE_INLINE T minus_if(Index one) {
+  return T(1) - T(2) * static_cast<T>(static_cast<int>(one));
+}
+
 using detail::prefetch;
-constexpr std::size_t kFrontAhead = 12, kRecordAhead = 6, kEndsAhead = 3, kRecordLines = 7, kCacheLine = 64;
-constexpr Index kUsualSides = 6;
+constexpr std::size_t kFrontAhead = 16, kRecordAhead = 10, kEndsAhead = 5, kRecordLines = 9, kCacheLine = 64;
+constexpr Index kUsualSides = 8;
 
 }  // namespace
 
@@ -122,7 +128,7 @@ BRUSHFIRE_INLINE SourceAt<T> March<T>::see(const Front& f, const Side<T>& side, 
     const T y = static_cast<T>(lens.yx) * f.x + static_cast<T>(lens.yy) * f.y;
     return source_below<T, bool>(f.value, f.sigma, x, y, false, !lens.lit, 1, 0, 1, 0, 1, side.length);
   }
-  const T c = at_end ? side.end_c : side.c, s = at_end ? side.end_s : side.s, sign = hand == 0 ? T(1) : T(-1);
+  const T c = at_end ? side.end_c : side.c, s = at_end ? side.end_s : side.s, sign = minus_if<T>(hand);
   const SectorSet turned = at_end ? side.end_turned[hand] : side.turned[hand];
   const T turn = sign * f.around.s;
   return source_below<T, bool>(f.value, f.sigma, f.x, f.y, (f.sector & turned) != 0, (f.sector & dark) != 0, c, s,
@@ -141,7 +147,7 @@ BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, 
   SourceAt<T> b = see(other, by, true, there, at.lenses ? at.lenses[support].end[there] : kNoIndex, dark_there);
   b.x = by.length - b.x;
   // The target in the frame of the edge.
-  const T right = hand == 0 ? T(1) : T(-1), own_turn = right * at.front.around.s;
+  const T right = minus_if<T>(hand), own_turn = right * at.front.around.s;
   const T tc = u.across() ? to.c * at.front.around.c - to.s * own_turn : to.c;
   const T ts = u.across() ? to.s * at.front.around.c + to.c * own_turn : to.s;
   const T x = to.length * (tc * by.c + ts * by.s), y = to.length * magnitude(ts * by.c - tc * by.s);
@@ -149,7 +155,7 @@ BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, 
   // Into the target's frame, where the way back to the vertex has a known direction.
   const Around<T> around = fronts_[target.end].around;
   const T c = u.seam() ? around.c : to.end_c, s = u.seam() ? around.s : to.end_s;
-  const T sign = u.same_turn() ? T(1) : T(-1), inverse = T(-1) / to.length, sy = sign * y;
+  const T sign = minus_if<T>(u.same_turn() ? 0 : 1), inverse = T(-1) / to.length, sy = sign * y;
   const T turn_c = (c * x + s * sy) * inverse, turn_s = (s * x - c * sy) * inverse, oy = sign * o.y;
   accept<kLabelled>(target.end, {o.value, o.sigma, o.x * turn_c - oy * turn_s, o.x * turn_s + oy * turn_c}, u.sector(),
                     at.front.label);
