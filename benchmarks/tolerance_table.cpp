@@ -9,7 +9,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <algorithm>
 #include <array>
@@ -126,7 +126,7 @@ std::vector<Index> three_sources(const Mesh& mesh) {
 }
 
 void rows_of(const std::string& name, const Mesh& mesh, Summaries& summaries) {
-  const auto engine = detail::make_windows(mesh, detail::kPartBits, detail::Merging::Always);
+  const auto engine = windows::make_windows(mesh, windows::kPartBits, windows::Merging::Always);
   int number = 0;
   for (const Index vertex : three_sources(mesh)) {
     DistanceOptions options;

@@ -3,15 +3,19 @@
 #
 # A machine is a Debian of debootstrap's smallest kind, in a chroot: no compiler, no git, no locale, no font; its user is
 # root, or one who may use sudo. It gets the checkout as it lies there, changes included, and the network's settings.
+#
+# `keep`: machines stay, in build/fresh/RELEASE-USER, and serve again with `keep`: what was installed and built in them is
+# there, the checkout is as it lies here now. For mending what failed; what passed on a kept machine has to on a bare one.
 set -euo pipefail
 
-usage='usage: ./run fresh [bookworm] [trixie] [root] [user] [demo] [test] [build] [python] [threads]'
-releases=() users=() commands=()
+usage='usage: ./run fresh [bookworm] [trixie] [root] [user] [demo] [test] [build] [python] [threads] [keep]'
+releases=() users=() commands=() keep=
 for word in "$@"; do
   case $word in
     bookworm | trixie) releases+=("$word") ;;
     root | user) users+=("$word") ;;
     demo | test | build | python | threads) commands+=("$word") ;;
+    keep) keep=yes ;;
     *) echo "$usage" >&2; exit 2 ;;
   esac
 done
@@ -24,7 +28,7 @@ cache=${BRUSHFIRE_FRESH_CCACHE:-}
 here=build/fresh logs=build/fresh/logs table=() worker=
 exec {table_out}>&1
 mkdir -p "$logs"
-machine=$(mktemp -d "$PWD/$here/machine-XXXXXX")
+machine=
 say() { printf '\033[1m%s\033[0m\n' "$*" >&2; }
 
 # Mounts and processes are in namespaces of the command's own, and gone when it ends, however it ends. In the background,
@@ -42,7 +46,7 @@ inside() {
   wait "$worker"
 }
 
-cleared() { rm -rf --one-file-system "$machine"; }
+cleared() { if [[ $machine == */machine-* ]]; then rm -rf --one-file-system "$machine"; fi; }
 
 # At the end, whatever ended it: what was found out so far.
 finish() {
@@ -57,19 +61,23 @@ finish() {
 trap finish EXIT
 trap 'kill -KILL "$worker" 2>/dev/null; wait; exit 130' INT TERM
 
-# base RELEASE: the machine as debootstrap makes it; the archive is kept for the next time.
+# base RELEASE USER: the machine as debootstrap makes it, or as it was kept. The bare one's archive is kept in any case.
 base() {
-  local archive=$here/$1.tar
+  local archive=$here/$1.tar kept=$PWD/$here/$1-$2
   cleared
+  machine=$kept
+  if [ -n "$keep" ] && [ -d "$kept" ]; then return; fi
+  machine=$(mktemp -d "$PWD/$here/machine-XXXXXX")
   if [ -s "$archive" ]; then
-    mkdir -p "$machine" && tar -xf "$archive" -C "$machine"
-    return
+    tar -xf "$archive" -C "$machine"
+  else
+    say "Debian $1 from $mirror"
+    debootstrap --variant=minbase "$1" "$machine" "$mirror" >"$logs/$1-debootstrap.log"
+    rm -f "$machine"/var/cache/apt/archives/*.deb
+    echo force-unsafe-io >"$machine/etc/dpkg/dpkg.cfg.d/no-sync"  # a machine that lives for an hour need not sync its disk
+    tar -cf "$archive.part" -C "$machine" . && mv "$archive.part" "$archive"
   fi
-  say "Debian $1 from $mirror"
-  debootstrap --variant=minbase "$1" "$machine" "$mirror" >"$logs/$1-debootstrap.log"
-  rm -f "$machine"/var/cache/apt/archives/*.deb
-  echo force-unsafe-io >"$machine/etc/dpkg/dpkg.cfg.d/no-sync"  # a machine that lives for an hour need not sync its disk
-  tar -cf "$archive.part" -C "$machine" . && mv "$archive.part" "$archive"
+  if [ -n "$keep" ]; then mv "$machine" "$kept" && machine=$kept; fi
 }
 
 # What this network asks of everyone in it: name servers, proxies, certificates.
@@ -100,26 +108,37 @@ prepared() {
   if [ "$1" = user ]; then
     home=/home/user
     install_in_machine sudo
-    inside useradd --create-home --shell /bin/bash user
+    inside id user >/dev/null 2>&1 || inside useradd --create-home --shell /bin/bash user
     echo 'user ALL=(ALL) NOPASSWD: ALL' >"$machine/etc/sudoers.d/user"
   fi
   environment+=("HOME=$home")
   if [ -n "$cache" ]; then
     install_in_machine ccache
-    # By content: the same compiler has another date in every machine.
-    environment+=(CCACHE_DIR=/var/cache/ccache CCACHE_UMASK=000 CCACHE_COMPILERCHECK=content CCACHE_NOHASHDIR=1
-      "CCACHE_BASEDIR=$home/brushfire")
+    # The same compiler has the same date in every machine, its package's: the cache may come from outside, too.
+    environment+=(CCACHE_DIR=/var/cache/ccache CCACHE_UMASK=000 CCACHE_NOHASHDIR=1 "CCACHE_BASEDIR=$home/brushfire"
+      CCACHE_SLOPPINESS=locale,pch_defines,time_macros)
   fi
 }
 
-# The checkout without its history and without what was built.
+# The checkout without its history and without what was built here. On a kept machine, what it built stays, and what has
+# not changed since keeps its date: nothing is built twice.
 checkout() {
-  mkdir -p "$machine$home/brushfire"
+  local old=$machine$home/brushfire new=$machine$home/brushfire.new file
+  rm -rf "$new"
+  mkdir -p "$old" "$new"
   if command -v git >/dev/null && git rev-parse --git-dir >/dev/null 2>&1; then
     git -c safe.directory="$PWD" ls-files -co --exclude-standard -z | xargs -0 ls -d 2>/dev/null | tar -c -T -
   else
     tar -c --exclude=./build --exclude=./demo --exclude=./.git .
-  fi | tar -x -C "$machine$home/brushfire" --no-same-owner
+  fi | tar -x -C "$new" --no-same-owner
+  (cd "$new" && find . -type f) | while read -r file; do
+    if cmp -s "$old/$file" "$new/$file"; then touch -r "$old/$file" "$new/$file"; else touch "$new/$file"; fi
+  done
+  for file in build demo; do
+    if [ -e "$old/$file" ]; then mv "$old/$file" "$new/"; fi
+  done
+  rm -rf "$old"
+  mv "$new" "$old"
   if [ "$1" = user ]; then inside chown -R user:user "$home"; fi
 }
 
@@ -143,7 +162,7 @@ if [ -n "$cache" ]; then
 fi
 for release in "${releases[@]}"; do
   for user in "${users[@]}"; do
-    base "$release"
+    base "$release" "$user"
     network
     prepared "$user"
     checkout "$user"

@@ -1,18 +1,18 @@
 // Inputs from a seeded generator that gives the same numbers on every platform.
 #include "kernels.h"
 
-#include <brushfire/core/bucket_queue.h>
-#include <brushfire/core/random.h>
-#include <brushfire/mesh/locality_order.h>
+#include <brushfire/core/detail/bucket_queue.h>
+#include <brushfire/core/detail/random.h>
+#include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/nearest_point.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/fast_marching/triangle_update.h>
-#include <brushfire/solvers/windows/detail/envelope.h>
-#include <brushfire/solvers/windows/detail/merge.h>
-#include <brushfire/solvers/windows/detail/propagate.h>
+#include <brushfire/solvers/fast_marching/detail/fronts.h>
+#include <brushfire/solvers/windows/algebra/envelope.h>
+#include <brushfire/solvers/windows/algebra/merge.h>
+#include <brushfire/solvers/windows/algebra/propagate.h>
 
 #include <memory>
 #include <numeric>
@@ -20,7 +20,7 @@
 namespace brushfire::benchmark {
 namespace {
 
-using detail::Window;
+using windows::Window;
 
 constexpr Index kLevels = 5;  // of the folded sphere: 10242 vertices, 20480 faces
 constexpr std::size_t kVertices = 10242, kFaces = 20480;
@@ -85,11 +85,13 @@ Run set_up(Method method, Precision precision) {
   };
 }
 
-// The circular front's update of separate triangles, eight lanes at a time where the compiler makes them.
+// The circular front's update of separate triangles, one by one.
 template <class T>
 Run circular_updates() {
+  using Front = fast_marching::portable::FrontOverEdge<fast_marching::CircularFront, T>;
   struct Input {
-    detail::UpdateTriangle<T> at;
+    T length, inverse, x, y, side;
+    bool any_order;
     T t1, t2;
   };
   const auto inputs = std::make_shared<std::vector<Input>>();
@@ -97,61 +99,65 @@ Run circular_updates() {
   for (std::size_t i = 0; i < kTriangles; ++i) {
     const double length = random.uniform(0.5, 1.5), x = random.uniform(-0.5, 1.5), y = random.uniform(0.2, 1.2);
     const Vec2 start{random.uniform(-5, 5), -random.uniform(0.1, 20)};
-    inputs->push_back({{static_cast<T>(length), static_cast<T>(1 / length), static_cast<T>(x), static_cast<T>(y),
-                        static_cast<T>(norm(Vec2{x, y})), i % 8 == 0},
-                       static_cast<T>(norm(start)),
+    inputs->push_back({static_cast<T>(length), static_cast<T>(1 / length), static_cast<T>(x), static_cast<T>(y),
+                       static_cast<T>(norm(Vec2{x, y})), i % 8 == 0, static_cast<T>(norm(start)),
                        static_cast<T>(norm(start - Vec2{length, 0}))});
   }
   return [=] {
     T sum = 0;
-    for (const Input& in : *inputs) sum += detail::CircularFront::update(in.at, in.t1, in.t2).value;
+    for (const Input& in : *inputs) {
+      const auto front = Front::of(in.length, in.inverse, in.t1, in.t2);
+      bool through = false;
+      const T value = front.update(in.x, in.y, in.side, in.any_order, through);
+      sum += through ? value : in.t1 + in.side;
+    }
     return static_cast<double>(sum);
   };
 }
 
-detail::Frame frame(Random& random) {
+windows::Frame frame(Random& random) {
   const double length = random.uniform(0.5, 1.5);
   const Vec2 apex{random.uniform(-0.5, 1.5), random.uniform(0.2, 1.2)};
   return {length, norm(apex), norm(apex - Vec2{length, 0}), apex};
 }
 
-Window window(Random& random, double b0, double b1, Index root) {
+Window window(Random& random, double b0, double b1, Index pseudo_source) {
   Window w;
   w.sigma = random.uniform(0, 0.5);
   w.source = {random.uniform(-1, 2), -random.uniform(2, 4)};
   w.b0 = b0;
   w.b1 = b1;
-  w.d0 = detail::value_at(w, b0);
-  w.d1 = detail::value_at(w, b1);
-  w.root = root;
+  w.d0 = windows::value_at(w, b0);
+  w.d1 = windows::value_at(w, b1);
+  w.pseudo_source = pseudo_source;
   return w;
 }
 
 // On its own, so that the compiler's choices for the rest of this file do not show in its count.
-[[gnu::noinline]] detail::Children children_of(const Window& w, const detail::Frame& frame) {
-  return detail::propagate(w, frame, detail::straight_value(w, frame.apex));
+[[gnu::noinline]] double ends_of_children(const Window& w, const windows::Frame& frame) {
+  double sum = 0;
+  windows::propagate(
+      w, frame, [&](const Window& left) { sum += windows::is_sliver(left) ? 0 : left.d0; },
+      [&](const Window& right) { sum += windows::is_sliver(right) ? 0 : right.d1; });
+  return sum;
 }
 
 // A window enters a triangle and leaves through one or both of the other sides.
 Run propagation() {
   struct Input {
-    detail::Frame frame;
+    windows::Frame frame;
     Window window;
   };
   const auto inputs = std::make_shared<std::vector<Input>>();
   Random random(2);
   for (std::size_t i = 0; i < kWindows; ++i) {
-    const detail::Frame f = frame(random);
+    const windows::Frame f = frame(random);
     const double b0 = random.uniform(0, 0.6 * f.length);
     inputs->push_back({f, window(random, b0, random.uniform(b0 + 0.1 * f.length, f.length), 0)});
   }
   return [=] {
     double sum = 0;
-    for (const auto& [f, w] : *inputs) {
-      const detail::Children c = children_of(w, f);
-      if (c.has_left) sum += c.left.d0;
-      if (c.has_right) sum += c.right.d1;
-    }
+    for (const auto& [f, w] : *inputs) sum += ends_of_children(w, f);
     return sum;
   };
 }
@@ -166,7 +172,7 @@ Run envelopes() {
       list.push_back(window(random, b0, random.uniform(b0 + 0.05, 1), i));
     }
   }
-  return [=, envelope = std::make_shared<detail::Envelope>()] {
+  return [=, envelope = std::make_shared<windows::Envelope>()] {
     double sum = 0;
     for (const std::vector<Window>& list : *lists) {
       for (const Window& w : (*envelope)(list)) sum += w.d0;
@@ -186,19 +192,19 @@ Run merges() {
     b.source = a.source + Vec2{random.uniform(0, 1e-3), random.uniform(-1e-3, 1e-3)};
     b.b0 = joint;
     b.b1 = 1;
-    b.d1 = detail::value_at(b, b.b1);
-    b.sigma += a.d1 - detail::value_at(b, b.b0);
+    b.d1 = windows::value_at(b, b.b1);
+    b.sigma += a.d1 - windows::value_at(b, b.b0);
     b.d0 = a.d1;
-    b.d1 = detail::value_at(b, b.b1);
+    b.d1 = windows::value_at(b, b.b1);
     pairs->emplace_back(a, b);
   }
   return [=] {
-    detail::MergeBudget budget;
+    windows::MergeBudget budget;
     budget.share = 1e-3;
     double sum = 0;
     for (const auto& [a, b] : *pairs) {
       Window merged = b;
-      sum += detail::merge_into(a, merged, 0, budget) ? merged.d0 : 1;
+      sum += windows::merge_into(a, merged, 0, budget) ? merged.d0 : 1;
     }
     return sum;
   };
@@ -270,6 +276,8 @@ std::vector<Kernel> kernels() {
           {"circular-update-double", kTriangles, circular_updates<double>},
           {"march-float", kVertices, [] { return solve(Method::NovotniKlein, Precision::Float); }},
           {"march-double", kVertices, [] { return solve(Method::NovotniKlein); }},
+          {"carried-float", kVertices, [] { return solve(Method::CarriedSource, Precision::Float); }},
+          {"carried-double", kVertices, [] { return solve(Method::CarriedSource); }},
           {"windows-exact", kVertices, [] { return solve(Method::Exact); }},
           {"windows-1e-2", kVertices, solve_with_tolerance},
           {"window-propagation", kWindows, propagation},
@@ -280,6 +288,7 @@ std::vector<Kernel> kernels() {
           {"mesh-connectivity", kFaces, connectivity},
           {"locality-order", kVertices, order},
           {"set-up-rings", kVertices, [] { return set_up(Method::NovotniKlein, Precision::Float); }},
+          {"set-up-records", kVertices, [] { return set_up(Method::CarriedSource, Precision::Float); }},
           {"isolines", kFaces, lines}};
 }
 

@@ -17,6 +17,7 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 
 from brushfire._any import from_any
 from brushfire._core import version as __version__
+from brushfire._cells import Boundary, Centroidal, Discs, Extent, Mean, Medoids, Parcels, k_medoids
 from brushfire._certify import Certificate
 from brushfire._curves import LogMap, Path
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
@@ -31,21 +32,28 @@ from brushfire._regions import Border, Cut, Samples, Voronoi
 __all__ = [
     "At",
     "Border",
+    "Boundary",
     "BrushfireError",
     "BrushfireIndexError",
     "BrushfireTypeError",
     "BrushfireWarning",
+    "Centroidal",
     "Certificate",
     "Comparison",
     "Cut",
     "Descent",
+    "Discs",
     "Errors",
+    "Extent",
     "FileInfo",
     "Isoline",
     "LogMap",
+    "Mean",
+    "Medoids",
     "Mesh",
     "MeshReport",
     "Panel",
+    "Parcels",
     "Path",
     "Point",
     "Points",
@@ -57,6 +65,7 @@ __all__ = [
     "at",
     "compare",
     "from_any",
+    "k_medoids",
     "methods",
     "read",
     "render",

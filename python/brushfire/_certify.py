@@ -105,7 +105,7 @@ class Certificates(OnMesh):
         start = self._arrays(sources, "sources")
         with shown(progress, "certify") as report:
             found = _core.certify(
-                self._mesh,
+                self._space,
                 array,
                 start.index,
                 start.weights,

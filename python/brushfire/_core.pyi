@@ -27,8 +27,14 @@ class Mesh:
     def report(self) -> dict[str, object]: ...
     def positions(self, index: _Ints, weights: _Floats | None) -> _Floats: ...
 
-class Solver:
+class Domain:
     def __init__(self, mesh: Mesh) -> None: ...
+    def open_part(self) -> dict[str, Any]: ...
+
+Space: TypeAlias = Mesh | Domain
+
+class Solver:
+    def __init__(self, domain: Space) -> None: ...
     def set_up(self, options: _Options) -> None: ...
     def solve(
         self,
@@ -57,7 +63,7 @@ class NearestPointFinder:
     def nearest(self, xyz: _Floats) -> tuple[_Signed, _Floats, _Floats]: ...
 
 def path(solver: Solver, index: _Ints, weights: _Floats | None, closed: bool, tighten: bool) -> PathArrays: ...
-def shorten(mesh: Mesh, index: _Ints, weights: _Floats | None, closed: bool) -> PathArrays: ...
+def shorten(domain: Space, index: _Ints, weights: _Floats | None, closed: bool) -> PathArrays: ...
 def length_of(mesh: Mesh, index: _Ints, weights: _Floats | None, closed: bool) -> float: ...
 def paths(
     solver: Solver,
@@ -68,11 +74,11 @@ def paths(
     target_weights: _Floats | None,
 ) -> tuple[_Signed, list[PathArrays]]: ...
 def edge_path(solver: Solver, index: _Ints, weights: _Floats | None, offsets: _Floats, target: int) -> PathArrays: ...
-def angle_of(mesh: Mesh, index: _Ints, weights: _Floats | None, direction: _Floats) -> tuple[float, float]: ...
+def angle_of(domain: Space, index: _Ints, weights: _Floats | None, direction: _Floats) -> tuple[float, float]: ...
 def trace(
-    mesh: Mesh, index: _Ints, weights: _Floats | None, angle: float, direction: _Floats | None, length: float
+    domain: Space, index: _Ints, weights: _Floats | None, angle: float, direction: _Floats | None, length: float
 ) -> tuple[PathArrays, str]: ...
-def isolines(mesh: Mesh, values: _Floats, levels: _Floats) -> list[tuple[float, int, PathArrays]]: ...
+def isolines(domain: Space, values: _Floats, levels: _Floats) -> list[tuple[float, int, PathArrays]]: ...
 def curved_isolines(
     solver: Solver,
     index: _Ints,
@@ -89,11 +95,11 @@ def levels_every(values: _Floats, step: float) -> _Floats: ...
 def levels_between(values: _Floats, count: int) -> _Floats: ...
 def face_gradients(mesh: Mesh, values: _Floats) -> _Floats: ...
 def steepest_descent(
-    mesh: Mesh, values: _Floats, index: _Ints, weights: _Floats | None
+    domain: Space, values: _Floats, index: _Ints, weights: _Floats | None
 ) -> tuple[int, tuple[float, float, float], float, _Floats | None] | None: ...
 def compare_fields(field: _Floats, reference: _Floats, weights: _Floats | None) -> dict[str, Any]: ...
 def certify(
-    mesh: Mesh,
+    domain: Space,
     field: _Floats,
     index: _Ints,
     weights: _Floats | None,
@@ -105,13 +111,14 @@ def certify(
     progress: _Progress,
 ) -> dict[str, Any]: ...
 def finding_names() -> tuple[str, ...]: ...
-def vertex_areas(mesh: Mesh) -> _Floats: ...
+def vertex_areas(domain: Space) -> _Floats: ...
 def voronoi(
-    mesh: Mesh, index: _Ints, weights: _Floats | None, offsets: _Floats, options: _Options, progress: _Progress
-) -> tuple[_Floats, _Signed, _Floats, list[tuple[int, int, PathArrays]]]: ...
+    domain: Space, index: _Ints, weights: _Floats | None, offsets: _Floats, options: _Options, progress: _Progress
+) -> tuple[_Floats, _Signed, _Floats, list[tuple[int, int, PathArrays]], _Signed]: ...
 def farthest_points(
-    mesh: Mesh, count: int, first: _Ints, options: _Options, progress: _Progress
+    domain: Space, count: int, first: _Ints, options: _Options, progress: _Progress
 ) -> tuple[_Signed, _Floats, _Floats, _Signed, float]: ...
+def make_domain(mesh: Mesh, vertices: _Ints, faces: _Ints, edge_ends: _Ints) -> Domain: ...
 def cut(mesh: Mesh, vertices: _Ints, faces: _Ints, edge_ends: _Ints) -> CutMesh: ...
 def render(panels: list[tuple[Mesh, dict[str, Any]]], look: dict[str, Any]) -> npt.NDArray[np.uint8]: ...
 def render_svg(panels: list[tuple[Mesh, dict[str, Any]]], look: dict[str, Any]) -> str: ...
@@ -142,7 +149,7 @@ def write_lines(
 ) -> None: ...
 def method_names() -> tuple[str, ...]: ...
 def fill_matrix(
-    mesh: Mesh,
+    domain: Space,
     out: npt.NDArray[np.floating],
     row_index: _Ints | None,
     row_weights: _Floats | None,
@@ -153,7 +160,7 @@ def fill_matrix(
     progress: _Progress,
 ) -> None: ...
 def sparse_float32(
-    mesh: Mesh,
+    domain: Space,
     radius: float,
     row_index: _Ints | None,
     row_weights: _Floats | None,
@@ -163,7 +170,7 @@ def sparse_float32(
     progress: _Progress,
 ) -> tuple[npt.NDArray[np.float32], _Signed, _Ints]: ...
 def sparse_float64(
-    mesh: Mesh,
+    domain: Space,
     radius: float,
     row_index: _Ints | None,
     row_weights: _Floats | None,
@@ -176,7 +183,7 @@ def sparse_rows(
     solver: Solver, radius: float, index: _Ints, weights: _Floats | None, options: _Options, progress: _Progress
 ) -> tuple[_Floats, _Signed, _Ints]: ...
 def write_matrix(
-    mesh: Mesh,
+    domain: Space,
     path: str,
     float32: bool,
     row_index: _Ints | None,
@@ -188,3 +195,66 @@ def write_matrix(
     progress: _Progress,
 ) -> None: ...
 def require_dense_memory(rows: int, columns: int, float32: bool, limit: int) -> None: ...
+def nearest_sources(
+    domain: Space,
+    index: _Ints,
+    weights: _Floats | None,
+    offsets: _Floats,
+    count: int,
+    options: _Options,
+    progress: _Progress,
+) -> tuple[_Floats, _Signed]: ...
+def extent(domain: Space, tolerance: float, most: int, threads: int, progress: _Progress) -> dict[str, Any]: ...
+def eccentricities(
+    domain: Space,
+    index: _Ints | None,
+    weights: _Floats | None,
+    options: _Options,
+    threads: int,
+    progress: _Progress,
+) -> _Floats: ...
+def average_distances(
+    domain: Space,
+    index: _Ints | None,
+    weights: _Floats | None,
+    options: _Options,
+    threads: int,
+    progress: _Progress,
+) -> _Floats: ...
+def discs(
+    domain: Space,
+    share: float,
+    index: _Ints | None,
+    weights: _Floats | None,
+    options: _Options,
+    threads: int,
+    progress: _Progress,
+) -> tuple[_Floats, _Floats, _Floats]: ...
+def karcher_mean(
+    domain: Space, index: _Ints, place_weights: _Floats | None, weights: _Floats, tolerance: float
+) -> tuple[_Signed, _Floats, float, bool]: ...
+def centroidal_voronoi(
+    domain: Space,
+    count: int,
+    index: _Ints | None,
+    weights: _Floats | None,
+    density: _Floats,
+    rounds: int,
+    tolerance: float,
+    threads: int,
+    progress: _Progress,
+) -> tuple[_Signed, _Floats, _Floats, _Signed, _Floats]: ...
+def k_medoids(distances: _Floats, count: int, weights: _Floats) -> tuple[_Signed, _Signed, float]: ...
+def parcels(
+    domain: Space,
+    label: _Ints,
+    kind: str,
+    least_label: int,
+    options: _Options,
+    threads: int,
+    progress: _Progress,
+) -> tuple[_Ints, _Floats, _Signed, _Signed]: ...
+def smoothing_kernel(
+    domain: Space, sigma: float, options: _Options, threads: int, progress: _Progress
+) -> tuple[_Floats, _Signed, _Ints]: ...
+def boundaries(mesh: Mesh) -> list[tuple[_Signed, float, bool]]: ...

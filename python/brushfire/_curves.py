@@ -68,6 +68,11 @@ class OnMesh:
 
     _mesh: _core.Mesh
 
+    @property
+    def _space(self) -> _core.Space:
+        """Where one may go: the mesh, or what walls leave of it."""
+        return self._mesh
+
     def _arrays(self, places: Any, what: str) -> PlaceArrays:
         raise NotImplementedError
 
@@ -169,7 +174,7 @@ class Curves(OnMesh):
         5.0
         """
         index, weights, is_closed = self._polyline(path, closed)
-        return self._path(_core.shorten(self._mesh, index, weights, is_closed))
+        return self._path(_core.shorten(self._space, index, weights, is_closed))
 
     def length_of(self, path: Path | Points | Sequence[Places], *, closed: bool | None = None) -> float:
         """The length of a polyline whose consecutive points share a face, in the mesh's units.
@@ -210,7 +215,7 @@ class Curves(OnMesh):
         angle, along = (float(vector), None) if vector.ndim == 0 else (0.0, vector)
         if along is not None and along.shape != (3,):
             raise BrushfireError(f"direction: an angle or shape (3,) is needed, not {along.shape}")
-        walked, end = _core.trace(self._mesh, arrays.index, arrays.weights, angle, along, number(length, "length"))
+        walked, end = _core.trace(self._space, arrays.index, arrays.weights, angle, along, number(length, "length"))
         return self._path(walked), end
 
     def angle_of(self, place: Places, direction: npt.ArrayLike) -> tuple[float, float]:
@@ -229,7 +234,7 @@ class Curves(OnMesh):
         vector = _arrays.floats(direction, "direction")
         if vector.shape != (3,):
             raise BrushfireError(f"direction: shape (3,) is needed, not {vector.shape}")
-        return _core.angle_of(self._mesh, arrays.index, arrays.weights, vector.reshape(1, 3))
+        return _core.angle_of(self._space, arrays.index, arrays.weights, vector.reshape(1, 3))
 
     def log_map(self, source: Places, max_radius: float = np.inf, *, sparse: bool = False) -> LogMap:
         """Polar coordinates around a source: exact distance, and the direction of the shortest path.

@@ -129,7 +129,8 @@ class Fields(OnMesh):
     ) -> list[Isoline]:
         """The curves of equal value of a field that is linear in every face, as ordered and oriented polylines.
 
-        :param values: one per vertex, +inf where there is none, (vertex_count,).
+        :param values: one per vertex, +inf where there is none, (vertex_count,). Of a mesh with walls it counts on both sides
+            of them; :meth:`curved_isolines` knows the distances on either side.
         :param levels: which values, (k,); or
         :param every: all multiples of this number in the range of the values; or
         :param count: this many levels, which divide the range into equal parts.
@@ -153,7 +154,7 @@ class Fields(OnMesh):
             chosen = _core.levels_every(field, number(every, "every"))
         else:
             chosen = _core.levels_between(field, whole(count, "count", _MOST_LEVELS))
-        return self._isolines(_core.isolines(self._mesh, field, chosen))
+        return self._isolines(_core.isolines(self._space, field, chosen))
 
     def curved_isolines(
         self,
@@ -234,14 +235,14 @@ class Fields(OnMesh):
         (0, -1.0, [-1.0, 0.0, 0.0])
         """
         arrays = self._arrays(place, "place")
-        found = _core.steepest_descent(self._mesh, _values(values, "values"), arrays.index, arrays.weights)
+        found = _core.steepest_descent(self._space, _values(values, "values"), arrays.index, arrays.weights)
         return None if found is None else Descent(*found)
 
     def vertex_areas(self) -> Floats:
-        """A third of the area of the faces around each vertex, (vertex_count,); they sum to the area of the mesh.
+        """A third of the area of the faces around each vertex, (vertex_count,); they sum to the area of the mesh (of what walls leave open).
 
         >>> import brushfire as bf
         >>> bf.Mesh([[0, 0], [3, 0], [0, 2]], [[0, 1, 2]]).vertex_areas().tolist()
         [1.0, 1.0, 1.0]
         """
-        return _core.vertex_areas(self._mesh)
+        return _core.vertex_areas(self._space)

@@ -94,7 +94,7 @@ class Matrices(OnMesh):
         threads: int,
         report: Reporter | None,
     ) -> None:
-        _core.fill_matrix(self._mesh, array, *_pair(row), *_pair(column), chosen, threads, report)
+        _core.fill_matrix(self._space, array, *_pair(row), *_pair(column), chosen, threads, report)
 
     def _fill_by_blocks(
         self,
@@ -165,7 +165,7 @@ class Matrices(OnMesh):
         chosen = options(method, tolerance, np.inf, precision=precision)
         limit, team = number(radius, "radius"), thread_count(threads)
         with shown(progress, "rows") as report:
-            data, indices, starts = compute(self._mesh, limit, *_pair(row), chosen, team, most, report)
+            data, indices, starts = compute(self._space, limit, *_pair(row), chosen, team, most, report)
         if symmetric is not None:
             data, indices, starts = _symmetric_rows(data, indices, starts, symmetric)
         return sparse_matrix(data, indices, starts, self._mesh.vertex_count)
@@ -203,7 +203,7 @@ class Matrices(OnMesh):
         single = bool(float_type(dtype) == np.float32)
         team = thread_count(threads)
         with shown(progress, "matrix") as report:
-            _core.write_matrix(self._mesh, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
+            _core.write_matrix(self._space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
 
     def _optional(self, places: Any, what: str) -> PlaceArrays | None:
         """None for all vertices."""

@@ -33,12 +33,14 @@ class Voronoi:
 
     ``distance`` (vertex_count,): from the nearest source, +inf where none reaches. ``source`` (vertex_count,): its
     position in the list, -1 for none. ``area`` (sources,): of each cell. ``borders``: where cells meet, ascending.
+    ``dual`` (k, 3): three cells that meet in a face, each once: a triangulation of the sources.
     """
 
     distance: Floats
     source: Labels
     area: Floats
     borders: list[Border]
+    dual: Labels
 
     def __repr__(self) -> str:
         return f"Voronoi({len(self.area)} cells, {len(self.borders)} borders)"
@@ -152,9 +154,9 @@ class Regions(OnMesh):
         start = self._arrays(sources, "sources")
         given, chosen = offsets(offset, len(start.index)), options(method, tolerance, max_distance)
         with shown(progress, "voronoi") as report:
-            found = _core.voronoi(self._mesh, start.index, start.weights, given, chosen, report)
-        distance, source, area, borders = found
-        return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders])
+            found = _core.voronoi(self._space, start.index, start.weights, given, chosen, report)
+        distance, source, area, borders, dual = found
+        return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders], dual)
 
     def farthest_points(
         self,
@@ -190,7 +192,7 @@ class Regions(OnMesh):
         taken = whole(count, "count", np.iinfo(np.int32).max)
         chosen = options(method, tolerance, max_distance)
         with shown(progress, "farthest points") as report:
-            return Samples(*_core.farthest_points(self._mesh, taken, index, chosen, report))
+            return Samples(*_core.farthest_points(self._space, taken, index, chosen, report))
 
     def cut(self, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), edges: npt.ArrayLike = ()) -> Cut:
         """The mesh with barriers cut out, through which no distance and no path goes.
@@ -207,17 +209,19 @@ class Regions(OnMesh):
         >>> mesh.cut(edges=[(0, 2)]).mesh, mesh.cut(faces=[0]).mesh
         (Mesh(6 vertices, 2 faces), Mesh(4 vertices, 1 faces))
         """
+        made = _core.cut(self._mesh, *self._barriers(vertices, faces, edges))
+        return Cut(
+            self._of(made.mesh), made.original_vertex(), made.original_face(), made.cut_face(), self._whole(), made
+        )
+
+    def _barriers(self, vertices: Any, faces: Any, edges: Any) -> tuple[Ints, Ints, Ints]:
         ends = _arrays.integers(edges, "edges")
         if ends.size and (ends.ndim != 2 or ends.shape[1] != 2):
             raise BrushfireError(f"edges: shape (k, 2) is needed, not {ends.shape}")
-        made = _core.cut(
-            self._mesh,
+        return (
             _numbers(vertices, self._mesh.vertex_count, "vertices"),
             _numbers(faces, self._mesh.face_count, "faces"),
             ends.reshape(-1),
-        )
-        return Cut(
-            self._of(made.mesh), made.original_vertex(), made.original_face(), made.cut_face(), self._whole(), made
         )
 
     @classmethod

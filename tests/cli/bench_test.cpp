@@ -39,7 +39,7 @@ TEST_F(BenchVerb, TableHasALineForEveryMethod) {
 
 TEST_F(BenchVerb, JsonTellsTimesMemoryAndErrors) {
   const Ended ended = run({"--methods", "exact", "-m", "dijkstra", "-m", "windows:1e-2", "-m", "novotni-klein:float64",
-                           "--sources", "3", "--repeat", "2", "--json"});
+                           "--spread", "3", "--repeat", "2", "--json"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(number(ended.out, "sources"), 3);
   EXPECT_EQ(number(ended.out, "repetitions"), 2);
@@ -58,7 +58,7 @@ TEST_F(BenchVerb, JsonTellsTimesMemoryAndErrors) {
 }
 
 TEST_F(BenchVerb, ThreadsShareOutTheSourcesAndFindTheSame) {
-  const std::vector<std::string> arguments{"-m", "dijkstra", "--sources", "4", "--repeat", "1", "--json"};
+  const std::vector<std::string> arguments{"-m", "dijkstra", "--spread", "4", "--repeat", "1", "--json"};
   const Ended one = run(arguments);
   std::vector<std::string> with_threads = arguments;
   with_threads.insert(with_threads.end(), {"--threads", "2"});
@@ -78,8 +78,8 @@ TEST_F(BenchVerb, WithoutErrorsNothingIsComparedWithTheExactDistances) {
 TEST_F(BenchVerb, RefusesMalformedOptions) {
   const std::vector<std::vector<std::string>> bad{
       {"-m", "fast"},       {"-m", "windows:2"},        {"-m", "windows:"},    {"-m", "windows:float32"},
-      {"-m", "exact:1e-3"}, {"-m", "dijkstra:float32"}, {"--sources", "0"},    {"--sources", "1.5"},
-      {"--repeat", "0"},    {"--threads", "0"},         {"--threads", "many"}, {"--sources", "2", "--source", "1"},
+      {"-m", "exact:1e-3"}, {"-m", "dijkstra:float32"}, {"--spread", "0"},     {"--spread", "1.5"},
+      {"--repeat", "0"},    {"--threads", "-1"},        {"--threads", "many"}, {"--spread", "2", "--source", "1"},
       {"--source", "9999"}, {"--source", "north"}};
   for (const std::vector<std::string>& options : bad) {
     const Ended ended = run(options);

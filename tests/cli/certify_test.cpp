@@ -92,7 +92,7 @@ TEST_F(Certify, JsonHasStableKeys) {
   }
   EXPECT_EQ(keys,
             "schema brushfire mesh field verdict vertices possible proven_wrong too_short too_long not_reachable "
-            "not_reached not_a_number tolerance within radius least_within worst_vertex max_gap wrong snapped "
+            "not_reached not_a_number tolerance within radius unit least_within worst_vertex max_gap wrong snapped "
             "max_snap_distance output ");
 }
 

@@ -54,7 +54,7 @@ TEST_F(Curves, PathAlongEdgesGoesRoundTheSquare) {
 TEST_F(Curves, MethodWithoutPathsIsAUsageError) {
   const Ended ended = run({"path", "--from", "1", "--to", "3", "--method", "kimmel-sethian"});
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.err.find("exact, dijkstra"), std::string::npos);
+  EXPECT_NE(ended.err.find("exact and dijkstra have"), std::string::npos);
 }
 
 TEST_F(Curves, PathNeedsBothEnds) {
@@ -85,6 +85,64 @@ TEST_F(Curves, IsolinesAskForExactlyOneWayToChooseLevels) {
   EXPECT_EQ(run({"isolines", "--source", "0", "--levels", "1,,2", "-o", path("l.obj")}).code, 2);
   EXPECT_EQ(run({"isolines", "--source", "0", "--every", "0", "-o", path("l.obj")}).code, 2);
   EXPECT_EQ(run({"isolines", "--count", "3", "-o", path("l.obj")}).code, 2);
+}
+
+TEST_F(Curves, OfSeveralSourcesThePathComesFromTheNearest) {
+  write("exits.txt", "0\n4\n");
+  const Ended ended =
+      run({"path", "--sources", path("exits.txt"), "--to", "1", "--to", "5", "-o", path("p.csv"), "--json"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("\"to\": \"1\",\n      \"source\": 0,\n      \"length\": 1.0"), std::string::npos)
+      << ended.out;
+  EXPECT_NE(ended.out.find("\"to\": \"5\",\n      \"source\": 1,\n      \"length\": 1.0"), std::string::npos)
+      << ended.out;
+  EXPECT_NE(content("p.csv").find("\n1,1,0,5,0,0,"), std::string::npos) << content("p.csv");
+  EXPECT_EQ(run({"path", "-s", "0", "-t", "2", "-t", "5"}).out, "1.4142135623730951\ninf\n");
+}
+
+TEST_F(Curves, APathThatIsLongerThanTheRadiusIsNone) {
+  EXPECT_EQ(run({"path", "--from", "1", "--to", "3", "--radius", "1.5"}).code, 0);
+  for (const std::vector<std::string>& way :
+       std::vector<std::vector<std::string>>{{"--to", "3", "--radius", "1.4"},
+                                             {"--to", "3", "--via", "0", "--radius", "1.9"},
+                                             {"--to", "3", "--method", "dijkstra", "--radius", "1.9"}}) {
+    std::vector<std::string> arguments{"path", "--from", "1"};
+    arguments.insert(arguments.end(), way.begin(), way.end());
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.code, 4);
+    EXPECT_EQ(ended.err, "brushfire: no source reaches '3' within the radius\n");
+  }
+}
+
+TEST_F(Curves, LevelsOutsideOfTheRangeAreToldWithIt) {
+  const Ended ended =
+      run({"isolines", "--source", "0", "--levels", "-1,0.5,7", "-o", path("l.csv"), "--unit", "mm", "--json"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(ended.err, "2 levels lie outside of the range: the values run from 0 mm to 1.41421 mm\n");
+  EXPECT_NE(ended.out.find("\"greatest\": 1.4142135623730951"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("\"levels_outside\": 2"), std::string::npos) << ended.out;
+  EXPECT_EQ(run({"isolines", "--source", "0", "--every", "5", "-o", path("l.csv")}).err,
+            "no level: the values run from 0 to 1.41421\n0 curves at 0 levels, 0 long in all\n");
+}
+
+TEST_F(Curves, ScalarLeavesNothingToCompute) {
+  write("s.txt", "0 1 2 3 4 5 6\n");
+  const Ended ended =
+      run({"isolines", "--scalar", path("s.txt"), "--radius", "3", "--count", "3", "-o", path("l.csv")});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.err, "brushfire: --scalar has the values: there is nothing for --radius to compute\n");
+}
+
+TEST_F(Curves, RenderTakesWhatOtherVerbsTake) {
+  write("exits.txt", "0\n4\n");
+  const Ended ended =
+      run({"render",       "--sources", path("exits.txt"), "-r",      "0.5",    "--tolerance", "1e-2",   "-m",
+           "windows:1e-4", "-m",        "exact",           "--error", "--unit", "mm",          "--weld", "0",
+           "--size",       "64x48",     "--samples",       "1",       "-o",     path("p.svg")});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(content("p.svg").find(">mm<"), std::string::npos);
+  EXPECT_EQ(run({"render", "--tolerance", "1e-2", "-o", path("p.png")}).err,
+            "brushfire: --tolerance needs a --source\n");
 }
 
 TEST_F(Curves, RenderWritesPngSvgAndAnimation) {

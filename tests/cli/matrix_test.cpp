@@ -56,6 +56,16 @@ TEST_F(MatrixVerb, WritesAnArchiveOfArraysForScipy) {
   EXPECT_EQ(bytes, content("again.npz"));
 }
 
+TEST_F(MatrixVerb, SourcesAreRows) {
+  write("rows.txt", "1\n3\n");
+  EXPECT_EQ(run({"-s", "0,2", "--sources", path("rows.txt"), "--cols", "4", "--unit", "mm", "-o", path("a.npy")}).code,
+            0);
+  EXPECT_EQ(run({"--rows", "0,2,1,3", "--cols", "4", "-o", path("b.npy")}).code, 0);
+  EXPECT_EQ(content("a.npy"), content("b.npy"));
+  EXPECT_EQ(run({"--rows", "0", "-s", "1", "-o", path("c.npy")}).code, 2);
+  EXPECT_EQ(run({"-s", "1@2", "-o", path("c.npy")}).code, 2);
+}
+
 TEST_F(MatrixVerb, RefusesWhatMakesNoSenseWithOneLine) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {},

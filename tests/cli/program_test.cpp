@@ -77,8 +77,8 @@ TEST_F(Program, VersionIsOneLine) {
 }
 
 TEST_F(Program, HelpOfEveryVerbHasExamplesAndFitsTheTerminal) {
-  for (const char* verb : {"info", "distance", "path", "isolines", "matrix", "compare", "render", "bench", "shape",
-                           "completion", "manual"}) {
+  for (const char* verb : {"info", "distance", "path", "isolines", "matrix", "compare", "certify", "render", "bench",
+                           "convert", "shape", "completion", "manual"}) {
     const Ended ended = run_program({verb, "--help"});
     EXPECT_EQ(ended.code, 0);
     EXPECT_NE(ended.out.find("Examples:\n"), std::string::npos) << verb;
@@ -110,6 +110,7 @@ TEST_F(Program, InfoJsonHasStableKeys) {
                                                           "brushfire",
                                                           "file",
                                                           "format",
+                                                          "unit",
                                                           "vertices",
                                                           "faces",
                                                           "edges",
@@ -149,15 +150,14 @@ TEST_F(Program, DistanceJsonHasStableKeys) {
   const Ended ended =
       run_program({"distance", path("square.off"), "--source", "0", "--target", "2", "--json", "-m", "dijkstra"});
   EXPECT_EQ(ended.code, 0);
-  EXPECT_EQ(keys_of(ended.out), (std::vector<std::string>{"schema",       "brushfire",       "file",
-                                                          "method",       "precision",       "tolerance",
-                                                          "bound",        "vertices",        "faces",
-                                                          "sources",      "radius",          "reached",
-                                                          "unreachable",  "beyond_radius",   "max_error_bound",
-                                                          "max_distance", "farthest_vertex", "updates",
-                                                          "read_s",       "set_up_s",        "solve_s",
-                                                          "targets",      "snapped",         "max_snap_distance",
-                                                          "output"}));
+  EXPECT_EQ(
+      keys_of(ended.out),
+      (std::vector<std::string>{
+          "schema",          "brushfire",         "file",          "method",      "precision",       "tolerance",
+          "bound",           "vertices",          "faces",         "sources",     "radius",          "unit",
+          "reached",         "unreachable",       "beyond_radius", "not_visited", "max_error_bound", "max_distance",
+          "farthest_vertex", "updates",           "read_s",        "set_up_s",    "solve_s",         "targets",
+          "snapped",         "max_snap_distance", "output"}));
 }
 
 // The number of a key of the outermost object; NaN where it is none.
@@ -203,8 +203,8 @@ TEST_F(Program, AToleranceThatNobodyKeepsIsAUsageError) {
          "brushfire: --tolerance: dijkstra has no tolerance to set; --method windows has");
   expect({"--bound", "upper", "-m", "exact"},
          "brushfire: --bound: exact has no tolerance to set; --method windows has");
-  expect({"--tolerance", "0.2"}, "brushfire: --tolerance 0.2 is not in 0 to 0.1");
-  expect({"--tolerance", "nan"}, "brushfire: --tolerance nan is not in 0 to 0.1");
+  expect({"--tolerance", "0.2"}, "brushfire: --tolerance takes a number from 0 to 0.1, not '0.2'");
+  expect({"--tolerance", "nan"}, "brushfire: --tolerance takes a number from 0 to 0.1, not 'nan'");
   expect({"--tolerance", "0.01", "--accuracy", "fine"},
          "brushfire: --tolerance and --accuracy say the same: give one of them");
 }
@@ -237,7 +237,7 @@ TEST_F(Program, UnreachableTargetPrintsInfAndEndsWithFour) {
       {"distance", path("islands.off"), "--source", "0", "--target", "1", "--target", "5", "-m", "dijkstra"});
   EXPECT_EQ(ended.code, 4);
   EXPECT_EQ(ended.out, "1\ninf\n");
-  EXPECT_EQ(ended.err, "brushfire: no source reaches '5' (within the radius, if one was given)\n");
+  EXPECT_EQ(ended.err, "brushfire: no source reaches '5'\n");
 }
 
 TEST_F(Program, OffsetsAndTheSourcesFileAreUsed) {
@@ -253,6 +253,51 @@ TEST_F(Program, RadiusCutsOff) {
       run_program({"distance", path("square.off"), "--source", "0", "--radius", "1.2", "--json", "-m", "dijkstra"});
   EXPECT_EQ(ended.code, 0);
   EXPECT_NE(ended.out.find("\"reached\": 3,"), std::string::npos) << ended.out;
+}
+
+// On the islands: 4 vertices hang together with vertex 0, 3 with one another, 1 is in no face.
+TEST_F(Program, JsonTellsWhatNobodyWentToFromWhatNobodyCanReach) {
+  run_program({"shape", "plane", "-n", "10000", "-o", path("plane.ply"), "-q"});
+  for (const char* method : {"windows", "exact", "novotni-klein", "kimmel-sethian", "dijkstra"}) {
+    const Ended whole = run_program({"distance", path("islands.off"), "-s", "0", "-m", method, "--json"});
+    EXPECT_EQ(number_of(whole.out, "unreachable"), 4) << method;
+    EXPECT_EQ(number_of(whole.out, "not_visited"), 0) << method;
+    const Ended disc = run_program({"distance", path("islands.off"), "-s", "0", "-m", method, "--json", "-r", "0.5"});
+    EXPECT_EQ(number_of(disc.out, "reached"), 1) << method;
+    EXPECT_EQ(number_of(disc.out, "unreachable"), 4) << method;
+    EXPECT_EQ(number_of(disc.out, "beyond_radius") + number_of(disc.out, "not_visited"), 3) << method;
+    const Ended small = run_program({"distance", path("plane.ply"), "-s", "0", "-m", method, "--json", "-t", "1"});
+    EXPECT_EQ(number_of(small.out, "unreachable"), 0) << method;
+    EXPECT_GT(number_of(small.out, "not_visited"), method == std::string("dijkstra") ? -1 : 9000) << method;
+    EXPECT_EQ(
+        number_of(small.out, "reached") + number_of(small.out, "not_visited") + number_of(small.out, "beyond_radius"),
+        number_of(small.out, "vertices"))
+        << method;
+  }
+}
+
+TEST_F(Program, ATargetBeyondTheRadiusIsToldFromOneThatCannotBeReached) {
+  const Ended ended = run_program(
+      {"distance", path("islands.off"), "-s", "0", "-t", "2", "-t", "5", "-t", "7", "--radius", "0.5", "--json"});
+  EXPECT_EQ(ended.code, 4);
+  EXPECT_EQ(ended.err, "brushfire: no source reaches '2' within the radius\n");
+  const auto target = [&](const std::string& where) {
+    return ended.out.substr(ended.out.find("\"where\": \"" + where + "\""), 80);
+  };
+  EXPECT_NE(target("2").find("\"unreachable\": false"), std::string::npos) << ended.out;
+  EXPECT_NE(target("5").find("\"unreachable\": true"), std::string::npos) << ended.out;
+  EXPECT_NE(target("7").find("\"unreachable\": true"), std::string::npos) << ended.out;
+}
+
+TEST_F(Program, TheUnitIsToldWithEveryLength) {
+  const Ended words = run_program({"distance", path("square.off"), "-s", "0", "--unit", "cm"});
+  EXPECT_NE(words.out.find("farthest: vertex 2 at 1.41421 cm\n"), std::string::npos) << words.out;
+  EXPECT_NE(
+      run_program({"distance", path("square.off"), "-s", "0", "--json", "--unit", "in"}).out.find("\"unit\": \"in\""),
+      std::string::npos);
+  const Ended info = run_program({"info", path("square.off"), "--unit", "mm"});
+  EXPECT_NE(info.out.find("mean 1.08284 mm\n"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("1 mm^2\n"), std::string::npos) << info.out;
 }
 
 TEST_F(Program, ReadsStandardInput) {
@@ -323,6 +368,7 @@ TEST_F(Program, CompareTellsTheErrorsAgainstTheReference) {
                                                          "field",
                                                          "reference",
                                                          "mesh",
+                                                         "unit",
                                                          "compared",
                                                          "zero_reference",
                                                          "missing",
@@ -368,14 +414,14 @@ TEST_F(Program, ShapesOfEveryKindAndSizeAreMeshes) {
       EXPECT_NE(distance.out.find("\"unreachable\": 0,"), std::string::npos) << shape << " " << vertices;
     }
   }
-  expect_error({"shape", "plane", "-n", "0", "-o", path("x.ply")}, 2, "brushfire: --vertices 0 is not a number >= 1");
+  expect_error({"shape", "plane", "-n", "0", "-o", path("x.ply")}, 2,
+               "brushfire: --vertices takes a number >= 1, not '0'");
   expect_error({"shape", "plane"}, 2, "brushfire: --output is required (see brushfire shape --help)");
 }
 
 TEST_F(Program, UsageErrorsEndWithTwoAndOneLine) {
   const std::string mesh = path("square.off");
-  expect_error({"frobnicate"}, 2,
-               "brushfire: The following argument was not expected: frobnicate (see brushfire --help)");
+  expect_error({"frobnicate"}, 2, "brushfire: there is no verb 'frobnicate' (see brushfire --help)");
   expect_error({"info"}, 2, "brushfire: FILE is required (see brushfire info --help)");
   expect_error({"info", mesh, "--colour"}, 2,
                "brushfire: The following argument was not expected: --colour (see brushfire info --help)");
@@ -395,7 +441,8 @@ TEST_F(Program, UsageErrorsEndWithTwoAndOneLine) {
   expect_error({"distance", mesh, "--source", "f:2:1,0,0"}, 2,
                "brushfire: 'f:2:1,0,0': there is no such face, the mesh has 2");
   expect_error({"distance", mesh, "--source", "0", "--target", "1@2"}, 2, "brushfire: '1@2': a target has no offset");
-  expect_error({"distance", mesh, "--source", "0", "--radius", "-1"}, 2, "brushfire: --radius -1 is not a number >= 0");
+  expect_error({"distance", mesh, "--source", "0", "--radius", "-1"}, 2,
+               "brushfire: --radius takes a number >= 0 or inf, not '-1'");
   expect_error({"distance", mesh, "--source", "0", "--precision", "half"}, 2,
                "brushfire: --precision: 'half' is none of float32, float64 (see brushfire distance --help)");
   expect_error({"completion", "csh"}, 2,

@@ -1,6 +1,6 @@
 // Thread teams, and what is known about memory.
+#include <brushfire/core/detail/memory.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
 #include <brushfire/core/parallel.h>
 
 #include <gtest/gtest.h>

@@ -108,6 +108,15 @@ double bound_of(const DistanceField& field, Index v) {
   return field.error_bound.empty() ? kInfinity : field.error_bound[v];
 }
 
+// Of points of a face: what rounding may do to its corners, it may do to them.
+double bound_in(const DistanceField& field, const Face& face) {
+  double bound = 0;
+  for (const Index v : face) {
+    if (field.error_bound[v] < kInfinity) bound = std::max(bound, field.error_bound[v]);
+  }
+  return bound;
+}
+
 }  // namespace
 
 std::string Task::name() const {
@@ -269,11 +278,7 @@ Outcome Examination::targets() {
     const Index source = field.target_source[i];
     const double offset = source < sources.size() ? sources[source].offset : 0;
     const Real truth = truth_.target[i];
-    // Targets are given no bounds: what rounding may do to the corners of the face, it may do to them.
-    double room = 0;
-    for (const Index v : case_.mesh.faces()[case_.targets[i].face]) {
-      if (field.error_bound[v] < kInfinity) room = std::max(room, field.error_bound[v]);
-    }
+    const double room = bound_in(field, case_.mesh.faces()[case_.targets[i].face]);
     const Real length = std::abs(truth - offset);
     const bool wrong = same_reach({field.target_distance[i], truth, length, kInfinity}, "", out) &&
                        std::abs(field.target_distance[i] - truth) > room + Real{kExactPromise} * length;
@@ -327,15 +332,29 @@ Outcome Examination::windows(const Task& task) {
   return out;
 }
 
+// Dijkstra begins with what a source sees across an edge, in frames of doubles: see "Rounding" in docs/tolerance.md.
+static Real frame_rounding(const Mesh& mesh) {
+  constexpr Real kFrames = 4;  // two faces, laid side by side
+  Real lever = 0;
+  for (Index h = 0; h < mesh.halfedge_count(); h += 3) {
+    const std::array<double, 3> l{mesh.length(h), mesh.length(h + 1), mesh.length(h + 2)};
+    const Real longest = *std::max_element(l.begin(), l.end()), shortest = *std::min_element(l.begin(), l.end());
+    lever = std::max(lever, shortest > 0 ? longest * longest / shortest : longest);
+  }
+  return kFrames * kEpsilon * lever * mesh.unit();
+}
+
 Outcome Examination::other(const Task& task) {
   Outcome out;
   const std::vector<Source>& sources = case_.starts[start_];
   const DistanceField field = distance(case_.mesh, sources, options_of(task));
+  const Real frames = frame_rounding(case_.mesh);
   for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
     const Value value = value_at(field, sources, truth().distance, v);
     if (!same_reach(value, vertex_text(v), out)) continue;
-    const bool too_short = task.method == Method::Dijkstra && value.got < value.truth - kExactPromise * value.length -
-                                                                              2 * kEpsilon * std::abs(value.truth);
+    const bool too_short =
+        task.method == Method::Dijkstra &&
+        value.got < value.truth - kExactPromise * value.length - 2 * kEpsilon * std::abs(value.truth) - frames;
     if (!too_short) continue;
     ++out.beyond;
     out.complain(off(value, vertex_text(v)));
@@ -343,6 +362,8 @@ Outcome Examination::other(const Task& task) {
   return out;
 }
 
+// To vertices and targets: there, whole, and as long as both the field and the truth say, to kPathPromise or to what
+// the field itself says that it may be off by.
 Outcome Examination::paths() {
   Outcome out;
   DistanceOptions options;
@@ -350,43 +371,57 @@ Outcome Examination::paths() {
   options.keep_windows = true;
   const std::vector<Source>& sources = case_.starts[start_];
   const DistanceField field = distance(case_.mesh, sources, options);
-  const auto hold = [&](const SurfacePoint& to, const std::string& where) {
-    const WindowField::Value value = field.windows->value(to);
-    const double d = value.distance - (value.source < sources.size() ? sources[value.source].offset : 0);
-    ++out.compared;
-    SurfacePath path;
-    try {
-      path = path_to(*field.windows, to);
-    } catch (const Error& e) {
-      ++out.lost;
-      return out.complain("to " + where + ": " + e.what());
-    }
-    if ((path.length == kInfinity) != (d == kInfinity) || path.points.empty() != (d == kInfinity)) {
-      ++out.lost;
-      return out.complain("to " + where + ": no way, and the field says " + std::to_string(d));
-    }
-    if (d == kInfinity) return;
-    const double error = std::abs(path.length - d);
-    const double rounding = 2 * kEpsilon * std::abs(value.distance);  // of the offset
-    if (d > 0) out.worst = std::max(out.worst, error / d);
-    if (error > kPathPromise * d + rounding) {
-      ++out.beyond;
-      char text[160];
-      std::snprintf(text, sizeof text, "to %s: %.17g long, the field says %.17g", where.c_str(), path.length, d);
-      out.complain(text);
-    }
-    try {
-      length_of(case_.mesh, path.points);
-    } catch (const Error& e) {
-      ++out.lost;
-      out.complain("to " + where + ": " + e.what());
-    }
-  };
   for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
-    if (case_.mesh.first_corner(v) != kNoIndex) hold(vertex_point(case_.mesh, v), vertex_text(v));
+    if (case_.mesh.first_corner(v) == kNoIndex) continue;
+    hold_path(*field.windows, vertex_point(case_.mesh, v), truth().distance[v], bound_of(field, v), out);
   }
-  for (const SurfacePoint& p : case_.targets) hold(p, target_text(p));
+  for (std::size_t i = 0; i < case_.targets.size(); ++i) {
+    const SurfacePoint& to = case_.targets[i];
+    hold_path(*field.windows, to, truth().target[i], bound_in(field, case_.mesh.faces()[to.face]), out);
+  }
   return out;
+}
+
+// What naming its points in doubles may do to a path: each moves by up to an epsilon of the face's longest edge.
+static Real rounding_of(const Mesh& mesh, const SurfacePath& path) {
+  Real sum = 0;
+  for (const SurfacePoint& p : path.points) {
+    if (std::count(p.weights.begin(), p.weights.end(), 0.0) == 2) continue;  // a vertex
+    const Index h = 3 * p.face;
+    sum += 2 * kEpsilon * mesh.unit() * std::max({mesh.length(h), mesh.length(h + 1), mesh.length(h + 2)});
+  }
+  return sum;
+}
+
+void Examination::hold_path(const WindowField& field, const SurfacePoint& to, Real truth, double bound, Outcome& out) {
+  const std::string where = "to " + place_text(to);
+  const WindowField::Value value = field.value(to);
+  if (!same_reach({value.distance, truth, 0, bound}, where, out)) return;
+  SurfacePath path;
+  try {
+    path = path_to(field, to);
+    length_of(case_.mesh, path.points);
+  } catch (const Error& e) {
+    ++out.lost;
+    return out.complain(where + ": " + e.what());
+  }
+  if ((path.length == kInfinity) != (value.distance == kInfinity) ||
+      path.points.empty() != (path.length == kInfinity)) {
+    ++out.lost;
+    return out.complain(where + ": no way, and the field says " + std::to_string(value.distance));
+  }
+  if (path.length == kInfinity) return;
+  const Real offset = case_.starts[start_][value.source].offset, length = path.length;
+  const Real rounding = 2 * kEpsilon * (std::abs(truth) + std::abs(offset));  // of adding the offset
+  const Real room = std::max(Real{kPathPromise} * length, Real{bound}) + rounding + rounding_of(case_.mesh, path);
+  const Real off_field = std::abs(length + offset - value.distance), off_truth = std::abs(length + offset - truth);
+  if (length > 0) out.worst = std::max(out.worst, static_cast<double>(off_field / length));
+  if (off_field <= room && off_truth <= room) return;
+  ++out.beyond;
+  char text[240];
+  std::snprintf(text, sizeof text, "%s: %.17g long, off the field by %.2Lg, off the truth by %.2Lg, bound %.2g",
+                where.c_str(), path.length, off_field, off_truth, bound);
+  out.complain(text);
 }
 
 }  // namespace brushfire::corpus

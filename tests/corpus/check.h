@@ -12,14 +12,14 @@ namespace brushfire::corpus {
 
 // kExactPromise of the value, or the bound that comes with it, whichever is more.
 inline constexpr double kExactPromise = 1e-12;
-// Of the value: how far a path's length may be from the field's.
+// Of its length: how far a path may be from the field's value and from the truth, unless the bound is more.
 inline constexpr double kPathPromise = 1e-11;
 
 struct Task {
   enum class Kind : std::uint8_t {
     Truth,    // the oracle has an answer at all
     Exact,    // every vertex within the promise, and within the bound
-    Paths,    // to vertices and targets: there, whole, as long as the field says
+    Paths,    // to vertices and targets: there, whole, as long as the field says and the truth
     Targets,  // the values at targets
     Radius,   // half the vertices, the same values, infinity beyond
     Windows,  // every vertex within the bound, the bound within the tolerance
@@ -56,6 +56,7 @@ class Examination {
 
   Outcome exact(const DistanceOptions& options);
   Outcome paths();
+  void hold_path(const WindowField& field, const SurfacePoint& to, oracle::Real truth, double bound, Outcome& out);
   Outcome targets();
   Outcome radius();
   Outcome windows(const Task& task);

@@ -255,13 +255,14 @@ std::uint64_t today() { return static_cast<std::uint64_t>(std::time(nullptr)) / 
 
 constexpr const char* kFooter =
     R"(A case is named by its family, a seed and an index, and is the same anywhere. Every failure prints the command
-that makes it again. Exit code 1 where a promise is broken: any of the columns but "off the field" and "others".
+that makes it again. Exit code 1 where a promise is broken: any of the columns but the last two.
 
   beyond         farther from the truth than max(1e-12 of the value, its error_bound): exact, at vertices and targets
   bound broken   farther than error_bound
+  off the field  paths whose length is off the field's value, or the truth, by more than 1e-11 of it and the error_bound
   windows        bounds that do not hold, or are wider than the tolerance
   lower, upper   on the wrong side of the truth, to the last bit
-  others         marching and Dijkstra: reached wrongly; Dijkstra: below the truth
+  others         marching and Dijkstra: reached wrongly; Dijkstra: below the truth by more than its first step rounds
   no truth       starts on which the oracle does not end
   oracle unsure  solves on which the oracle changed its mind with twice the digits)";
 

@@ -50,7 +50,8 @@ void Tally::add(const Tally& t) {
 }
 
 std::uint64_t Tally::wrong() const {
-  return beyond + unbound + hung + crashed + refused + lost + window_violations + side_violations;
+  return beyond + unbound + hung + crashed + refused + lost + path_beyond + window_violations + side_violations +
+         other_beyond;
 }
 
 void print_head_of_families() {

@@ -21,8 +21,7 @@ struct Tally {
 
   void add(const Task& task, const Outcome& outcome);
   void add(const Tally& other);
-  // What breaks a promise. What the oracle does not know is nobody's fault; paths that are not as long as the field
-  // within 1e-11, and Dijkstra's sums below the truth by their rounding, are told and not counted yet.
+  // What breaks a promise. What the oracle does not know is nobody's fault.
   std::uint64_t wrong() const;
 };
 

@@ -1,6 +1,6 @@
 // The Delaunay generator against its definition, checked in exact arithmetic.
+#include <brushfire/core/detail/random.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/random.h>
 #include <brushfire/mesh/delaunay.h>
 #include <brushfire/mesh/report.h>
 

@@ -1,7 +1,7 @@
 // The locality order: a permutation that keeps neighbours together, and cheap.
-#include <brushfire/core/random.h>
+#include <brushfire/core/detail/random.h>
 #include <brushfire/mesh/detail/hilbert.h>
-#include <brushfire/mesh/locality_order.h>
+#include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/mesh/shapes.h>
 
 #include <gtest/gtest.h>

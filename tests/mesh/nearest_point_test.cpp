@@ -1,6 +1,6 @@
 // Nearest surface points against exhaustive search and against the optimality conditions of the definition.
+#include <brushfire/core/detail/random.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/random.h>
 #include <brushfire/mesh/nearest_point.h>
 #include <brushfire/mesh/shapes.h>
 

@@ -1,6 +1,6 @@
 // Ear clipping: area kept, orientation kept, no overlap, and an end on any input.
+#include <brushfire/core/detail/random.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/random.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/polygons.h>
 #include <brushfire/mesh/report.h>

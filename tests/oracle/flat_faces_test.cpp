@@ -3,7 +3,7 @@
 #include "oracle/zoo.h"
 
 #include <brushfire/mesh/report.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <gtest/gtest.h>
 
@@ -98,7 +98,7 @@ TEST(FlatFaces, TolerancesAreKeptOnRowsOfHardlyAnyAltitude) {
         const Source source{random_face_point(mesh, random)};
         DistanceOptions options;
         options.tolerance = tolerance;
-        const auto engine = detail::make_windows(mesh, detail::kPartBits, detail::Merging::Always);
+        const auto engine = windows::make_windows(mesh, windows::kPartBits, windows::Merging::Always);
         const DistanceField field = test::run(*engine, mesh, {source}, options);  // in mesh.unit()
         const Truth truth = polyhedral_distance(mesh, std::span(&source, 1));
         for (Index v = 0; v < mesh.vertex_count(); ++v) {

@@ -7,7 +7,7 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/window_field.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <gtest/gtest.h>
 
@@ -140,7 +140,7 @@ TEST(Sheets, WindowsMergedAndInPartsOfFourFacesKeepTheirBounds) {
   options.tolerance = 1e-3;
   for (std::uint32_t seed = 1; seed <= 150; ++seed) {
     const Case c = random_case(seed);
-    const auto engine = detail::make_windows(c.mesh, 2, detail::Merging::Always);
+    const auto engine = windows::make_windows(c.mesh, 2, windows::Merging::Always);
     for (const std::vector<Source>& sources : runs_of(c)) {
       for (const Method method : {Method::Windows, Method::Exact}) {
         options.method = method;

@@ -1,7 +1,7 @@
 // Gradients: exact for linear fields; steepest descent against a search over all directions.
+#include <brushfire/core/detail/random.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/random.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/gradient.h>
 

@@ -1,8 +1,8 @@
 // Isolines: convergence to circles, loop counts by Morse theory, and order where levels meet vertices.
+#include <brushfire/core/detail/random.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/random.h>
 #include <brushfire/mesh/delaunay.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/isolines.h>
 

@@ -23,6 +23,26 @@ TEST(Path, OnShapesIsJudgedGoodAndAsLongAsTheFieldSays) {
   test::expect_good_paths(shapes::noise_terrain(20, 20, 0.5).mesh(), 60, 7, "terrain");
 }
 
+// Two faces without area over one edge: their third corners lie at one place of it, and no edge joins them.
+TEST(Path, CrossesAnEdgeBetweenTwoVerticesAtOnePlaceOfIt) {
+  const Shape shape{{{-0.75, -0.5, 0}, {-1, 0, 0}, {0, -2, 0}, {-0.75, -0.5, 0}, {-2, -1, 0}, {1, 1, 0}},
+                    {{0, 2, 1}, {3, 1, 2}, {0, 1, 4}, {3, 5, 1}}};
+  const Mesh mesh = shape.mesh();
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_paths = true;
+  for (const Index v : {0u, 3u}) {
+    const Index other = 3 - v, behind = v == 0 ? 5 : 4;
+    const std::vector<Source> sources{{vertex_point(mesh, v)}};
+    const DistanceField field = distance(mesh, sources, options);
+    EXPECT_EQ(field.distance[other], 0);
+    EXPECT_EQ(path_to(*field.windows, vertex_point(mesh, other)).length, 0);
+    const SurfacePath path = path_to(*field.windows, vertex_point(mesh, behind));
+    EXPECT_EQ(test::judge(mesh, path), "");
+    EXPECT_NEAR(path.length, field.distance[behind], 1e-14);
+  }
+}
+
 // On a grid many lines run over vertices exactly, some of them to a target on an edge from a corner of the face beyond.
 TEST(Path, ToEdgePointsByEitherNameOverVerticesExactlyIsJudgedGood) {
   const Mesh mesh = shapes::plane(5, 4).mesh();

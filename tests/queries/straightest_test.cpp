@@ -266,8 +266,36 @@ TEST(LogMap, AnglesAreThoseOfTheShortestPaths) {
       for (int k = 0; k < 2; ++k) {
         expect_angles_of_paths(mesh, vertex_point(mesh, static_cast<Index>(random() % mesh.vertex_count())), name);
         expect_angles_of_paths(mesh, {static_cast<Index>(random() % mesh.face_count()), {0.2, 0.3, 0.5}}, name);
+        // (On an edge, directions in space are those of both its faces in a plane only.)
+        if (name == "plane") expect_angles_of_paths(mesh, {mesh.face_count() / 2, {0.4, 0, 0.6}}, name);
       }
     }
+  }
+}
+
+// Beyond an edge of many faces, two sheets may see the source in the same place by different ways.
+TEST(LogMap, AnglesAreThoseOfTheShortestPathsOnManySheets) {
+  for (const Index pages : {3u, 4u}) {
+    const Mesh book = shapes::book(pages, 6, 5).mesh();
+    for (Index f = 2; f < book.face_count(); f += 17) expect_angles_of_paths(book, {f, {0.25, 0.35, 0.4}}, "book");
+  }
+  Shape twice = shapes::folded_sphere(3);
+  const std::vector<Face> once = twice.faces;
+  for (const Face& f : once) twice.faces.push_back({f[1], f[2], f[0]});
+  expect_angles_of_paths(twice.mesh(), {40, {0.2, 0.3, 0.5}}, "twice");
+}
+
+TEST(LogMap, AnglesLieWithinTheFullTurn) {
+  const std::vector<Mesh> meshes{shapes::plane(8, 8).mesh(), shapes::cone(8, 12, 1, 0.5).mesh(), shapes::saddle(8).mesh()};
+  for (const Mesh& mesh : meshes) {
+    for (Index v = 0; v < mesh.vertex_count(); v += 5) {
+      const LogMap map = log_map(mesh, vertex_point(mesh, v));
+      for (const double angle : map.angle) {
+        ASSERT_GE(angle, 0);
+        ASSERT_LE(angle, map.total_angle);
+      }
+    }
+    expect_angles_of_paths(mesh, vertex_point(mesh, 0), "corner or apex");
   }
 }
 

@@ -4,7 +4,7 @@
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/window_field.h>
-#include <brushfire/solvers/windows/detail/leg_search.h>
+#include <brushfire/solvers/windows/paths/leg_search.h>
 
 #include <gtest/gtest.h>
 
@@ -165,15 +165,15 @@ TEST(Crowds, ALegFromTheHubIsFoundByLength) {
   detail::LocatedSource source;
   source.at = locate(mesh, vertex_point(mesh, root));
   const double straight = 2 / mesh.unit();
-  const WindowField::Leg leg = detail::find_leg({mesh,
-                                                 std::span(&source, 1),
-                                                 0,
-                                                 value,
-                                                 locate(mesh, vertex_point(mesh, 0)),
-                                                 straight * (1 - 1e-3),
-                                                 kNoIndex,
-                                                 kNoIndex,
-                                                 {}});
+  const WindowField::Leg leg = windows::find_leg({mesh,
+                                                  std::span(&source, 1),
+                                                  0,
+                                                  value,
+                                                  locate(mesh, vertex_point(mesh, 0)),
+                                                  straight * (1 - 1e-3),
+                                                  kNoIndex,
+                                                  kNoIndex,
+                                                  {}});
   EXPECT_EQ(leg.vertex, root);
   EXPECT_NEAR(leg.length, straight, 1e-12 * straight);
 }

@@ -1,6 +1,6 @@
 // The march itself: the variants for different processors.
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/fast_marching/march.h>
+#include <brushfire/solvers/fast_marching/detail/march.h>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "support/shared_meshes.h"
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 namespace {
 
 // Values from two places, the second one later than the first, under labels of their own or mixed.
@@ -24,8 +24,8 @@ MarchState<T> marched(const Rings<T>& rings, Index vertices, FrontModel model, b
     state.label.assign(state.front_at.size(), kNoIndex);
     state.start = {0, 1};
   }
-  state.offer(0, 0, 0);
-  state.offer(vertices / 2, 1, 1);
+  state.seed(0, 0, 0);
+  state.seed(vertices / 2, 1, 1);
   const MarchPart<T> march = march_part<T>(model, labelled, variant);
   state.begin_run();
   while (state.next_round()) {
@@ -43,7 +43,7 @@ void expect_same_bits(const Mesh& mesh, FrontModel model, Index part_size) {
     ASSERT_EQ(best.pops(), portable.pops());
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       ASSERT_EQ(best.front_at[v].value, portable.front_at[v].value) << "vertex " << v << ", labelled " << labelled;
-      ASSERT_EQ(best.front_at[v].root, portable.front_at[v].root) << "vertex " << v << ", labelled " << labelled;
+      ASSERT_EQ(best.front_at[v].sigma, portable.front_at[v].sigma) << "vertex " << v << ", labelled " << labelled;
     }
     EXPECT_EQ(best.label, portable.label);
   }
@@ -90,7 +90,7 @@ void expect_same_rings(const Mesh& mesh) {
   EXPECT_EQ(best.layout.next, portable.layout.next);
   ASSERT_EQ(best.heads.size(), portable.heads.size());
   for (std::size_t v = 0; v < best.heads.size(); ++v) {
-    ASSERT_EQ(best.heads[v].bend, portable.heads[v].bend) << "vertex " << v;
+    ASSERT_EQ(best.heads[v].correction, portable.heads[v].correction) << "vertex " << v;
     ASSERT_EQ(best.heads[v].more, portable.heads[v].more) << "vertex " << v;
   }
   EXPECT_EQ(best.layout.mean_edge, portable.layout.mean_edge);
@@ -105,4 +105,4 @@ TEST(March, EveryProcessorBuildsTheSameRings) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

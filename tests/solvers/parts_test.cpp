@@ -2,7 +2,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/compare.h>
-#include <brushfire/solvers/fast_marching/parts.h>
+#include <brushfire/solvers/fast_marching/detail/parts.h>
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST(Parts, GiveTheSameBitsWhereARadiusOrTargetsStopTheFront) {
 // The usual parts, of a mesh that is large enough to have some.
 TEST(Parts, OfALargeMeshAreThoseOfItsSolver) {
   const Mesh mesh = shapes::torus(700, 300).mesh();
-  ASSERT_GT(mesh.vertex_count(), detail::usual_part_size(mesh));
+  ASSERT_GT(mesh.vertex_count(), fast_marching::usual_part_size(mesh));
   const Source source{vertex_point(mesh, 5)};
   DistanceOptions options = options_of({Method::NovotniKlein, Precision::Float}, 1);
   DistanceSolver solver(mesh);
@@ -157,7 +157,7 @@ TEST(Parts, AreLeftAndTakenUpAgainAfterACancelledRun) {
 
 // What a part names of others: each ghost once, told of by its owner, and telling it.
 TEST(Parts, KnowEachOther) {
-  detail::PartsBuilder builder(8, detail::part_shift(4));
+  fast_marching::PartsBuilder builder(8, fast_marching::part_shift(4));
   builder.add(2, 5);
   builder.add(3, 5);
   builder.add(3, 4);
@@ -165,7 +165,7 @@ TEST(Parts, KnowEachOther) {
   builder.add(4, 3);
   builder.add(5, 3);
   builder.finish_part(1);
-  const detail::Parts parts = builder.take();
+  const fast_marching::Parts parts = builder.take();
   ASSERT_EQ(parts.count(), 2u);
   EXPECT_EQ(parts.places(), 12u);
   EXPECT_EQ(parts.owner, (std::vector<Index>{4, 5, 3}));

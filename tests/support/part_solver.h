@@ -2,7 +2,7 @@
 #pragma once
 
 #include <brushfire/solvers/detail/engine.h>
-#include <brushfire/solvers/fast_marching/fast_marching.h>
+#include <brushfire/solvers/fast_marching/detail/fast_marching.h>
 
 #include <memory>
 #include <span>
@@ -13,7 +13,7 @@ namespace brushfire::test {
 class PartSolver {
  public:
   PartSolver(Mesh mesh, Index part_size)
-      : mesh_(std::move(mesh)), engine_(detail::make_fast_marching(mesh_, part_size)) {}
+      : mesh_(std::move(mesh)), engine_(fast_marching::make_engine(mesh_, part_size)) {}
 
   // As distance() gives it, but for what lies beyond the radius.
   DistanceField distance(std::span<const Source> sources, const DistanceOptions& options,

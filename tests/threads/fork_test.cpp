@@ -3,8 +3,8 @@
 
 #include <brushfire/core/parallel.h>
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/fast_marching/fast_marching.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/fast_marching/detail/fast_marching.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(Fork, LeavesAChildSolversThatSolve) {
   const std::vector<Source> sources{{vertex_point(mesh, 7)}};
   for (const Method method : {Method::Exact, Method::Windows, Method::NovotniKlein}) {
     const bool marches = method == Method::NovotniKlein;
-    auto engine = marches ? detail::make_fast_marching(mesh, 32) : detail::make_windows(mesh, 5);
+    auto engine = marches ? fast_marching::make_engine(mesh, 32) : windows::make_windows(mesh, 5);
     DistanceOptions options;
     options.method = method;
     options.threads = 2;

@@ -1,6 +1,6 @@
 // Threads on one field of windows, over many small parts. Built by the preset `thread`, ThreadSanitizer watches.
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 TEST(WindowThreads, OfOneRunWriteNothingThatOthersReadAndGiveTheSameBits) {
   constexpr unsigned kSmallParts = 5;
   for (const Mesh& mesh : {shapes::folded_sphere(3).mesh(), shapes::book(5, 9, 7).mesh()}) {
-    const auto engine = detail::make_windows(mesh, kSmallParts, detail::Merging::Always);
+    const auto engine = windows::make_windows(mesh, kSmallParts, windows::Merging::Always);
     const std::vector<Source> one{{vertex_point(mesh, 0)}};
     const std::vector<Source> several{{vertex_point(mesh, 1)}, {{mesh.face_count() / 2, {0.5, 0.5, 0}}, 0.1}};
     for (const Method method : {Method::Exact, Method::Windows}) {

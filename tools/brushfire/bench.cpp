@@ -1,17 +1,15 @@
 // brushfire bench: what the methods cost on a mesh, and how far off they are.
-#include "command_line.h"
+#include "computing.h"
 #include "interrupt.h"
 #include "process.h"
-#include "where.h"
+#include "sources.h"
+#include "surface.h"
 
-#include <brushfire/core/error.h>
 #include <brushfire/core/parallel.h>
-#include <brushfire/io/read_mesh.h>
 #include <brushfire/queries/compare.h>
 #include <brushfire/solvers/distance.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -24,10 +22,11 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   brushfire bench bunny.ply
   brushfire bench bunny.ply --method windows:1e-4 --method novotni-klein:float64
-  brushfire bench bunny.ply --sources 8 --threads 2 --json
+  brushfire bench bunny.ply --spread 8 --threads 2 --json
   brushfire bench large.ply --method novotni-klein --repeat 9 --no-error
 
-A method may be followed by :float64 (its arithmetic) or by a tolerance (windows:1e-4). Every repetition builds the mesh
+A method may be followed by :float64 (its arithmetic) or by a tolerance (windows:1e-4) of its own, as in other verbs.
+Without --source and --spread the first vertex is solved from. Every repetition builds the mesh
 from its arrays, with all that the method needs (set-up), and then solves for each source (solve, per source); what is
 printed is the median. Times are processor time; with --threads above 1 they are by the clock on the wall: threads share
 out the sources, and where there are more of them than sources, they work on one field together. Memory is the most that
@@ -36,13 +35,14 @@ against the exact distances.)";
 
 struct Arguments {
   std::string file;
-  std::vector<std::string> methods, sources;
-  std::optional<double> source_count, repeat, threads, snap_within;
+  SharedArguments shared;
+  std::optional<int> spread, repeat;
   bool no_error = false;
 };
 
 struct Plan {
   std::vector<DistanceOptions> methods;
+  std::vector<Where> places;  // none: vertices spread over the mesh
   std::size_t source_count = 1, repetitions = 5;
   unsigned threads = 1;
 };
@@ -55,60 +55,32 @@ struct Result {
   double proven = kInfinity;  // the largest of the fields' own bounds
 };
 
-// Methods that compute in the precision that is asked for.
-bool has_precision(Method method) { return method == Method::NovotniKlein || method == Method::KimmelSethian; }
-
-// "windows:1e-4", "novotni-klein:float64", "exact".
-DistanceOptions method_of(const std::string& text) {
-  DistanceOptions options;
-  const std::size_t colon = text.find(':');
-  options.method = method_named(text.substr(0, colon));
-  options.cancel = &cancel_token();
-  if (colon == std::string::npos) return options;
-  const std::string detail = text.substr(colon + 1);
-  const bool marches = has_precision(options.method);
-  if (marches && (detail == "float32" || detail == "float64")) {
-    options.precision = detail == "float32" ? Precision::Float : Precision::Double;
-  } else if (options.method == Method::Windows) {
-    const char* end = detail.data() + detail.size();
-    const auto [stop, status] = std::from_chars(detail.data(), end, options.tolerance);
-    const bool fits = options.tolerance >= 0 && options.tolerance <= kMaxTolerance;
-    if (status != std::errc() || stop != end || !fits) {
-      refuse("'" + text + "': a tolerance is a number from 0 to 0.1");
-    }
-  } else {
-    refuse("'" + text +
-           "': " + (marches ? "after the colon goes float32 or float64" : "this method has nothing to choose"));
-  }
-  return options;
-}
-
 std::string name_of(const DistanceOptions& options) {
   std::string name(brushfire::name_of(options.method));
   if (options.method == Method::Windows) name += ":" + readable(options.tolerance);
-  if (options.precision == Precision::Double) name += ":double";
+  if (options.precision == Precision::Double) name += ":float64";
   return name;
 }
 
 Plan plan_of(const Arguments& a) {
   Plan plan;
-  constexpr int kMany = 100000;
-  plan.source_count = static_cast<std::size_t>(whole_number(a.source_count, 1, 1, kMany, "--sources"));
-  plan.repetitions = static_cast<std::size_t>(whole_number(a.repeat, 5, 1, kMany, "--repeat"));
-  plan.threads = static_cast<unsigned>(whole_number(a.threads, 1, 1, kMostThreads, "--threads"));
-  check_snap_within(a.snap_within);
-  if (a.source_count && !a.sources.empty()) refuse("--sources N chooses vertices, --source names places: give one");
-  for (const std::string& text : a.methods) plan.methods.push_back(method_of(text));
-  if (!a.methods.empty()) return plan;
-  for (const Method m : all_methods()) plan.methods.push_back(method_of(std::string(brushfire::name_of(m))));
+  plan.source_count = static_cast<std::size_t>(a.spread.value_or(1));
+  plan.repetitions = static_cast<std::size_t>(a.repeat.value_or(5));
+  plan.threads = thread_count(static_cast<unsigned>(a.shared.threads.value_or(1)));
+  const char* const source = given(a.shared, {Shared::Source, Shared::Sources});
+  if (a.spread && source) refuse("--spread chooses vertices, " + std::string(source) + " names places: give one");
+  if (source) plan.places = parse_sources(a.shared);
+  const std::span<const Method> all = all_methods();
+  plan.methods = computations(a.shared, {all.begin(), all.end()});
+  for (DistanceOptions& options : plan.methods) options.threads = 1;
   return plan;
 }
 
 // The places named, or vertices that have faces, evenly spread over their numbers, from the first one on.
-std::vector<SurfacePoint> sources_of(const Arguments& a, const Plan& plan, const Mesh& mesh, PlaceFinder& places) {
-  std::vector<SurfacePoint> points;
-  for (const std::string& text : split_places(a.sources)) points.push_back(places.source(parse_where(text)));
-  if (!points.empty()) return points;
+std::vector<Source> sources_of(const Arguments& a, const Plan& plan, const Surface& surface, PlaceFinder& places) {
+  if (!plan.places.empty()) return sources_on(surface, places, plan.places);
+  const Mesh& mesh = surface.mesh();
+  std::vector<Source> sources;
   std::vector<Index> candidates;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.corners(v).empty()) candidates.push_back(v);
@@ -116,17 +88,18 @@ std::vector<SurfacePoint> sources_of(const Arguments& a, const Plan& plan, const
   if (candidates.empty()) refuse(a.file + ": no vertex has a face to start from");
   const std::size_t count = std::min(plan.source_count, candidates.size());
   for (std::size_t i = 0; i < count; ++i) {
-    points.push_back(vertex_point(mesh, candidates[i * candidates.size() / count]));
+    sources.push_back({vertex_point(mesh, candidates[i * candidates.size() / count])});
   }
-  return points;
+  return sources;
 }
 
 class Bench {
  public:
-  Bench(const Mesh& mesh, std::vector<SurfacePoint> sources, const Plan& plan, bool with_error)
+  Bench(const Mesh& mesh, std::vector<Source> sources, const Plan& plan, bool with_error)
       : mesh_(mesh), sources_(std::move(sources)), plan_(plan) {
     if (!with_error) return;
-    DistanceOptions exact = method_of("exact");
+    DistanceOptions exact = plan.methods.front();
+    exact.method = Method::Exact;
     truth_.resize(sources_.size());
     DistanceSolver solver(mesh);
     for (std::size_t i = 0; i < sources_.size(); ++i) truth_[i] = field(solver, i, exact).distance;
@@ -150,12 +123,8 @@ class Bench {
   }
 
  private:
-  static DistanceField field(DistanceSolver& solver, const SurfacePoint& point, const DistanceOptions& options) {
-    const Source source{point};
-    return solver.distance({&source, 1}, options);
-  }
   DistanceField field(DistanceSolver& solver, std::size_t source, const DistanceOptions& options) const {
-    return field(solver, sources_[source], options);
+    return solver.distance({&sources_[source], 1}, options);
   }
 
   double now() const {
@@ -202,7 +171,7 @@ class Bench {
   }
 
   const Mesh& mesh_;
-  std::vector<SurfacePoint> sources_;
+  std::vector<Source> sources_;
   const Plan& plan_;
   std::vector<std::vector<double>> truth_;  // per source; empty where errors are not asked for
 };
@@ -268,9 +237,7 @@ std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::si
     methods.emplace_back()
         .add("method", std::string(brushfire::name_of(options.method)))
         .add("tolerance", options.method == Method::Windows ? Record::Value(options.tolerance) : nullptr)
-        .add("precision", !has_precision(options.method)          ? Record::Value(nullptr)
-                          : options.precision == Precision::Float ? Record::Value(std::string("float32"))
-                                                                  : Record::Value(std::string("float64")))
+        .add("precision", precision_of(options))
         .add("set_up_s", r.set_up_s)
         .add("solve_s", r.solve_s)
         .add("vertices_per_s", vertices_per_second(r))
@@ -286,6 +253,7 @@ std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::si
       .add("vertices", std::int64_t{mesh.vertex_count()})
       .add("faces", std::int64_t{mesh.face_count()})
       .add("sources", static_cast<std::int64_t>(sources))
+      .add("radius", a.shared.radius.value_or(kInfinity))
       .add("threads", std::int64_t{plan.threads})
       .add("repetitions", static_cast<std::int64_t>(plan.repetitions))
       .add("clock", std::string(plan.threads == 1 ? "processor" : "wall"))
@@ -296,9 +264,10 @@ std::string json(const Arguments& a, const Plan& plan, const Mesh& mesh, std::si
 
 int bench(const Arguments& a, const Talk& talk) {
   const Plan plan = plan_of(a);
-  const Mesh mesh = read_mesh(a.file).mesh;
-  PlaceFinder places(mesh, a.snap_within);
-  const std::vector<SurfacePoint> sources = sources_of(a, plan, mesh, places);
+  const Surface surface(a.file, a.shared);
+  const Mesh& mesh = surface.mesh();
+  PlaceFinder places(mesh, a.shared.snap_within);
+  const std::vector<Source> sources = sources_of(a, plan, surface, places);
   places.tell(talk);
   const Progress progress = talk.progress("bench");
   const Bench bench(mesh, sources, plan, !a.no_error);
@@ -319,15 +288,19 @@ int bench(const Arguments& a, const Talk& talk) {
 void add_bench(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("bench", "What the methods cost on a mesh, and how far off they are", [&](Verb& verb) {
-    verb.argument("FILE", arguments->file, "The mesh; - reads standard input");
-    verb.option("-m,--method,--methods", arguments->methods, "NAME", "What to measure (all); may be repeated");
-    verb.option("-s,--source", arguments->sources, "PLACE", "Solve from here; may be repeated");
-    verb.option("--sources", arguments->source_count, "N", "Solve from each of N vertices, spread over the mesh (1)");
-    verb.option("--repeat", arguments->repeat, "N", "Repetitions (5)");
-    verb.option("--threads", arguments->threads, "N", "Threads that share out the sources, or a field (1)");
-    add_snap_within(verb, arguments->snap_within);
+    add_surface(verb, arguments->file);
+    verb.option("--spread", arguments->spread, "N", whole_from(1, 100000),
+                "Solve from each of N vertices, spread over the mesh");
+    verb.option("--repeat", arguments->repeat, "N", whole_from(1, 100000), "Repetitions (5)");
     verb.flag("--no-error", arguments->no_error, "Do not compute the exact distances to compare with");
     verb.talks();
+    add_shared(verb, arguments->shared,
+               {.without = {{kWalls, "methods are compared on the whole mesh"},
+                            {{Shared::Unit}, "bench tells times and relative errors, and no lengths"},
+                            {{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}},
+                .also = {{Shared::Method, "--methods"}},
+                .method = "all of them; may be repeated",
+                .threads = "1"});
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return bench(*arguments, talk); });
   });

@@ -1,12 +1,12 @@
 // brushfire certify: what can be proven about a field, whoever made it.
-#include "command_line.h"
+#include "computing.h"
 #include "fields.h"
 #include "interrupt.h"
 #include "output.h"
 #include "sources.h"
+#include "surface.h"
 
 #include <brushfire/io/npy.h>
-#include <brushfire/io/read_mesh.h>
 #include <brushfire/io/write_bytes.h>
 #include <brushfire/io/write_field.h>
 #include <brushfire/queries/certify.h>
@@ -40,9 +40,10 @@ proven), and what is wrong. FILE.npy has lower, upper and that error, one row pe
 formats of brushfire distance are coloured by how large the error is.)";
 
 struct Arguments {
-  std::string mesh, field, sources_file, output;
-  std::vector<std::string> sources;
-  std::optional<double> tolerance, within, radius, threads, show, snap_within;
+  std::string mesh, field, output;
+  SharedArguments shared;
+  std::optional<double> within;
+  std::optional<int> show;
 };
 
 constexpr int kShown = 10;
@@ -50,17 +51,12 @@ constexpr int kShown = 10;
 bool ends_with(const std::string& path, const char* ending) { return path.ends_with(ending); }
 
 void check(const Arguments& a, const Talk& talk) {
-  if (a.within && !(*a.within >= 0)) refuse("--within " + exact(*a.within) + " is not a number >= 0");
-  if (a.radius && !(*a.radius >= 0)) refuse("--radius " + exact(*a.radius) + " is not a number >= 0");
-  check_snap_within(a.snap_within);
-  const double tolerance = a.tolerance.value_or(0);
-  const bool fits = tolerance >= 0 && tolerance <= kMaxTolerance;
-  if (!fits) {
-    refuse("--tolerance " + exact(tolerance) + " is not in 0 to " + exact(kMaxTolerance));
-  }
   check_output(a.output);
   if (a.output == "-" && talk.json) refuse("only one of -o - and --json can have the standard output");
 }
+
+// That of the bounds: exact ones if nothing is said.
+double tolerance_asked(const Arguments& a) { return given(a.shared, kAccuracy) ? computation(a.shared).tolerance : 0; }
 
 // The vertices that are proven wrong, the largest errors first; ties by number.
 std::vector<Index> wrong_vertices(const Certificate& c) {
@@ -115,9 +111,10 @@ std::string json(const Arguments& a, const std::vector<double>& field, const Cer
       .add("not_reachable", count(c.not_reachable))
       .add("not_reached", count(c.not_reached))
       .add("not_a_number", count(c.not_a_number))
-      .add("tolerance", a.tolerance.value_or(0))
+      .add("tolerance", tolerance_asked(a))
       .add("within", a.within.value_or(0))
-      .add("radius", a.radius.value_or(kInfinity))
+      .add("radius", a.shared.radius.value_or(kInfinity))
+      .add("unit", unit_of(a.shared))
       .add("least_within", c.least_within)
       .add("worst_vertex", c.worst_vertex == kNoIndex ? -1 : count(c.worst_vertex))
       .add("max_gap", c.max_gap);
@@ -182,30 +179,54 @@ std::string in_words(const Arguments& a, const std::vector<double>& field, const
   return text;
 }
 
+// What is said of a vertex holds for all that were joined to it.
+Certificate on_file(const Surface& surface, Certificate c) {
+  if (!surface.is_welded()) return c;
+  c.lower = surface.on_file<double>(c.lower);
+  c.upper = surface.on_file<double>(c.upper);
+  c.proven_error = surface.on_file<double>(c.proven_error);
+  c.finding = surface.on_file<Finding>(c.finding);
+  const auto count = [&](Finding f) { return static_cast<Index>(std::count(c.finding.begin(), c.finding.end(), f)); };
+  c.possible = count(Finding::Possible);
+  c.too_short = count(Finding::TooShort);
+  c.too_long = count(Finding::TooLong);
+  c.not_reachable = count(Finding::NotReachable);
+  c.not_reached = count(Finding::NotReached);
+  c.not_a_number = count(Finding::NotANumber);
+  c.worst_vertex = surface.file_vertex(c.worst_vertex);
+  return c;
+}
+
 int certify_verb(const Arguments& a, const Talk& talk) {
   check(a, talk);
-  const std::vector<Where> places = parse_sources(a.sources, a.sources_file);
+  const std::vector<Where> places = parse_sources(a.shared);
   CertifyOptions options;
-  options.tolerance = a.tolerance.value_or(0);
+  options.tolerance = tolerance_asked(a);
   options.within = a.within.value_or(0);
-  options.max_distance = a.radius.value_or(kInfinity);
-  options.threads = static_cast<unsigned>(whole_number(a.threads, 0, 0, kMostThreads, "--threads"));
-  const auto most = static_cast<std::size_t>(whole_number(a.show, kShown, 0, 1'000'000'000, "--show"));
+  options.max_distance = a.shared.radius.value_or(kInfinity);
+  options.threads = static_cast<unsigned>(a.shared.threads.value_or(0));
+  const auto most = static_cast<std::size_t>(a.show.value_or(kShown));
 
-  const Mesh mesh = read_mesh(a.mesh).mesh;
+  const Surface surface(a.mesh, a.shared);
   stop_if_interrupted();
-  const std::vector<double> field = values_of(read_field(a.field), a.field, mesh.vertex_count(), a.mesh);
-  PlaceFinder finder(mesh, a.snap_within);
-  std::vector<Source> sources;
-  for (const Where& w : places) sources.push_back({finder.source(w), w.offset});
+  const Index count = surface.file().mesh.vertex_count();
+  std::vector<double> field = values_of(read_field(a.field, a.shared.array_name), a.field, count, a.mesh);
+  // What lies behind walls may be no number, as it is in GIFTI.
+  const std::vector<std::uint8_t> open = surface.open_vertices();
+  for (std::size_t v = 0; v < open.size(); ++v) {
+    if (!open[v] && std::isnan(field[v])) field[v] = kInfinity;
+  }
+  PlaceFinder finder(surface.mesh(), a.shared.snap_within);
+  const std::vector<Source> sources = sources_on(surface, finder, places);
   finder.tell(talk);
 
   options.cancel = &cancel_token();
   options.progress = talk.progress("certify");
-  const Certificate certificate = certify(mesh, field, sources, options);
+  const Certificate certificate =
+      on_file(surface, certify(surface.domain(), surface.on_mesh(field, a.field), sources, options));
   talk.end_progress();
 
-  if (!a.output.empty()) write(a.output, mesh, field, certificate);
+  if (!a.output.empty()) write(a.output, surface.file().mesh, field, certificate);
   const std::vector<Index> wrong = wrong_vertices(certificate);
   const std::size_t shown = std::min(most, wrong.size());
   if (talk.json) {
@@ -225,16 +246,16 @@ void add_certify(CommandLine& command_line) {
   command_line.add("certify", "What can be proven about a field, whoever made it", [&](Verb& verb) {
     verb.argument("MESH", arguments->mesh, "The mesh");
     verb.argument("FIELD", arguments->field, "The distances to judge, one number per vertex");
-    verb.option("-s,--source", arguments->sources, "PLACE", "A source, as for distance; may be repeated");
-    verb.option("--sources", arguments->sources_file, "LIST", "File of sources, one per line, # comments");
-    verb.option("--within", arguments->within, "E", "Values may be off by this share of the distance (0)");
-    verb.option("--tolerance", arguments->tolerance, "T", "Bounds may be up to 2 T of the distance apart (0: exact)");
-    verb.option("-r,--radius", arguments->radius, "R", "What is farther than this may read inf");
-    add_snap_within(verb, arguments->snap_within);
-    verb.option("--threads", arguments->threads, "N", "Threads; 0, the default: one per processor");
-    verb.option("--show", arguments->show, "N", "How many wrong vertices to tell, the largest errors first (10)");
+    verb.option("--within", arguments->within, "E", kLimit, "Values may be off by this share of the distance (0)");
+    verb.option("--show", arguments->show, "N", whole_from(0, 1e9),
+                "How many wrong vertices to tell, the largest errors first (10)");
     verb.option("-o,--output", arguments->output, "FILE", "Write what is known of every vertex: .csv .npy .ply ...");
     verb.talks();
+    add_shared(verb, arguments->shared,
+               {.without = {{{Shared::Method}, "bounds are proven by exact, or with --tolerance by windows"},
+                            {{Shared::Bound}, "both bounds are proven"},
+                            {{Shared::Precision}, "only the marching methods have one, and they prove nothing"},
+                            {{Shared::Scalar}, "the values to judge are FIELD"}}});
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return certify_verb(*arguments, talk); });
   });

@@ -9,10 +9,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <map>
 #include <new>
+#include <set>
 
 namespace brushfire::tool {
 namespace {
@@ -63,6 +63,16 @@ struct Verb::Parser {
   Talk talk;
   std::function<int(Talk&)> body;
   std::map<const CLI::Option*, std::vector<std::string>> choices;
+  std::map<const CLI::Option*, std::string> refused;  // with the reasons
+  std::set<const CLI::Option*> numbers;
+  std::string group;
+
+  CLI::Option* placed(CLI::Option* option) const { return group.empty() ? option : option->group(group); }
+  void number(const char* names, const std::function<void(const std::string&)>& parse, const char* placeholder,
+              const char* help) {
+    numbers.insert(placed(app->add_option_function<std::string>(names, parse, help)->type_name(placeholder)));
+  }
+  CLI::Option* choice(CLI::Option* option, const char* help, const std::vector<std::string>& words, bool may_go_on);
 };
 
 struct CommandLine::Implementation {
@@ -75,41 +85,91 @@ void Verb::argument(const char* name, std::string& value, const char* help) {
 }
 
 void Verb::required_option(const char* names, std::string& value, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, value, help)->required()->check(not_empty())->type_name(placeholder);
+  parser_.placed(parser_.app->add_option(names, value, help)->required()->check(not_empty())->type_name(placeholder));
 }
 
 void Verb::option(const char* names, std::string& value, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, value, help)->check(not_empty())->type_name(placeholder);
+  parser_.placed(parser_.app->add_option(names, value, help)->check(not_empty())->type_name(placeholder));
 }
 
-void Verb::option(const char* names, std::optional<double>& value, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, value, help)->check(not_empty())->type_name(placeholder);
+namespace {
+
+// "--radius" of "-r,--radius".
+std::string long_name(std::string_view names) {
+  const std::size_t at = names.find("--");
+  return std::string(names.substr(at, names.find(',', at) - at));
+}
+
+}  // namespace
+
+void Verb::option(const char* names, std::optional<double>& value, const char* placeholder, const Range& range,
+                  const char* help) {
+  const auto parse = [&value, range, name = long_name(names)](const std::string& text) {
+    value = number_in(range, name, text);
+  };
+  parser_.number(names, parse, placeholder, help);
+}
+
+void Verb::option(const char* names, std::optional<int>& value, const char* placeholder, const Range& range,
+                  const char* help) {
+  const auto parse = [&value, range, name = long_name(names)](const std::string& text) {
+    value = static_cast<int>(number_in(range, name, text));
+  };
+  parser_.number(names, parse, placeholder, help);
 }
 
 void Verb::option(const char* names, std::vector<std::string>& values, const char* placeholder, const char* help) {
-  parser_.app->add_option(names, values, help)->allow_extra_args(false)->check(not_empty())->type_name(placeholder);
+  parser_.placed(parser_.app->add_option(names, values, help)
+                     ->allow_extra_args(false)
+                     ->check(not_empty())
+                     ->type_name(placeholder));
+}
+
+// The choices stand in the help, in lines that fit beside the names. `may_go_on`: behind a colon.
+CLI::Option* Verb::Parser::choice(CLI::Option* option, const char* help, const std::vector<std::string>& words,
+                                  bool may_go_on) {
+  constexpr std::size_t kLine = 88;
+  std::string listed, help_text = help + std::string(": ");
+  for (const std::string& c : words) {
+    listed += (listed.empty() ? "" : ", ") + c;
+    const std::size_t line = help_text.size() - (help_text.rfind('\n') + 1);  // npos + 1 is 0
+    if (c != words.front()) help_text += line + c.size() < kLine ? ", " : ",\n";
+    help_text += c;
+  }
+  const auto one_of = [words, listed, may_go_on](const std::string& text) {
+    const std::string word = may_go_on ? text.substr(0, text.find(':')) : text;
+    return std::find(words.begin(), words.end(), word) != words.end() ? std::string()
+                                                                      : "'" + word + "' is none of " + listed;
+  };
+  choices[option] = words;
+  return placed(option->description(help_text)->check(CLI::Validator(one_of, ""))->type_name("NAME"));
 }
 
 void Verb::choice(const char* names, std::string& value, const std::vector<std::string>& choices, const char* help) {
-  constexpr std::size_t kLine = 88;
-  std::string listed, help_text = help + std::string(": ");
-  for (const std::string& c : choices) {
-    listed += (listed.empty() ? "" : ", ") + c;
-    const std::size_t line = help_text.size() - (help_text.rfind('\n') + 1);  // npos + 1 is 0
-    if (c != choices.front()) help_text += line + c.size() < kLine ? ", " : ",\n";
-    help_text += c;
-  }
-  CLI::Option* option = parser_.app->add_option(names, value, help_text);
-  const auto one_of = [choices, listed](const std::string& text) {
-    return std::find(choices.begin(), choices.end(), text) != choices.end() ? std::string()
-                                                                            : "'" + text + "' is none of " + listed;
-  };
+  CLI::Option* option = parser_.choice(parser_.app->add_option(names, value), help, choices, false);
+  option->capture_default_str();
   if (names[0] != '-') option->required();
-  option->check(CLI::Validator(one_of, ""))->type_name("NAME")->capture_default_str();
-  parser_.choices[option] = choices;
 }
 
-void Verb::flag(const char* names, bool& value, const char* help) { parser_.app->add_flag(names, value, help); }
+void Verb::choice(const char* names, std::vector<std::string>& values, const std::vector<std::string>& choices,
+                  const char* help) {
+  parser_.choice(parser_.app->add_option(names, values), help, choices, true)->allow_extra_args(false);
+}
+
+void Verb::flag(const char* names, bool& value, const char* help) {
+  parser_.placed(parser_.app->add_flag(names, value, help));
+}
+
+void Verb::refused(const char* names, bool takes_value, const std::string& reason) {
+  const auto refuse_it = [name = long_name(names), reason] { refuse(name + ": " + reason); };
+  CLI::Option* option =
+      takes_value ? parser_.app->add_option_function<std::string>(names, [=](const std::string&) { refuse_it(); })
+                  : parser_.app->add_flag_callback(names, refuse_it);
+  option->group("")->allow_extra_args(false);
+  parser_.refused[option] = reason;
+}
+
+void Verb::group(const char* title) { parser_.group = title; }
 
 void Verb::talks() {
   flag("--json", parser_.talk.json, "Print one JSON object with stable keys instead of words");
@@ -164,7 +224,9 @@ int CommandLine::run(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& e) {
       const CLI::App* at = &app;
       for (const CLI::App* sub : app.get_subcommands()) at = sub;
-      return fail(kUsage, e.what() + help_hint(*at));
+      const bool has_word = at == &app && argc > 1 && argv[1][0] != '-';
+      const std::string what = has_word ? "there is no verb " + in_quotes(argv[1]) : e.what();
+      return fail(kUsage, what + help_hint(*at));
     }
     for (const auto& verb : implementation_->verbs) {
       if (!verb->app->parsed()) continue;
@@ -189,15 +251,6 @@ int CommandLine::run(int argc, const char* const* argv) {
 
 void refuse(const std::string& what) { throw Error(ErrorCode::InvalidArgument, what); }
 
-int whole_number(const std::optional<double>& value, int otherwise, int low, int high, const char* option) {
-  if (!value) return otherwise;
-  const bool fits = *value >= low && *value <= high && *value == std::floor(*value);
-  if (!fits) {
-    refuse(std::string(option) + " takes a whole number from " + std::to_string(low) + " to " + std::to_string(high));
-  }
-  return static_cast<int>(*value);
-}
-
 std::string CommandLine::footer() const { return implementation_->app.get_footer(); }
 
 std::vector<VerbNames> CommandLine::names() const {
@@ -209,13 +262,18 @@ std::vector<VerbNames> CommandLine::names() const {
     verb.footer = parser->app->get_footer();
     for (const CLI::Option* option : parser->app->get_options()) {
       const bool dashed = option->nonpositional();
-      OptionNames& names = (dashed ? verb.options : verb.arguments).emplace_back();
+      const auto reason = parser->refused.find(option);
+      std::vector<OptionNames>& list = !dashed                           ? verb.arguments
+                                       : reason == parser->refused.end() ? verb.options
+                                                                         : verb.refused;
+      OptionNames& names = list.emplace_back();
       for (const std::string& s : option->get_snames()) names.names.push_back("-" + s);
       for (const std::string& l : option->get_lnames()) names.names.push_back("--" + l);
       if (!dashed) names.names = {option->get_name()};
       names.takes_value = option->get_items_expected_max() > 0;
+      names.is_number = parser->numbers.count(option) > 0;
       if (names.takes_value) names.placeholder = option->get_type_name();
-      names.help = option->get_description();
+      names.help = reason == parser->refused.end() ? option->get_description() : reason->second;
       std::replace(names.help.begin(), names.help.end(), '\n', ' ');
       if (const auto found = parser->choices.find(option); found != parser->choices.end()) {
         names.choices = found->second;

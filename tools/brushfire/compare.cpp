@@ -1,6 +1,6 @@
 // brushfire compare: how far one field is from another.
-#include "command_line.h"
 #include "fields.h"
+#include "shared.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_field.h>
@@ -29,6 +29,7 @@ is 5 where a relative error is greater than E, or a vertex is reached by one of 
 
 struct Arguments {
   std::string field, reference, mesh;
+  SharedArguments shared;
   std::optional<double> fail_above;
 };
 
@@ -48,6 +49,7 @@ std::string json(const Arguments& arguments, const FieldComparison& c) {
   Record record;
   const auto add = [&](const char* key, Index value) { record.add(key, std::int64_t{value}); };
   record.add("field", arguments.field).add("reference", arguments.reference).add("mesh", arguments.mesh);
+  record.add("unit", unit_of(arguments.shared));
   add("compared", c.compared);
   add("zero_reference", c.zero_reference);
   add("missing", c.missing);
@@ -84,11 +86,13 @@ std::string row(const char* name, const ErrorMeasure& error) {
 std::string in_words(const Arguments& arguments, const FieldComparison& c) {
   std::string text = arguments.field + " against " + arguments.reference + ": " +
                      counted(c.compared, "vertex", "vertices") + " compared\n";
+  const std::string unit = arguments.shared.unit.empty() ? "" : ", " + arguments.shared.unit;
   char head[160];
   std::snprintf(head, sizeof head, "  %-26s %12s %12s %12s\n", "", "mean", "rms", "max");
-  text += head + row("relative error", c.relative) + row("absolute error", c.absolute);
+  text += head + row("relative error", c.relative) + row(("absolute error" + unit).c_str(), c.absolute);
   if (c.has_weights) {
-    text += row("relative, by area", c.weighted_relative) + row("absolute, by area", c.weighted_absolute);
+    text +=
+        row("relative, by area", c.weighted_relative) + row(("absolute, by area" + unit).c_str(), c.weighted_absolute);
   }
   text += "  mean signed relative error " + readable(c.mean_signed_relative) + "\n";
   const auto note = [&](Index n, const char* what) {
@@ -105,10 +109,7 @@ std::string in_words(const Arguments& arguments, const FieldComparison& c) {
 }
 
 int compare(const Arguments& arguments, const Talk& talk) {
-  if (arguments.fail_above && !(*arguments.fail_above >= 0)) {
-    refuse("--fail-above " + exact(*arguments.fail_above) + " is not a number >= 0");
-  }
-  const LoadedField reference = read_field(arguments.reference);
+  const LoadedField reference = read_field(arguments.reference, arguments.shared.array_name);
   std::size_t count = reference.values.size();
   std::string counting = arguments.reference;
   std::vector<double> areas;
@@ -118,7 +119,8 @@ int compare(const Arguments& arguments, const Talk& talk) {
     counting = arguments.mesh;
   }
   const std::vector<double> b = values_of(reference, arguments.reference, count, counting);
-  const std::vector<double> a = values_of(read_field(arguments.field), arguments.field, count, counting);
+  const std::vector<double> a =
+      values_of(read_field(arguments.field, arguments.shared.array_name), arguments.field, count, counting);
   const FieldComparison result = compare_fields(a, b, areas);
   write_stdout(talk.json ? json(arguments, result) : in_words(arguments, result));
   return arguments.fail_above && is_above(result, *arguments.fail_above) ? kProvenWrong : kOk;
@@ -132,8 +134,15 @@ void add_compare(CommandLine& command_line) {
     verb.argument("A", arguments->field, "The field to judge");
     verb.argument("B", arguments->reference, "The reference");
     verb.option("--mesh", arguments->mesh, "FILE", "The mesh of both: adds means weighted by area");
-    verb.option("--fail-above", arguments->fail_above, "E", "Exit code 5 where a relative error is greater than this");
+    verb.option("--fail-above", arguments->fail_above, "E", kLimit,
+                "Exit code 5 where a relative error is greater than this");
     verb.talks();
+    add_shared(verb, arguments->shared,
+               {.without = {{kWalls, "values are compared as they stand in their files"},
+                            {kStarting, "two fields are read, and nothing starts anywhere"},
+                            {kComputing, "two fields are read, and none is computed"},
+                            {{Shared::Scalar}, "the values are A and B"},
+                            {{Shared::Weld}, "fields are compared vertex by vertex, as they stand in their files"}}});
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return compare(*arguments, talk); });
   });

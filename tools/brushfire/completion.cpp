@@ -28,6 +28,7 @@ std::string bash(const std::vector<VerbNames>& verbs) {
     for (const OptionNames& option : verb.options) {
       for (const std::string& name : option.names) {
         options.push_back(name);
+        if (option.is_number) values += "    " + verb.name + ":" + name + ") return ;;\n";
         if (!option.choices.empty()) {
           values += "    " + verb.name + ":" + name + ") COMPREPLY=($(compgen -W \"" + joined(option.choices, " ") +
                     "\" -- \"$word\")); return ;;\n";
@@ -85,7 +86,7 @@ std::string zsh(const std::vector<VerbNames>& verbs) {
         if (!option.choices.empty()) {
           cases += ":value:(" + joined(option.choices, " ") + ")";
         } else if (option.takes_value) {
-          cases += ":value:_files";
+          cases += option.is_number ? ":number:" : ":value:_files";
         }
         cases += "' \\\n";
       }
@@ -142,7 +143,7 @@ std::string fish(const std::vector<VerbNames>& verbs) {
       if (!option.choices.empty()) {
         lines += " -x -a " + fish_quoted(joined(option.choices, " "));
       } else if (option.takes_value) {
-        lines += " -r";
+        lines += option.is_number ? " -x" : " -r";
       }
       lines += " -d " + fish_quoted(option.help) + "\n";
     }

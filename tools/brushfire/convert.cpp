@@ -1,5 +1,4 @@
 // brushfire convert: any file that is read to any that is written.
-#include "command_line.h"
 #include "output.h"
 #include "surface.h"
 #include "where.h"
@@ -26,12 +25,13 @@ constexpr const char* kExamples = R"(Examples:
   brushfire convert path.json path.dxf --mesh part.stl --unit in
 
 What is converted is what the output holds: a mesh, with the values of --scalar where it has a place for them; values on
-vertices where the output is .npy, .csv, .json, .curv, .shape.gii, .func.gii or .label.gii; curves where it is .svg or .dxf,
-or with --mesh, the surface that they lie on. A field file alone is converted without a mesh. Numbers of vertices stay; --weld changes them.)";
+vertices where the output is .npy, .csv, .json, .curv, .shape.gii, .func.gii or .label.gii; curves where it is .svg or
+.dxf, or with --mesh, the surface that they lie on. A field file alone is converted without a mesh. Numbers of vertices
+stay; --weld changes them.)";
 
 struct Arguments {
-  SurfaceArguments input;
-  std::string output, scalar_file, name, mesh_file;
+  std::string input, output, mesh_file;
+  SharedArguments shared;
   DrawingArguments drawing;
 };
 
@@ -54,7 +54,7 @@ FieldView view_of(const std::vector<double>& values, const LoadedField& field) {
 }
 
 std::string convert_field(const Arguments& a, const std::string& file) {
-  const LoadedField field = read_field(file, a.name);
+  const LoadedField field = read_field(file, a.shared.array_name);
   Index vertices = static_cast<Index>(field.values.size());
   for (const Index v : field.vertices) vertices = std::max(vertices, v + 1);
   const std::vector<double> values = values_on_vertices(field, vertices);
@@ -65,14 +65,14 @@ std::string convert_field(const Arguments& a, const std::string& file) {
 }
 
 std::string convert_mesh(const Arguments& a) {
-  const Surface surface(a.input);
-  if (a.scalar_file.empty()) {
+  const Surface surface(a.input, a.shared);
+  if (a.shared.scalar_file.empty()) {
     write_mesh(a.output, surface.mesh(), "", surface.file().structure);
     return surface.file().format;
   }
-  if (surface.is_welded()) refuse("--scalar has values for the file's vertices: no --weld");
-  const LoadedField field = read_field(a.scalar_file, a.name);
-  const std::vector<double> values = values_on_vertices(field, surface.mesh().vertex_count());
+  const LoadedField field = read_field(a.shared.scalar_file, a.shared.array_name);
+  const std::vector<double> values =
+      surface.on_mesh(values_on_vertices(field, surface.file().mesh.vertex_count()), a.shared.scalar_file);
   FieldView view = view_of(values, field);
   view.structure = surface.file().structure;
   write_field(a.output, surface.mesh(), view);
@@ -93,12 +93,12 @@ Mesh mesh_of_points(const LoadedLines& loaded) {
 bool is_drawing(const std::string& output) { return ends_with_any(output, {".svg", ".dxf"}); }
 
 std::string convert_lines(const Arguments& a, const Talk& talk) {
-  const LinesOptions drawing = lines_options(a.output, a.drawing);
-  const LoadedLines loaded = read_lines(a.input.file);
+  const LinesOptions drawing = lines_options(a.output, a.drawing, a.shared);
+  const LoadedLines loaded = read_lines(a.input);
   const bool has_mesh = !a.mesh_file.empty();
   if (!has_mesh && a.drawing.outline) refuse("--outline needs the --mesh");
-  const Mesh mesh = has_mesh ? Surface({a.mesh_file, a.input.weld}).mesh() : mesh_of_points(loaded);
-  PlaceFinder finder(mesh, {});
+  const Mesh mesh = has_mesh ? Surface(a.mesh_file, a.shared).mesh() : mesh_of_points(loaded);
+  PlaceFinder finder(mesh, a.shared.snap_within);
   std::vector<SurfaceLine> lines;
   Index point = 0;
   for (const LoadedLine& line : loaded.lines) {
@@ -108,7 +108,7 @@ std::string convert_lines(const Arguments& a, const Talk& talk) {
     if (has_mesh && !line.points.empty()) {
       out.points = line.points;
     } else {
-      if (line.positions.empty() && !line.points.empty()) refuse(a.input.file + " has no positions: give the --mesh");
+      if (line.positions.empty() && !line.points.empty()) refuse(a.input + " has no positions: give the --mesh");
       for (const Vec3& p : line.positions) {
         const Where where{.place = p, .text = "point " + std::to_string(point)};
         out.points.push_back(has_mesh ? finder.target(where) : SurfacePoint{point, {1, 0, 0}});
@@ -125,14 +125,14 @@ std::string convert(const Arguments& a, const Talk& talk) {
   if (!a.mesh_file.empty() || is_drawing(a.output)) return convert_lines(a, talk);
   if (!holds_values_only(a.output)) return convert_mesh(a);
   check_output(a.output);
-  return convert_field(a, a.scalar_file.empty() ? a.input.file : a.scalar_file);
+  return convert_field(a, a.shared.scalar_file.empty() ? a.input : a.shared.scalar_file);
 }
 
 // Before a large file is read.
 void check(const Arguments& a) {
   if (!a.mesh_file.empty() || is_drawing(a.output) || holds_values_only(a.output)) return;
   try {
-    a.scalar_file.empty() ? check_mesh_format(a.output) : check_field_format(a.output);
+    a.shared.scalar_file.empty() ? check_mesh_format(a.output) : check_field_format(a.output);
   } catch (const Error& e) {
     refuse(e.what());
   }
@@ -142,7 +142,7 @@ int convert_verb(const Arguments& a, const Talk& talk) {
   check(a);
   const std::string format = convert(a, talk);
   if (talk.json) {
-    write_stdout(Record().add("file", a.input.file).add("format", format).add("output", a.output).json());
+    write_stdout(Record().add("file", a.input).add("format", format).add("output", a.output).json());
   } else {
     talk.say(a.output + ": from " + format);
   }
@@ -155,21 +155,19 @@ void add_convert(CommandLine& command_line) {
   const auto a = std::make_shared<Arguments>();
   command_line.add("convert", "Any file that is read to any that is written", [&](Verb& verb) {
     const std::string in = "What to convert. Meshes: " + names_of(meshes_read()) +
-                           ". Values: " + names_of(fields_read()) + ". Curves: " + names_of(lines_read());
+                           ".\nValues: " + names_of(fields_read()) + ".\nCurves: " + names_of(lines_read());
     const std::string out = "Where to. Meshes: " + extensions_of(meshes_written()) +
-                            ". Values: " + extensions_of(fields_written()) +
-                            ". Curves: " + extensions_of(lines_written());
-    verb.argument("INPUT", a->input.file, in.c_str());
+                            ".\nValues: " + extensions_of(fields_written()) +
+                            ".\nCurves: " + extensions_of(lines_written());
+    verb.argument("INPUT", a->input, in.c_str());
     verb.argument("OUTPUT", a->output, out.c_str());
-    verb.option("--weld", a->input.weld, "T", "Join vertices within T of one another (0: equal ones)");
-    verb.option("--scalar", a->scalar_file, "FIELD", "Values to go with the mesh, one per vertex");
-    verb.option("--name", a->name, "NAME", "Which array or column of the values");
     verb.option("--mesh", a->mesh_file, "FILE", "The input is curves, on this mesh");
-    verb.choice("--unit", a->drawing.unit, {"mm", "um", "cm", "m", "in"},
-                "Of the mesh, for .svg and .dxf in real size");
-    verb.option("--view", a->drawing.view, "NAME", "For .svg: front, back, left, right, top or bottom");
-    verb.flag("--outline", a->drawing.outline, "For .svg and .dxf: the outline of the mesh too");
+    add_drawing(verb, a->drawing);
     verb.talks();
+    add_shared(verb, a->shared,
+               {.without = {{kWalls, "convert writes the whole mesh; walls are for distances"},
+                            {{Shared::Source, Shared::Sources}, "nothing starts here: convert computes no distances"},
+                            {kComputing, "convert computes no distances"}}});
     verb.examples(kExamples);
     verb.run([a](Talk& talk) { return convert_verb(*a, talk); });
   });

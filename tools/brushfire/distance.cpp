@@ -1,14 +1,13 @@
 // brushfire distance: the distance of every vertex from the nearest source.
-#include "accuracy.h"
-#include "command_line.h"
+#include "computing.h"
+#include "fields.h"
 #include "interrupt.h"
 #include "output.h"
+#include "reached.h"
 #include "sources.h"
 #include "surface.h"
 #include "where.h"
 
-#include <brushfire/core/error.h>
-#include <brushfire/io/write_field.h>
 #include <brushfire/solvers/distance.h>
 
 #include <chrono>
@@ -42,13 +41,10 @@ where no source reaches; the run ends once their distances are final, so that a 
 than all. Vertices that cannot be reached, or lie beyond the radius, read inf in files.)";
 
 struct Arguments {
-  SurfaceArguments surface;
-  std::string sources_file, output;
-  std::vector<std::string> sources, targets;
+  std::string file, output;
+  SharedArguments shared;
+  std::vector<std::string> targets;
   bool labels = false;
-  Accuracy accuracy;
-  std::string precision = "float32";
-  std::optional<double> radius, threads, snap_within;
 };
 
 class Stopwatch {
@@ -67,6 +63,7 @@ struct Run {
   DistanceOptions options;
   std::vector<Where> target_places;
   DistanceField field;
+  Reached reached;
   double read_s = 0, set_up_s = 0, solve_s = 0;
 
   // The vertex that is farthest away among those reached; kNoIndex where none is.
@@ -80,25 +77,10 @@ struct Run {
   }
 };
 
-std::vector<Where> parse_targets(const Arguments& arguments) {
-  std::vector<Where> places;
-  for (const std::string& text : split_places(arguments.targets)) {
-    places.push_back(parse_where(text));
-    if (places.back().has_offset) {
-      throw Error(ErrorCode::InvalidArgument, "'" + text + "': a target has no offset");
-    }
-  }
-  return places;
-}
-
 void check(const Arguments& arguments, const Talk& talk) {
-  if (arguments.radius && !(*arguments.radius >= 0)) {
-    throw Error(ErrorCode::InvalidArgument, "--radius " + exact(*arguments.radius) + " is not a number >= 0");
-  }
-  check_snap_within(arguments.snap_within);
   check_output(arguments.output);
   if (arguments.output == "-" && (talk.json || !arguments.targets.empty())) {
-    throw Error(ErrorCode::InvalidArgument, "only one of -o -, --json and --target can have the standard output");
+    refuse("only one of -o -, --json and --target can have the standard output");
   }
 }
 
@@ -107,21 +89,19 @@ std::int64_t count(std::uint64_t n) { return static_cast<std::int64_t>(n); }
 std::string json(const Arguments& arguments, const Run& run, const PlaceFinder& places) {
   const DistanceField& field = run.field;
   const Index farthest = run.farthest();
-  const std::optional<double> tolerance = promised_error(run.options);
   Record record;
-  record.add("file", arguments.surface.file)
+  record.add("file", arguments.file)
       .add("method", std::string(name_of(field.method)))
-      .add("precision", arguments.precision)
-      .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
+      .add("precision", precision_of(run.options))
+      .add("tolerance", tolerance_of(run.options))
       .add("bound", field.method == Method::Windows ? Record::Value(name_of(run.options.bound)) : nullptr)
       .add("vertices", count(run.mesh.vertex_count()))
       .add("faces", count(run.mesh.face_count()))
       .add("sources", count(run.sources.size()))
-      .add("radius", arguments.radius.value_or(kInfinity))
-      .add("reached", count(field.reached))
-      .add("unreachable", count(field.unreachable))
-      .add("beyond_radius", count(field.beyond_radius))
-      .add("max_error_bound", field.max_error_bound)
+      .add("radius", run.options.max_distance)
+      .add("unit", unit_of(arguments.shared));
+  run.reached.add_to(record);
+  record.add("max_error_bound", field.max_error_bound)
       .add("max_distance", farthest == kNoIndex ? kInfinity : field.distance[farthest])
       .add("farthest_vertex", farthest == kNoIndex ? -1 : count(farthest))
       .add("updates", count(field.updates))
@@ -134,6 +114,7 @@ std::string json(const Arguments& arguments, const Run& run, const PlaceFinder& 
     Record& target = targets.emplace_back();
     target.add("where", run.target_places[i].text)
         .add("reached", reached)
+        .add("unreachable", !reached && run.reached.is_unreachable(run.options.targets[i]))
         .add("distance", field.target_distance[i])
         .add("source", reached ? count(field.target_source[i]) : -1);
   }
@@ -145,15 +126,12 @@ std::string json(const Arguments& arguments, const Run& run, const PlaceFinder& 
 
 std::string in_words(const Arguments& arguments, const Run& run) {
   const DistanceField& field = run.field;
-  std::string text = arguments.surface.file + ": " + counted(run.mesh.vertex_count(), "vertex", "vertices") + ", " +
+  std::string text = arguments.file + ": " + counted(run.mesh.vertex_count(), "vertex", "vertices") + ", " +
                      counted(run.mesh.face_count(), "face", "faces") + "\n";
   text += std::string(name_of(field.method)) + " from " + counted(run.sources.size(), "source", "sources") +
-          " reached " + counted(field.reached, "vertex", "vertices");
-  if (field.beyond_radius > 0) text += ", " + std::to_string(field.beyond_radius) + " lie beyond the radius";
-  if (field.unreachable > 0) text += ", " + std::to_string(field.unreachable) + " cannot be reached";
-  text += "\n";
+          " reached " + counted(field.reached, "vertex", "vertices") + run.reached.in_words() + "\n";
   if (const Index v = run.farthest(); v != kNoIndex) {
-    text += "farthest: vertex " + std::to_string(v) + " at " + readable(field.distance[v]) + "\n";
+    text += "farthest: vertex " + std::to_string(v) + " at " + with_unit(field.distance[v], arguments.shared) + "\n";
   }
   if (field.method == Method::Windows) {
     text += "no distance is wrong by more than " + readable(100 * field.max_error_bound) +
@@ -169,9 +147,7 @@ void write(const Arguments& arguments, const Run& run, const Surface& surface) {
   const std::vector<double> values = surface.on_file<double>(run.field.distance);
   std::vector<Index> labels;
   if (arguments.labels || !arguments.output.ends_with(".gii")) labels = surface.on_file<Index>(run.field.source);
-  write_field(arguments.output, surface.file().mesh,
-              {.values = values, .labels = labels, .structure = surface.file().structure},
-              arguments.output == "-" ? "csv" : "");
+  write_values(surface, arguments.output, {.values = values, .labels = labels});
 }
 
 int distance_verb(const Arguments& arguments, const Talk& talk) {
@@ -179,29 +155,24 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   check(arguments, talk);
   Run run;
   DistanceOptions& options = run.options;
-  apply(arguments.accuracy, options);
-  options.threads = static_cast<unsigned>(whole_number(arguments.threads, 0, 0, kMostThreads, "--threads"));
-  const std::vector<Where> source_places = parse_sources(arguments.sources, arguments.sources_file);
-  run.target_places = parse_targets(arguments);
+  options = computation(arguments.shared);
+  const std::vector<Where> source_places = parse_sources(arguments.shared);
+  run.target_places = parse_places(arguments.targets, "a target");
 
   const Stopwatch reading;
-  const Surface surface(arguments.surface);
+  const Surface surface(arguments.file, arguments.shared);
   run.mesh = surface.mesh();
   run.read_s = reading.seconds();
   stop_if_interrupted();
 
-  PlaceFinder places(run.mesh, arguments.snap_within);
-  for (const Where& w : source_places) run.sources.push_back({places.source(surface.place(w)), w.offset});
-
-  options.precision = arguments.precision == "float32" ? Precision::Float : Precision::Double;
-  options.max_distance = arguments.radius.value_or(kInfinity);
-  options.cancel = &cancel_token();
+  PlaceFinder places(run.mesh, arguments.shared.snap_within);
+  run.sources = sources_on(surface, places, source_places);
   options.progress = talk.progress("distance");
   for (const Where& w : run.target_places) options.targets.push_back(places.target(surface.place(w)));
   places.tell(talk);
 
   const Stopwatch setting_up;
-  DistanceSolver solver(run.mesh);
+  DistanceSolver solver(surface.domain());
   solver.set_up(options);
   run.set_up_s = setting_up.seconds();
 
@@ -209,10 +180,9 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   run.field = solver.distance(run.sources, options);
   run.solve_s = solving.seconds();
   talk.end_progress();
+  run.reached = Reached(surface.domain(), run.sources, options, run.field);
 
-  if (!arguments.output.empty()) {
-    write(arguments, run, surface);
-  }
+  if (!arguments.output.empty()) write(arguments, run, surface);
   if (talk.json) {
     write_stdout(json(arguments, run, places));
   } else if (!run.target_places.empty()) {
@@ -225,7 +195,8 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
     talk.say(in_words(arguments, run));
   }
   for (std::size_t i = 0; i < run.target_places.size(); ++i) {
-    if (run.field.target_distance[i] == kInfinity) throw Unreachable(run.target_places[i].text);
+    if (run.field.target_distance[i] != kInfinity) continue;
+    throw Unreachable(run.target_places[i].text, !run.reached.is_unreachable(options.targets[i]));
   }
   return kOk;
 }
@@ -235,19 +206,14 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
 void add_distance(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("distance", "Distance of every vertex from the nearest source", [&](Verb& verb) {
-    add_surface(verb, arguments->surface);
-    verb.option("-s,--source", arguments->sources, "PLACE", "A source; may be repeated");
-    verb.option("--sources", arguments->sources_file, "LIST", "File of sources, one per line, # comments");
+    add_surface(verb, arguments->file);
     verb.option("-t,--target", arguments->targets, "PLACE", "Print the distance of this point; may be repeated");
-    add_accuracy(verb, arguments->accuracy);
-    verb.choice("--precision", arguments->precision, {"float32", "float64"}, "Arithmetic of the marching methods");
-    verb.option("-r,--radius", arguments->radius, "R", "Stop at this distance; what is farther reads inf");
-    add_snap_within(verb, arguments->snap_within);
-    verb.option("--threads", arguments->threads, "N", "Threads for this field; 0, the default: one per processor");
     verb.option("-o,--output", arguments->output, "FILE",
                 ("Write the field: " + extensions_of(fields_written()) + "; - prints CSV").c_str());
     verb.flag("--labels", arguments->labels, "Write the nearest source into .gii too, as other formats have it");
     verb.talks();
+    add_shared(verb, arguments->shared,
+               {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return distance_verb(*arguments, talk); });
   });

@@ -1,5 +1,7 @@
-// Fields from files, for the verbs that judge them.
+// Fields from files: those that are judged, and those of --scalar. And to files.
 #pragma once
+
+#include "surface.h"
 
 #include <brushfire/io/read_field.h>
 
@@ -14,5 +16,24 @@ namespace brushfire::tool {
 // and how.
 std::vector<double> values_of(const LoadedField& loaded, const std::string& path, std::size_t count,
                               const std::string& beside);
+
+// The values of a file (the array `name`), on the vertices of surface.mesh().
+std::vector<double> values_on(const Surface& surface, const std::string& path, const std::string& name);
+
+// What a verb shows: the values of --scalar, or distances. Throws Error(InvalidArgument) where both are asked for, or
+// neither is.
+void check_scalar_or_source(const SharedArguments& arguments);
+
+// What is written beside the file's mesh, on its vertices.
+struct Values {
+  std::vector<double> values{};
+  std::vector<Index> labels{};
+  std::string name = "distance";
+  std::string label_name = "source";
+};
+
+// In the format that the extension names, "-" is CSV on standard output. What lies behind walls is no number in GIFTI,
+// and out of reach elsewhere.
+void write_values(const Surface& surface, const std::string& output, const Values& values);
 
 }  // namespace brushfire::tool

@@ -1,21 +1,20 @@
 // brushfire isolines: curves of equal distance.
-#include "command_line.h"
+#include "computing.h"
+#include "fields.h"
 #include "interrupt.h"
 #include "output.h"
+#include "sources.h"
 #include "surface.h"
-#include "where.h"
 
 #include <brushfire/core/error.h>
-#include <brushfire/io/read_field.h>
 #include <brushfire/io/write_lines.h>
 #include <brushfire/queries/curved_isolines.h>
 #include <brushfire/queries/isolines.h>
-#include <brushfire/solvers/distance.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace brushfire::tool {
 namespace {
@@ -30,93 +29,105 @@ Straight pieces between the mesh's edges, or with --curved E exact arcs within t
 and oriented: smaller values on its left. Places are written as for brushfire distance.)";
 
 struct Arguments {
-  SurfaceArguments surface;
+  std::string file, output, levels;
+  SharedArguments shared;
   DrawingArguments drawing;
-  std::string output, levels, scalar_file, method = "exact";
-  std::vector<std::string> sources;
-  std::optional<double> every, count, curved, snap_within;
+  std::optional<double> every, curved;
+  std::optional<int> count;
 };
 
 void check(const Arguments& a) {
-  if (a.sources.empty() == a.scalar_file.empty()) refuse("give --source (the distance from there) or --scalar");
+  check_scalar_or_source(a.shared);
   if (!a.levels.empty() + a.every.has_value() + a.count.has_value() != 1) {
     refuse("which levels? give one of --levels, --every and --count");
   }
-  if (a.curved && (!a.scalar_file.empty() || a.method != "exact"))
-    refuse("--curved needs a --source and --method exact");
-  check_snap_within(a.snap_within);
+  if (!a.levels.empty() && !decimals(a.levels)) {
+    refuse("--levels takes numbers between commas (1,2.5,3), not " + in_quotes(a.levels));
+  }
+  if (a.curved) {
+    if (!a.shared.scalar_file.empty()) refuse("--curved follows distances: give --source in place of --scalar");
+    const Method method = computation(a.shared, Method::Exact).method;
+    if (method != Method::Exact && method != Method::Windows) {
+      refuse("--curved: " + std::string(name_of(method)) + " has no arcs to follow; exact and windows have");
+    }
+  }
   if (a.output.empty()) refuse("where to? give -o lines.obj or another of " + extensions_of(lines_written()));
 }
 
-// "1,2.5,3": numbers between commas.
-std::vector<double> numbers(const std::string& text) {
-  std::vector<double> out;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    double value = 0;
-    const auto [stop, status] = std::from_chars(text.data() + begin, text.data() + end, value);
-    if (status != std::errc() || stop != text.data() + end) refuse("'" + text + "': levels are written as 1,2.5,3");
-    out.push_back(value);
-    begin = end + 1;
+// The least and the greatest finite value; {inf, -inf} where there is none.
+std::pair<double, double> range_of(std::span<const double> values) {
+  std::pair range{kInfinity, -kInfinity};
+  for (const double v : values) {
+    if (!std::isfinite(v)) continue;
+    range = {std::min(range.first, v), std::max(range.second, v)};
   }
-  return out;
+  return range;
 }
 
 std::vector<double> levels_of(const Arguments& a, std::span<const double> values) {
-  if (a.every) {
-    try {
-      return levels_every(values, *a.every);
-    } catch (const Error& e) {
-      refuse(std::string("--every: ") + e.what());
-    }
-  }
-  if (!a.count) {
-    std::vector<double> levels = numbers(a.levels);
+  if (a.count) return levels_between(values, static_cast<Index>(*a.count));
+  if (!a.every) {
+    std::vector<double> levels = *decimals(a.levels);
     std::sort(levels.begin(), levels.end());
     return levels;
   }
-  constexpr double kMost = 1e6;
-  if (!(*a.count >= 1 && *a.count <= kMost) || *a.count != std::floor(*a.count)) {
-    refuse("--count takes a whole number from 1 to 1000000");
+  try {
+    return levels_every(values, *a.every);
+  } catch (const Error& e) {
+    refuse(std::string("--every: ") + e.what());
   }
-  return levels_between(values, static_cast<Index>(*a.count));
+}
+
+// Levels at which there can be no curve are told, with the range in which there are some.
+std::size_t tell_outside(const Arguments& a, const std::vector<double>& levels, std::pair<double, double> range,
+                         const Talk& talk) {
+  const auto is_outside = [&](double level) { return level < range.first || level > range.second; };
+  const auto outside = static_cast<std::size_t>(std::count_if(levels.begin(), levels.end(), is_outside));
+  if (outside == 0 && !levels.empty()) return 0;
+  const std::string values = range.first > range.second ? "there is no finite value on this mesh"
+                                                        : "the values run from " + with_unit(range.first, a.shared) +
+                                                              " to " + with_unit(range.second, a.shared);
+  talk.say(outside == 0 ? "no level: " + values
+                        : counted(outside, "level lies", "levels lie") + " outside of the range: " + values);
+  return outside;
 }
 
 DistanceField solve(const Arguments& a, const Surface& surface, PlaceFinder& places, const Talk& talk) {
-  const Mesh& mesh = surface.mesh();
-  std::vector<Source> sources;
-  for (const std::string& text : split_places(a.sources)) {
-    const Where where = parse_where(text);
-    sources.push_back({places.source(surface.place(where)), where.offset});
-  }
+  const std::vector<Source> sources = sources_on(surface, places, parse_sources(a.shared));
   places.tell(talk);
-  DistanceOptions options;
-  options.method = method_named(a.method);
+  DistanceOptions options = computation(a.shared, Method::Exact);
   options.keep_windows = a.curved.has_value();
-  options.cancel = &cancel_token();
   options.progress = talk.progress("distance");
-  DistanceField field = distance(mesh, sources, options);
+  DistanceField field = distance(surface.domain(), sources, options);
   talk.end_progress();
   return field;
 }
 
+std::vector<Isoline> curves_of(const Arguments& a, const Domain& domain, const DistanceField& field,
+                               const std::vector<double>& levels) {
+  if (!a.curved) return isolines(domain, field.side_distance.empty() ? field.distance : field.side_distance, levels);
+  std::vector<Isoline> found = curved_isolines(*field.windows, levels, *a.curved);
+  for (Isoline& line : found) domain.to_mesh(line.line.points);
+  return found;
+}
+
 int isolines_verb(const Arguments& a, const Talk& talk) {
   check(a);
-  const LinesOptions drawing = lines_options(a.output, a.drawing);
-  const Surface surface(a.surface);
+  const LinesOptions drawing = lines_options(a.output, a.drawing, a.shared);
+  const Surface surface(a.file, a.shared);
   const Mesh& mesh = surface.mesh();
   stop_if_interrupted();
-  PlaceFinder places(mesh, a.snap_within);
+  PlaceFinder places(mesh, a.shared.snap_within);
   DistanceField field;
-  if (a.sources.empty()) {
-    if (surface.is_welded()) refuse("--scalar has values for the file's vertices: no --weld");
-    field.distance = values_on_vertices(read_field(a.scalar_file), mesh.vertex_count(), kInfinity);
-  } else {
+  if (a.shared.scalar_file.empty()) {
     field = solve(a, surface, places, talk);
+  } else {
+    field.distance = values_on(surface, a.shared.scalar_file, a.shared.array_name);
   }
   const std::vector<double> levels = levels_of(a, field.distance);
-  const std::vector<Isoline> found =
-      a.curved ? curved_isolines(*field.windows, levels, *a.curved) : isolines(mesh, field.distance, levels);
+  const std::pair<double, double> range = range_of(field.distance);
+  const std::size_t outside = tell_outside(a, levels, range, talk);
+  const std::vector<Isoline> found = curves_of(a, surface.domain(), field, levels);
   std::vector<SurfaceLine> lines;
   double length = 0;
   std::int64_t closed = 0;
@@ -128,8 +139,12 @@ int isolines_verb(const Arguments& a, const Talk& talk) {
   write_lines(a.output, mesh, lines, "level", "", drawing);
   if (talk.json) {
     Record record;
-    record.add("file", a.surface.file)
+    record.add("file", a.file)
+        .add("least", range.first)
+        .add("greatest", range.second)
+        .add("unit", unit_of(a.shared))
         .add("levels", static_cast<std::int64_t>(levels.size()))
+        .add("levels_outside", static_cast<std::int64_t>(outside))
         .add("lines", static_cast<std::int64_t>(lines.size()))
         .add("closed", closed)
         .add("length", length);
@@ -138,7 +153,7 @@ int isolines_verb(const Arguments& a, const Talk& talk) {
     write_stdout(record.json());
   } else {
     talk.say(counted(lines.size(), "curve", "curves") + " at " + counted(levels.size(), "level", "levels") + ", " +
-             readable(length) + " long in all");
+             with_unit(length, a.shared) + " long in all");
   }
   return kOk;
 }
@@ -147,20 +162,15 @@ int isolines_verb(const Arguments& a, const Talk& talk) {
 
 void add_isolines(CommandLine& command_line) {
   const auto a = std::make_shared<Arguments>();
-  std::vector<std::string> methods;
-  for (const Method m : all_methods()) methods.emplace_back(name_of(m));
   command_line.add("isolines", "Curves of equal distance, ordered and oriented", [&](Verb& verb) {
-    add_surface(verb, a->surface);
-    verb.option("-s,--source", a->sources, "PLACE", "Distances from here; may be repeated");
-    verb.option("--scalar", a->scalar_file, "FIELD", "These values instead, one per vertex");
+    add_surface(verb, a->file);
     verb.option("--levels", a->levels, "L,L,...", "At these values");
-    verb.option("--every", a->every, "H", "At the multiples of H");
-    verb.option("--count", a->count, "N", "At N values that divide the range evenly");
-    verb.option("--curved", a->curved, "E", "Exact arcs, as polylines within this chord error");
-    verb.choice("-m,--method", a->method, methods, "How to compute");
-    add_snap_within(verb, a->snap_within);
+    verb.option("--every", a->every, "H", kPositive, "At the multiples of H");
+    verb.option("--count", a->count, "N", whole_from(1, 1000000), "At N values that divide the range evenly");
+    verb.option("--curved", a->curved, "E", kPositive, "Exact arcs, as polylines within this chord error");
     add_lines_output(verb, a->output, a->drawing);
     verb.talks();
+    add_shared(verb, a->shared, {.method = "exact"});
     verb.examples(kExamples);
     verb.run([a](Talk& talk) { return isolines_verb(*a, talk); });
   });

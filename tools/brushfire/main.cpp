@@ -2,20 +2,7 @@
 #include "command_line.h"
 
 int main(int argc, char** argv) {
-  using namespace brushfire::tool;
-  CommandLine command_line;
-  add_info(command_line);
-  add_distance(command_line);
-  add_path(command_line);
-  add_isolines(command_line);
-  add_matrix(command_line);
-  add_compare(command_line);
-  add_certify(command_line);
-  add_render(command_line);
-  add_bench(command_line);
-  add_convert(command_line);
-  add_shape(command_line);
-  add_completion(command_line);
-  add_manual(command_line);
+  brushfire::tool::CommandLine command_line;
+  brushfire::tool::add_verbs(command_line);
   return command_line.run(argc, argv);
 }

@@ -61,6 +61,8 @@ std::string page_of(const VerbNames& verb) {
   for (const OptionNames& argument : verb.arguments) page += item(argument);
   page += ".SH OPTIONS\n";
   for (const OptionNames& option : verb.options) page += item(option);
+  if (!verb.refused.empty()) page += ".SH OPTIONS THAT OTHER VERBS HAVE\n";
+  for (const OptionNames& option : verb.refused) page += item(option);
   if (!verb.footer.empty()) page += ".SH MORE\n" + verbatim(verb.footer);
   return page + ".SH SEE ALSO\n.BR brushfire (1)\n";
 }

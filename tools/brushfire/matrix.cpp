@@ -1,18 +1,15 @@
 // brushfire matrix: distances from many places to many places.
-#include "accuracy.h"
-#include "command_line.h"
+#include "computing.h"
 #include "interrupt.h"
+#include "sources.h"
 #include "surface.h"
-#include "where.h"
 
-#include <brushfire/core/error.h>
 #include <brushfire/queries/distance_matrix.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace brushfire::tool {
 namespace {
@@ -21,6 +18,8 @@ constexpr const char* kExamples = R"(Rows and columns:
   all               every vertex, in the file's order
   0,5,9             these vertices; at:1.5,0,-2, f:120:.2,.3,.5 and others as for `brushfire distance --source`
   FILE              one place, or a list of vertices, per line, as for `brushfire distance --sources`
+
+--source and --sources are another way to say --rows.
 
 Examples:
   brushfire matrix cortex.gii -o d.npy
@@ -31,12 +30,10 @@ Examples:
 .npz (scipy.sparse.load_npz) and .mtx (MatrixMarket) hold what is within it; there, columns are all vertices.)";
 
 struct Arguments {
-  SurfaceArguments surface;
-  std::string output;
-  std::string rows = "all", columns = "all";
-  Accuracy accuracy;
+  std::string file, output;
+  SharedArguments shared;
+  std::string rows, columns;  // "": all
   std::string type = "float32";
-  std::optional<double> radius, threads, snap_within;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -48,26 +45,41 @@ bool is_file(const std::string& text) {
          text.find_first_not_of("0123456789,") != std::string::npos;
 }
 
-std::vector<Where> parse_places(const std::string& text) {
+std::vector<Where> parse_list(const std::string& text) {
   if (is_file(text)) return read_where_file(text);
-  std::vector<Where> places;
-  for (const std::string& place : split_places({text})) places.push_back(parse_where(place));
-  return places;
+  return parse_places({text}, "a row or column");
+}
+
+// Nothing for all vertices.
+std::optional<std::vector<Where>> parse_rows(const Arguments& a) {
+  if (given(a.shared, {Shared::Source, Shared::Sources})) {
+    if (!a.rows.empty()) refuse("--rows and --source both say where the rows start from: give one");
+    return parse_sources(a.shared);
+  }
+  if (a.rows.empty() || a.rows == "all") return std::nullopt;
+  return parse_list(a.rows);
+}
+
+std::optional<std::vector<Where>> parse_columns(const Arguments& a) {
+  if (a.columns.empty() || a.columns == "all") return std::nullopt;
+  return parse_list(a.columns);
 }
 
 // The places of a list; nullopt for all vertices, which are those of the file.
-std::optional<std::vector<Place>> places_on(const Surface& surface, PlaceFinder& finder, const std::string& text) {
-  if (text == "all" && !surface.is_welded()) return std::nullopt;
+std::optional<std::vector<Place>> places_on(const Surface& surface, PlaceFinder& finder,
+                                            const std::optional<std::vector<Where>>& list) {
+  const Index count = surface.file().mesh.vertex_count();
+  if (!list && !surface.is_welded()) return std::nullopt;
   std::vector<Place> places;
-  if (text == "all") {
-    for (Index v = 0; v < surface.file().mesh.vertex_count(); ++v) places.emplace_back(surface.vertex(v));
+  if (!list) {
+    for (Index v = 0; v < count; ++v) places.emplace_back(surface.vertex(v));
     return places;
   }
-  for (const Where& where : parse_places(text)) {
-    if (where.has_offset) throw Error(ErrorCode::InvalidArgument, "'" + where.text + "': a matrix has no offsets");
+  for (const Where& where : *list) {
+    if (where.has_offset) refuse("'" + where.text + "': a matrix has no offsets");
     // A vertex in no face is a legal row (of infinities), but not a point of the surface.
     const VertexPlace* vertex = std::get_if<VertexPlace>(&where.place);
-    if (vertex && vertex->index < surface.file().mesh.vertex_count()) {
+    if (vertex && vertex->index < count) {
       places.push_back(surface.vertex(static_cast<Index>(vertex->index)));
     } else {
       places.push_back(finder.source(surface.place(where)));
@@ -78,39 +90,21 @@ std::optional<std::vector<Place>> places_on(const Surface& surface, PlaceFinder&
 
 bool is_sparse(const std::string& path) { return path.ends_with(".npz") || path.ends_with(".mtx"); }
 
-unsigned threads_of(const Arguments& arguments) {
-  const double threads = arguments.threads.value_or(0);
-  if (!(threads >= 0 && threads <= 4096 && threads == std::floor(threads))) {
-    throw Error(ErrorCode::InvalidArgument, "--threads takes a whole number: 0 means one per processor");
+void check(const Arguments& a) {
+  const bool sparse = is_sparse(a.output);
+  if (!sparse && !a.output.ends_with(".npy")) refuse("where to? give -o FILE.npy, .npz or .mtx");
+  if (!sparse) return;
+  if (!a.shared.radius || *a.shared.radius == kInfinity) refuse(a.output + ": a sparse matrix needs a --radius");
+  if (a.shared.weld) {
+    refuse(a.output + ": its columns are the mesh's vertices: no --weld (brushfire convert writes a welded mesh)");
   }
-  return static_cast<unsigned>(threads);
-}
-
-void check(const Arguments& arguments) {
-  const bool sparse = is_sparse(arguments.output);
-  check_snap_within(arguments.snap_within);
-  if (!sparse && !arguments.output.ends_with(".npy")) {
-    throw Error(ErrorCode::InvalidArgument, "where to? give -o FILE.npy, .npz or .mtx");
-  }
-  if (sparse && !arguments.radius) {
-    throw Error(ErrorCode::InvalidArgument, arguments.output + ": a sparse matrix needs a --radius");
-  }
-  if (sparse && arguments.surface.weld) {
-    throw Error(
-        ErrorCode::InvalidArgument,
-        arguments.output + ": its columns are the mesh's vertices: no --weld (brushfire convert writes a welded mesh)");
-  }
-  if (sparse && arguments.columns != "all") {
-    throw Error(ErrorCode::InvalidArgument, arguments.output + ": the columns of a sparse matrix are all vertices");
-  }
-  if (arguments.radius && !(*arguments.radius >= 0)) {
-    throw Error(ErrorCode::InvalidArgument, "--radius " + exact(*arguments.radius) + " is not a number >= 0");
-  }
+  if (!a.columns.empty() && a.columns != "all") refuse(a.output + ": the columns of a sparse matrix are all vertices");
 }
 
 template <class T>
-std::uint64_t write_sparse(const Arguments& arguments, const Mesh& mesh, Places rows, const MatrixOptions& options) {
-  const SparseMatrix<T> matrix = distances_within<T>(mesh, *arguments.radius, rows, options);
+std::uint64_t write_sparse(const Arguments& arguments, const Domain& domain, Places rows,
+                           const MatrixOptions& options) {
+  const SparseMatrix<T> matrix = distances_within<T>(domain, *arguments.shared.radius, rows, options);
   write_sparse_matrix(arguments.output, matrix);
   return matrix.value.size();
 }
@@ -118,18 +112,17 @@ std::uint64_t write_sparse(const Arguments& arguments, const Mesh& mesh, Places 
 int matrix_verb(const Arguments& arguments, const Talk& talk) {
   check(arguments);
   MatrixOptions options;
-  options.threads = threads_of(arguments);
-  apply(arguments.accuracy, options.distance);
-  options.distance.max_distance = arguments.radius.value_or(kInfinity);
-  options.distance.cancel = &cancel_token();
+  options.distance = computation(arguments.shared);
+  options.threads = std::exchange(options.distance.threads, 1);  // they share out the rows
   options.distance.progress = talk.progress("matrix");
+  const std::optional<std::vector<Where>> row_list = parse_rows(arguments), column_list = parse_columns(arguments);
 
-  const Surface surface(arguments.surface);
+  const Surface surface(arguments.file, arguments.shared);
   const Mesh& mesh = surface.mesh();
   stop_if_interrupted();
-  PlaceFinder finder(mesh, arguments.snap_within);
-  const std::optional<std::vector<Place>> row_places = places_on(surface, finder, arguments.rows);
-  const std::optional<std::vector<Place>> column_places = places_on(surface, finder, arguments.columns);
+  PlaceFinder finder(mesh, arguments.shared.snap_within);
+  const std::optional<std::vector<Place>> row_places = places_on(surface, finder, row_list);
+  const std::optional<std::vector<Place>> column_places = places_on(surface, finder, column_list);
   finder.tell(talk);
   const Places rows = row_places ? Places(*row_places) : std::nullopt;
   const Places columns = column_places ? Places(*column_places) : std::nullopt;
@@ -140,26 +133,27 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
   const bool is_float = arguments.type == "float32";
   std::uint64_t entries = row_count * column_count;
   if (is_sparse(arguments.output)) {
-    entries = is_float ? write_sparse<float>(arguments, mesh, rows, options)
-                       : write_sparse<double>(arguments, mesh, rows, options);
+    entries = is_float ? write_sparse<float>(arguments, surface.domain(), rows, options)
+                       : write_sparse<double>(arguments, surface.domain(), rows, options);
   } else {
-    write_distance_matrix(arguments.output, mesh, rows, columns, is_float ? ValueType::Float32 : ValueType::Float64,
-                          options);
+    write_distance_matrix(arguments.output, surface.domain(), rows, columns,
+                          is_float ? ValueType::Float32 : ValueType::Float64, options);
   }
   const double solve_s = seconds_since(start);
   talk.end_progress();
 
-  const std::optional<double> tolerance = promised_error(options.distance);
   if (talk.json) {
     Record record;
-    record.add("file", arguments.surface.file)
+    record.add("file", arguments.file)
         .add("method", std::string(name_of(options.distance.method)))
-        .add("tolerance", tolerance ? Record::Value(*tolerance) : Record::Value(nullptr))
+        .add("precision", precision_of(options.distance))
+        .add("tolerance", tolerance_of(options.distance))
         .add("vertices", std::int64_t{mesh.vertex_count()})
         .add("rows", static_cast<std::int64_t>(row_count))
         .add("columns", static_cast<std::int64_t>(column_count))
         .add("entries", static_cast<std::int64_t>(entries))
-        .add("radius", arguments.radius.value_or(kInfinity))
+        .add("radius", options.distance.max_distance)
+        .add("unit", unit_of(arguments.shared))
         .add("dtype", arguments.type)
         .add("solve_s", solve_s);
     finder.add_to(record);
@@ -176,17 +170,14 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
 void add_matrix(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("matrix", "Distances from many places to many places", [&](Verb& verb) {
-    add_surface(verb, arguments->surface);
+    add_surface(verb, arguments->file);
     verb.option("--rows", arguments->rows, "PLACES", "all, a list of vertices, or a file with one place per line");
     verb.option("--cols", arguments->columns, "PLACES", "The same for the columns");
-    verb.option("-r,--radius", arguments->radius, "R",
-                "Stop at this distance; what is farther reads inf or is left out");
-    add_accuracy(verb, arguments->accuracy);
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
-    verb.option("--threads", arguments->threads, "N", "How many threads; one per processor if not given");
-    add_snap_within(verb, arguments->snap_within);
     verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy, with --radius also .npz .mtx");
     verb.talks();
+    add_shared(verb, arguments->shared,
+               {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return matrix_verb(*arguments, talk); });
   });

@@ -36,14 +36,14 @@ std::string wrapped(const std::vector<FileFormat>& formats, const char* separato
   return text;
 }
 
-double millimetres_of(const std::string& unit) {
-  return unit == "um" ? 1e-3 : unit == "cm" ? 10 : unit == "m" ? 1000 : unit == "in" ? 25.4 : 1;
-}
-
 }  // namespace
 
 void check_output(const std::string& path) {
   as_usage_error(path, [&] { check_field_format(path); });
+}
+
+void check_output(const std::string& path, Columns::Kind kind) {
+  as_usage_error(path, [&] { check_columns_format(path, kind); });
 }
 
 std::string names_of(const std::vector<FileFormat>& formats) {
@@ -54,15 +54,18 @@ std::string extensions_of(const std::vector<FileFormat>& formats) {
   return wrapped(formats, " ", [](const FileFormat& f) { return "." + f.extensions.front(); });
 }
 
-void add_lines_output(Verb& verb, std::string& output, DrawingArguments& drawing) {
-  verb.option("-o,--output", output, "FILE", ("Write the curves: " + extensions_of(lines_written())).c_str());
-  verb.choice("--unit", drawing.unit, {"mm", "um", "cm", "m", "in"}, "Of the mesh, for .svg and .dxf in real size");
+void add_drawing(Verb& verb, DrawingArguments& drawing) {
   verb.option("--view", drawing.view, "NAME", "For .svg: front, back, left, right, top or bottom");
   verb.flag("--outline", drawing.outline, "For .svg and .dxf: the outline of the mesh too");
 }
 
-LinesOptions lines_options(const std::string& output, const DrawingArguments& drawing) {
-  const LinesOptions options{millimetres_of(drawing.unit), drawing.view, drawing.outline};
+void add_lines_output(Verb& verb, std::string& output, DrawingArguments& drawing) {
+  verb.option("-o,--output", output, "FILE", ("Write the curves: " + extensions_of(lines_written())).c_str());
+  add_drawing(verb, drawing);
+}
+
+LinesOptions lines_options(const std::string& output, const DrawingArguments& drawing, const SharedArguments& shared) {
+  const LinesOptions options{millimetres(shared), drawing.view, drawing.outline};
   as_usage_error(output, [&] { check_lines_format(output, "", options); });
   return options;
 }

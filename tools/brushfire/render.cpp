@@ -1,14 +1,14 @@
 // brushfire render: pictures of distance fields, isolines and paths.
-#include "command_line.h"
+#include "computing.h"
+#include "fields.h"
 #include "interrupt.h"
-#include "where.h"
+#include "sources.h"
+#include "surface.h"
 
-#include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
+#include <brushfire/core/detail/memory.h>
 #include <brushfire/figure/ambient_occlusion.h>
 #include <brushfire/figure/render.h>
 #include <brushfire/io/read_field.h>
-#include <brushfire/io/read_mesh.h>
 #include <brushfire/io/write_bytes.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/path.h>
@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -30,7 +29,7 @@ constexpr const char* kExamples = R"(Examples:
   brushfire render bunny.ply --source 0 -o bunny.png
   brushfire render bunny.ply --source 0 --isolines 30 --colormap magma --view iso -o bunny.svg
   brushfire render bunny.ply --source 0 --path 12000 --path 300 --bands --isolines 40 -o paths.png
-  brushfire render bunny.ply --scalar error.npy --range 0,0.01 --unit "relative error" -o error.png
+  brushfire render bunny.ply --scalar error.npy --range 0,0.01 --bar-title "relative error" -o error.png
   brushfire render bunny.ply --source 0 --method kimmel-sethian --method exact --error -o side-by-side.png
   brushfire render bunny.ply --source 0 --isolines 20 --ambient-occlusion -o crevices.png
   brushfire render bunny.ply --source 0 --wave 60 -o brushfire.webp
@@ -40,27 +39,21 @@ The extension of -o decides: .png, .svg (lines as vectors over the shaded surfac
 Places (--source, --path) are written as for brushfire distance.)";
 
 struct Arguments {
-  std::string file, scalar_file, labels_file, output, view, size = "1024x768", range, error_range, unit, title;
+  std::string file, labels_file, output, view, size = "1024x768", range, error_range, bar_title, title;
   std::string colormap = "viridis", up = "y", font;
-  std::vector<std::string> sources, paths, methods, levels;
-  std::optional<double> isolines, azimuth, elevation, zoom, samples, turntable, wave, frame_ms, snap_within;
+  SharedArguments shared;
+  std::vector<std::string> paths;
+  std::optional<double> azimuth, elevation, zoom;
+  std::optional<int> isolines, samples, turntable, wave, frame_ms;
   bool bands = false, labels = false, perspective = false, transparent = false, wireframe = false, no_bar = false;
   bool error = false, ambient_occlusion = false;
 };
 
 // "1024x768", "0,2.5": two numbers and what stands between them.
 std::pair<double, double> two_numbers(const std::string& text, char between, const char* what) {
-  const std::size_t at = text.find(between, 1);
-  std::pair<double, double> out;
-  const auto parse = [](const std::string& part, double& value) {
-    const char* end = part.data() + part.size();
-    const auto [stop, status] = std::from_chars(part.data(), end, value);
-    return status == std::errc() && stop == end && std::isfinite(value);
-  };
-  if (at == std::string::npos || !parse(text.substr(0, at), out.first) || !parse(text.substr(at + 1), out.second)) {
-    refuse("'" + text + "': " + what);
-  }
-  return out;
+  const std::optional<std::vector<double>> values = decimals(text, between);
+  if (!values || values->size() != 2) refuse(in_quotes(text) + ": " + what);
+  return {(*values)[0], (*values)[1]};
 }
 
 // The scale of the distances (or other values), and the scale of the errors.
@@ -82,7 +75,7 @@ RenderOptions options_of(const Arguments& a) {
   options.height = static_cast<int>(height);
   options.scales.resize(2);
   options.scales[kValues].colormap = colormap_named(a.colormap);
-  options.scales[kValues].unit = a.unit;
+  options.scales[kValues].unit = a.bar_title.empty() ? a.shared.unit : a.bar_title;
   set_range(a.range, "a range is written as 0,2.5", options.scales[kValues]);
   options.scales[kErrors].colormap = Colormap::Magma;
   options.scales[kErrors].unit = "error, %";
@@ -93,7 +86,7 @@ RenderOptions options_of(const Arguments& a) {
   options.transparent = a.transparent;
   options.wireframe = a.wireframe;
   options.font = a.font;
-  options.samples = whole_number(a.samples, options.samples, 1, 8, "--samples");
+  options.samples = a.samples.value_or(options.samples);
   options.camera.up = a.up == "x" ? Axis::X : a.up == "z" ? Axis::Z : Axis::Y;
   if (!a.view.empty()) options.camera = named_view(a.view, options.camera);
   options.camera.azimuth = a.azimuth.value_or(options.camera.azimuth);
@@ -122,27 +115,28 @@ Output output_of(const Arguments& a) {
 }
 
 void check(const Arguments& a) {
-  if (a.sources.empty() && !a.paths.empty()) refuse("--path needs a --source to come from");
-  if (!a.scalar_file.empty() && !a.sources.empty()) refuse("--scalar and --source both say what to show: give one");
-  if (a.labels && a.sources.empty()) refuse("--labels colours by the nearest --source: give some");
-  if (!a.methods.empty() && a.sources.empty()) refuse("--method needs a --source");
-  if (a.error && a.methods.size() < 2) refuse("--error compares with the last --method: give at least two");
+  const bool has_source = given(a.shared, {Shared::Source, Shared::Sources}) != nullptr;
+  const char* const computing = given(a.shared, kComputing);
+  if (has_source || !a.shared.scalar_file.empty()) check_scalar_or_source(a.shared);
+  if (!has_source && !a.paths.empty()) refuse("--path needs a --source to come from");
+  if (!has_source && a.labels) refuse("--labels colours by the nearest --source: give some");
+  if (!has_source && computing) refuse(std::string(computing) + " needs a --source");
+  if (a.error && a.shared.methods.size() < 2) refuse("--error compares with the last --method: give at least two");
   if (!a.error_range.empty() && !a.error) refuse("--error-range is the range of the colours of --error");
   if (a.ambient_occlusion && !has_ambient_occlusion()) {
     refuse(
         "--ambient-occlusion needs Embree, which this brushfire was built without: install Embree 3 or 4 (Debian: "
         "libembree-dev) and build again");
   }
-  check_snap_within(a.snap_within);
   if (a.wave && a.turntable) refuse("--wave and --turntable are two animations: give one");
-  if (a.wave && a.sources.empty() && a.scalar_file.empty()) refuse("--wave needs a --source or a --scalar");
+  if (a.wave && !has_source && a.shared.scalar_file.empty()) refuse("--wave needs a --source or a --scalar");
 }
 
 // Labels from a file: whole numbers, negative ones for none; names where the file has some.
-std::vector<Index> labels_of(const std::string& file, const Mesh& mesh, Panel& panel) {
+std::vector<Index> labels_of(const std::string& file, const Surface& surface, Panel& panel) {
   const LoadedField field = read_field(file);
   std::vector<Index> labels;
-  for (const double x : values_on_vertices(field, mesh.vertex_count(), -1)) {
+  for (const double x : surface.on_mesh(values_on_vertices(field, surface.file().mesh.vertex_count(), -1), file)) {
     if (x != std::floor(x) || x >= kNoIndex) refuse(file + ": " + exact(x) + " is not a label (a whole number)");
     labels.push_back(x < 0 ? kNoIndex : static_cast<Index>(x));
   }
@@ -156,42 +150,40 @@ std::vector<Index> labels_of(const std::string& file, const Mesh& mesh, Panel& p
   return labels;
 }
 
+// What is shown of distances, once for all methods.
+struct Shown {
+  std::vector<Source> sources;
+  std::vector<Where> ends;  // of paths
+  std::vector<Polyline> paths;
+};
+
+// Paths are exact whatever the method of the colours: that is what a path is compared with.
+void find_paths(const Surface& surface, PlaceFinder& places, const DistanceOptions& how, Shown& shown) {
+  if (shown.ends.empty()) return;
+  const Mesh& mesh = surface.mesh();
+  std::vector<SurfacePoint> targets;
+  for (const Where& w : shown.ends) targets.push_back(places.target(surface.place(w)));
+  DistanceSolver solver(surface.domain());
+  const std::vector<SourcePath> found = paths_to(solver, shown.sources, targets, how);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].points.empty()) throw Unreachable(shown.ends[i].text, how.max_distance < kInfinity);
+    Polyline& line = shown.paths.emplace_back();
+    for (const SurfacePoint& p : found[i].points) line.points.push_back(position(mesh, p));
+  }
+}
+
 // Distances from the sources by one method, and what is drawn with them.
-Panel solved_panel(const Arguments& a, const Mesh& mesh, const std::string& method, PlaceFinder& places,
+Panel solved_panel(const Arguments& a, const Domain& domain, const Shown& shown, DistanceOptions options,
                    const Talk& talk) {
   Panel panel;
-  panel.mesh = mesh;
-  std::vector<Source> sources;
-  for (const std::string& text : split_places(a.sources)) {
-    const Where where = parse_where(text);
-    sources.push_back({places.source(where), where.offset});
-    panel.dots.push_back(position(mesh, sources.back().point));
-  }
-  DistanceOptions options;
-  if (!method.empty()) options.method = method_named(method);
-  options.cancel = &cancel_token();
+  panel.mesh = domain.mesh();
+  for (const Source& source : shown.sources) panel.dots.push_back(position(panel.mesh, source.point));
   options.progress = talk.progress("distance");
-  const DistanceField field = distance(mesh, sources, options);
+  const DistanceField field = distance(domain, shown.sources, options);
   talk.end_progress();
   panel.scalar = field.distance;
+  panel.paths = shown.paths;
   if (a.labels) panel.labels = field.source;
-  if (a.paths.empty()) return panel;
-
-  // Paths are exact whatever the method of the colours: that is what a path is compared with.
-  DistanceOptions exact;
-  exact.method = Method::Exact;
-  exact.keep_paths = true;
-  exact.cancel = &cancel_token();
-  const std::vector<std::string> ends = split_places(a.paths);
-  for (const std::string& text : ends) exact.targets.push_back(places.target(parse_where(text)));
-  const DistanceField to_targets = distance(mesh, sources, exact);
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    const SurfacePath path = path_to(*to_targets.windows, exact.targets[i]);
-    if (path.points.empty()) throw Unreachable(ends[i]);
-    Polyline line;
-    for (const SurfacePoint& p : path.points) line.points.push_back(position(mesh, p));
-    panel.paths.push_back(std::move(line));
-  }
   return panel;
 }
 
@@ -245,29 +237,43 @@ void add_ambient_occlusion(const Mesh& mesh, const Talk& talk, std::vector<Panel
   for (Panel& panel : panels) panel.openness = openness;
 }
 
-std::vector<Panel> panels_of(const Arguments& a, const Mesh& mesh, PlaceFinder& places, RenderOptions& options,
+Panel read_panel(const Arguments& a, const Surface& surface) {
+  Panel panel;
+  panel.mesh = surface.mesh();
+  const std::string& file = a.shared.scalar_file;
+  if (!file.empty()) panel.scalar = values_on(surface, file, a.shared.array_name);
+  if (!a.labels_file.empty()) panel.labels = labels_of(a.labels_file, surface, panel);
+  return panel;
+}
+
+// One for each method.
+std::vector<Panel> solved_panels(const Arguments& a, const Surface& surface, PlaceFinder& places, const Talk& talk) {
+  const std::vector<DistanceOptions> methods =
+      a.shared.methods.empty() ? std::vector{computation(a.shared)} : computations(a.shared, {});
+  Shown shown{sources_on(surface, places, parse_sources(a.shared)), parse_places(a.paths, "the end of a path"), {}};
+  find_paths(surface, places, methods.front(), shown);
+  std::vector<Panel> panels;
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    panels.push_back(solved_panel(a, surface.domain(), shown, methods[i], talk));
+    if (methods.size() > 1) panels.back().title = a.shared.methods[i];
+  }
+  return panels;
+}
+
+std::vector<Panel> panels_of(const Arguments& a, const Surface& surface, PlaceFinder& places, RenderOptions& options,
                              const Talk& talk) {
   std::vector<Panel> panels;
-  if (a.sources.empty()) {
-    Panel& panel = panels.emplace_back();
-    panel.mesh = mesh;
-    if (!a.scalar_file.empty())
-      panel.scalar = values_on_vertices(read_field(a.scalar_file), mesh.vertex_count(), kInfinity);
-    if (!a.labels_file.empty()) panel.labels = labels_of(a.labels_file, mesh, panel);
-  } else if (a.methods.size() < 2) {
-    panels.push_back(solved_panel(a, mesh, a.methods.empty() ? "" : a.methods.front(), places, talk));
+  if (given(a.shared, {Shared::Source, Shared::Sources})) {
+    panels = solved_panels(a, surface, places, talk);
   } else {
-    for (const std::string& m : a.methods) {
-      panels.push_back(solved_panel(a, mesh, m, places, talk));
-      panels.back().title = m;
-    }
-    if (a.error) {
-      ColorScale& scale = options.scales[kErrors];
-      const double high = add_errors(panels);
-      if (!scale.high && high > 0) scale.high = high;
-    }
+    panels.push_back(read_panel(a, surface));
   }
-  if (a.ambient_occlusion) add_ambient_occlusion(mesh, talk, panels);
+  if (a.error) {
+    ColorScale& scale = options.scales[kErrors];
+    const double high = add_errors(panels);
+    if (!scale.high && high > 0) scale.high = high;
+  }
+  if (a.ambient_occlusion) add_ambient_occlusion(surface.mesh(), talk, panels);
   if (!a.title.empty()) panels.front().title = a.title;
   return panels;
 }
@@ -289,7 +295,7 @@ std::pair<double, double> extent_of(const std::vector<Panel>& panels) {
 // The same levels in all panels: N of them evenly between the least and the greatest value, ends left out.
 void add_isolines(const Arguments& a, std::vector<Panel>& panels) {
   constexpr int kDefaultBands = 20;
-  const int count = whole_number(a.isolines, a.bands ? kDefaultBands : 0, 0, 10000, "--isolines");
+  const int count = a.isolines.value_or(a.bands ? kDefaultBands : 0);
   const auto [low, high] = extent_of(panels);
   for (Panel& p : panels) {
     if (p.scale != kValues) continue;
@@ -313,8 +319,7 @@ std::string svg_of(const std::vector<Panel>& panels, const RenderOptions& option
 std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> panels, RenderOptions options,
                                        const Talk& talk) {
   const bool turning = a.turntable.has_value();
-  const int count =
-      turning ? whole_number(a.turntable, 0, 2, 720, "--turntable") : whole_number(a.wave, 0, 2, 2000, "--wave");
+  const int count = turning ? *a.turntable : *a.wave;
   const double high = std::max(0.0, extent_of(panels).second);
   const double azimuth = options.camera.azimuth;
   const Progress progress = talk.progress("frames");
@@ -338,16 +343,16 @@ std::vector<std::uint8_t> animation_of(const Arguments& a, std::vector<Panel> pa
   }
   talk.end_progress();
   constexpr int kFrame = 40;
-  return encode_webp(frames, whole_number(a.frame_ms, kFrame, 10, 10000, "--frame-ms"));
+  return encode_webp(frames, a.frame_ms.value_or(kFrame));
 }
 
 int render_verb(const Arguments& a, const Talk& talk) {
   check(a);
   const Output output = output_of(a);
   RenderOptions options = options_of(a);
-  const Mesh mesh = read_mesh(a.file).mesh;
-  PlaceFinder places(mesh, a.snap_within);
-  std::vector<Panel> panels = panels_of(a, mesh, places, options, talk);
+  const Surface surface(a.file, a.shared);
+  PlaceFinder places(surface.mesh(), a.shared.snap_within);
+  std::vector<Panel> panels = panels_of(a, surface, places, options, talk);
   places.tell(talk);
   add_isolines(a, panels);
   switch (output) {
@@ -375,41 +380,38 @@ int render_verb(const Arguments& a, const Talk& talk) {
 void add_render(CommandLine& command_line) {
   const auto a = std::make_shared<Arguments>();
   command_line.add("render", "Picture of a mesh and what was computed on it", [&](Verb& verb) {
-    verb.argument("FILE", a->file, "The mesh; - reads standard input");
-    verb.option("-s,--source", a->sources, "PLACE", "Show the distance from here; may be repeated");
-    verb.option("--scalar", a->scalar_file, "FIELD", "Show these values, one per vertex: .npy .csv .txt .gii ...");
+    add_surface(verb, a->file);
     verb.option("--label-file", a->labels_file, "FIELD", "Show these labels, one per vertex");
     verb.flag("--labels", a->labels, "Colour by the nearest source");
-    verb.option("-m,--method", a->methods, "NAME", "How to compute; given several times: panels side by side");
     verb.flag("--error", a->error, "One more panel for each method but the last: its error against the last");
-    verb.option("--isolines", a->isolines, "N", "This many isolines");
+    verb.option("--isolines", a->isolines, "N", whole_from(0, 10000), "This many isolines");
     verb.flag("--bands", a->bands, "Bands of alternating lightness between the isolines");
     verb.option("--path", a->paths, "PLACE", "Draw the shortest path from the sources to here; may be repeated");
     verb.option("--view", a->view, "NAME", "front, back, left, right, top, bottom or iso");
-    verb.option("--azimuth", a->azimuth, "DEG", "Degrees around the up axis");
-    verb.option("--elevation", a->elevation, "DEG", "Degrees above the horizon");
+    verb.option("--azimuth", a->azimuth, "DEG", kAnyNumber, "Degrees around the up axis");
+    verb.option("--elevation", a->elevation, "DEG", kAnyNumber, "Degrees above the horizon");
     verb.choice("--up", a->up, {"x", "y", "z"}, "The axis that points up");
-    verb.option("--zoom", a->zoom, "F", "Closer than what fits, by this factor");
+    verb.option("--zoom", a->zoom, "F", kPositive, "Closer than what fits, by this factor");
     verb.flag("--perspective", a->perspective, "Perspective instead of orthographic");
     verb.option("--size", a->size, "WxH", "Of a panel, in pixels");
     verb.choice("--colormap", a->colormap, {"viridis", "magma", "cividis"}, "Colours");
     verb.option("--range", a->range, "LO,HI", "Range of the colours");
     verb.option("--error-range", a->error_range, "LO,HI",
                 "Range of the colours of --error, in percent (0 to what 99 % stay under)");
-    verb.option("--unit", a->unit, "TEXT", "Above the colour bar");
+    verb.option("--bar-title", a->bar_title, "TEXT", "Above the colour bar; --unit if not given");
     verb.option("--title", a->title, "TEXT", "Above the (first) panel");
     verb.flag("--no-bar", a->no_bar, "No colour bar and no legend");
     verb.flag("--wireframe", a->wireframe, "Show the edges of the mesh");
     verb.flag("--ambient-occlusion", a->ambient_occlusion, "Darken crevices (where built with Embree)");
     verb.flag("--transparent", a->transparent, "Transparent background");
-    verb.option("--samples", a->samples, "N", "Samples per pixel and direction, 1 to 8");
+    verb.option("--samples", a->samples, "N", whole_from(1, 8), "Samples per pixel and direction, 1 to 8");
     verb.option("--font", a->font, "TTF", "A TrueType font for the text, for letters that the built-in one lacks");
-    verb.option("--turntable", a->turntable, "N", "Animate: once around in N frames");
-    verb.option("--wave", a->wave, "N", "Animate: the fire spreading, in N frames");
-    verb.option("--frame-ms", a->frame_ms, "MS", "How long a frame of an animation is shown");
-    add_snap_within(verb, a->snap_within);
+    verb.option("--turntable", a->turntable, "N", whole_from(2, 720), "Animate: once around in N frames");
+    verb.option("--wave", a->wave, "N", whole_from(2, 2000), "Animate: the fire spreading, in N frames");
+    verb.option("--frame-ms", a->frame_ms, "MS", whole_from(10, 10000), "How long a frame of an animation is shown");
     verb.option("-o,--output", a->output, "FILE", "The picture: .png .svg .webp");
     verb.talks();
+    add_shared(verb, a->shared, {.method = "windows; given several times: panels side by side"});
     verb.examples(kExamples);
     verb.run([a](Talk& talk) { return render_verb(*a, talk); });
   });

@@ -2,7 +2,6 @@
 #include "command_line.h"
 #include "output.h"
 
-#include <brushfire/core/error.h>
 #include <brushfire/io/write_field.h>
 #include <brushfire/mesh/delaunay.h>
 #include <brushfire/mesh/shapes.h>
@@ -67,9 +66,6 @@ struct Arguments {
 int shape(const Arguments& arguments, const Talk& talk) {
   constexpr double kVertices = 10000;
   const double vertices = arguments.vertices.value_or(kVertices);
-  if (!(vertices >= 1)) {
-    throw Error(ErrorCode::InvalidArgument, "--vertices " + exact(vertices) + " is not a number >= 1");
-  }
   check_output(arguments.output);
   Mesh mesh;
   for (const NamedShape& s : named_shapes()) {
@@ -89,7 +85,7 @@ void add_shape(CommandLine& command_line) {
   for (const NamedShape& s : named_shapes()) names.emplace_back(s.name);
   command_line.add("shape", "Make a mesh of a well-known surface", [&](Verb& verb) {
     verb.choice("shape", arguments->name, names, "Which one");
-    verb.option("-n,--vertices", arguments->vertices, "N", "About how many vertices (10000)");
+    verb.option("-n,--vertices", arguments->vertices, "N", {.low = 1}, "About how many vertices (10000)");
     verb.required_option("-o,--output", arguments->output, "FILE", "Where to: .ply .vtk .obj ...; - prints PLY");
     verb.talks();
     verb.examples(kExamples);

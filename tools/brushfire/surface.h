@@ -1,11 +1,13 @@
-// The mesh that a verb works on: read from a file, welded where that was asked for, and the way back to the file's
-// numbers.
+// The mesh that a verb works on: read from a file, welded where that was asked for, with the walls in it, and the way
+// back to the file's numbers.
 #pragma once
 
-#include "command_line.h"
+#include "shared.h"
 #include "where.h"
 
+#include <brushfire/io/read_field.h>
 #include <brushfire/io/read_mesh.h>
+#include <brushfire/mesh/domain.h>
 
 #include <optional>
 #include <span>
@@ -14,21 +16,17 @@
 
 namespace brushfire::tool {
 
-struct SurfaceArguments {
-  std::string file;
-  std::optional<double> weld;
-};
-
-// Binds FILE, whose help names every format that is read, and --weld.
-void add_surface(Verb& verb, SurfaceArguments& arguments);
+// Binds FILE, whose help names every format that is read.
+void add_surface(Verb& verb, std::string& file);
 
 class Surface {
  public:
-  // Throws what read_mesh() and weld() throw.
-  explicit Surface(const SurfaceArguments& arguments);
+  // Throws what read_mesh(), weld() and walls_of() throw.
+  Surface(const std::string& file, const SharedArguments& arguments);
 
-  const Mesh& mesh() const { return mesh_; }          // to compute on
-  const LoadedMesh& file() const { return loaded_; }  // as it was read
+  const Domain& domain() const { return domain_; }     // to compute in
+  const Mesh& mesh() const { return domain_.mesh(); }  // all of it, whose numbers are used
+  const LoadedMesh& file() const { return loaded_; }   // as it was read
   bool is_welded() const { return !vertex_map_.empty(); }
   std::vector<std::string> remarks() const;
 
@@ -36,6 +34,8 @@ class Surface {
   Where place(const Where& where) const;
   // Which vertex of mesh() the file's vertex v is.
   Index vertex(Index v) const { return is_welded() ? vertex_map_[v] : v; }
+  // The first of the file's vertices that became v; kNoIndex stays.
+  Index file_vertex(Index v) const;
 
   // Values on the vertices of mesh(), on those of the file.
   template <class T>
@@ -46,12 +46,21 @@ class Surface {
     for (const Index v : vertex_map_) out.push_back(values[v]);
     return out;
   }
+  // Vertices that a mask leaves open, and none of their faces.
+  Index left_alone() const { return left_alone_; }
+
+  // [file's vertices] 1 where a vertex is in a face that is open; empty where there are no walls.
+  std::vector<std::uint8_t> open_vertices() const;
+
+  // Values on the vertices of the file, on those of mesh(). Throws Error(InvalidArgument) where vertices that were
+  // joined have different ones; `name` is the values' file.
+  std::vector<double> on_mesh(std::vector<double> values, const std::string& name) const;
 
  private:
   LoadedMesh loaded_;
-  Mesh mesh_;
+  Domain domain_;
   std::vector<Index> vertex_map_;
-  Index joined_ = 0;
+  Index joined_ = 0, left_alone_ = 0;
 };
 
 }  // namespace brushfire::tool

@@ -13,42 +13,10 @@
 namespace brushfire::tool {
 namespace {
 
-// At most forty characters, and of these no raw bytes: what was given may be a binary file.
-std::string quote(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
-  std::string out = "'";
-  for (const unsigned char c : text.substr(0, kLongest)) {
-    static constexpr char kHex[] = "0123456789abcdef";
-    if (c >= 0x20 && c < 0x7f) {
-      out += static_cast<char>(c);
-    } else {
-      out += std::string("\\x") + kHex[c >> 4] + kHex[c & 15];
-    }
-  }
-  return out + (text.size() > kLongest ? "...'" : "'");
-}
-
 [[noreturn]] void refuse(std::string_view text, const char* why) {
   throw Error(ErrorCode::InvalidArgument,
-              quote(text) + " is no place on a mesh: " + why +
+              in_quotes(text) + " is no place on a mesh: " + why +
                   "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2)");
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-// The whole text as a finite number, or nothing.
-std::optional<double> number(std::string_view text) {
-  text = trimmed(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
 }
 
 // The whole text as a count; one too large for 64 bits reads as the largest: it is out of range either way.
@@ -61,16 +29,9 @@ std::optional<std::uint64_t> whole(std::string_view text) {
 }
 
 std::optional<std::array<double, 3>> three_numbers(std::string_view text) {
-  std::array<double, 3> values{};
-  for (int k = 0; k < 3; ++k) {
-    const std::size_t comma = text.find(',');
-    if ((comma == std::string_view::npos) != (k == 2)) return {};
-    const std::optional<double> value = number(text.substr(0, comma));
-    if (!value) return {};
-    values[k] = *value;
-    if (k < 2) text.remove_prefix(comma + 1);
-  }
-  return values;
+  const std::optional<std::vector<double>> values = decimals(text);
+  if (!values || values->size() != 3) return {};
+  return std::array{(*values)[0], (*values)[1], (*values)[2]};
 }
 
 // Numbers of vertices and commas, with @ and what follows it.
@@ -86,7 +47,7 @@ Where parse_where(std::string_view text) {
   where.text = trimmed(text);
   std::string_view place = where.text;
   if (const std::size_t at = place.find('@'); at != std::string_view::npos) {
-    const std::optional<double> offset = number(place.substr(at + 1));
+    const std::optional<double> offset = decimal(place.substr(at + 1));
     if (!offset) refuse(where.text, "what follows @ is not a number");
     where.offset = *offset;
     where.has_offset = true;
@@ -214,7 +175,7 @@ SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
   const auto in_range = [&](std::uint64_t index, Index count, const char* what) {
     if (index < count) return static_cast<Index>(index);
     throw Error(ErrorCode::IndexOutOfRange,
-                quote(where.text) + ": there is no such " + what + ", the mesh has " + std::to_string(count));
+                in_quotes(where.text) + ": there is no such " + what + ", the mesh has " + std::to_string(count));
   };
   if (const auto* vertex = std::get_if<VertexPlace>(&where.place)) {
     return target_point(mesh, in_range(vertex->index, mesh.vertex_count(), "vertex"));
@@ -232,7 +193,7 @@ SurfacePoint PlaceFinder::target(const Where& where) {
     if (!finder_) finder_.emplace(mesh_);
     const NearestPoint nearest = (*finder_)(position);
     if (within_ && nearest.distance > *within_) {
-      throw Error(ErrorCode::InvalidArgument, quote(where.text) + " is " + readable(nearest.distance) +
+      throw Error(ErrorCode::InvalidArgument, in_quotes(where.text) + " is " + readable(nearest.distance) +
                                                   " from the surface, farther than --snap-within " + exact(*within_));
     }
     if (known_.insert(where.text).second) snapped_.push_back({where.text, nearest.distance});
@@ -244,7 +205,7 @@ SurfacePoint PlaceFinder::source(const Where& where) {
   const SurfacePoint point = target(where);
   if (!point.is_nowhere()) return point;
   throw Error(ErrorCode::InvalidArgument,
-              quote(where.text) + ": this vertex is in no face, nothing can be reached from it");
+              in_quotes(where.text) + ": this vertex is in no face, nothing can be reached from it");
 }
 
 void PlaceFinder::tell(const Talk& talk) const {
@@ -275,16 +236,6 @@ void PlaceFinder::add_to(Record& record) const {
     farthest = std::max(farthest, s.distance);
   }
   record.add("snapped", std::move(list)).add("max_snap_distance", farthest);
-}
-
-void add_snap_within(Verb& verb, std::optional<double>& within) {
-  verb.option("--snap-within", within, "R", "Refuse positions (at:x,y,z) that are farther than this from the surface");
-}
-
-void check_snap_within(const std::optional<double>& within) {
-  if (within && !(*within >= 0)) {
-    throw Error(ErrorCode::InvalidArgument, "--snap-within " + exact(*within) + " is not a number >= 0");
-  }
 }
 
 }  // namespace brushfire::tool

@@ -92,9 +92,4 @@ class PlaceFinder {
   std::set<std::string> known_;  // in snapped_
 };
 
-// --snap-within, for every verb that takes places.
-void add_snap_within(Verb& verb, std::optional<double>& within);
-// Throws Error(InvalidArgument) where it is given and is not a number >= 0.
-void check_snap_within(const std::optional<double>& within);
-
 }  // namespace brushfire::tool

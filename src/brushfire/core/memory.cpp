@@ -1,5 +1,5 @@
 // Available memory, from where Linux tells it.
-#include <brushfire/core/memory.h>
+#include <brushfire/core/detail/memory.h>
 
 #include <brushfire/core/error.h>
 

@@ -1,5 +1,5 @@
 // Numbers in sentences.
-#include <brushfire/core/text.h>
+#include <brushfire/core/detail/text.h>
 
 #include <array>
 #include <cstdio>

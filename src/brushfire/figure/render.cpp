@@ -2,8 +2,8 @@
 #include <brushfire/figure/render.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/memory.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
 #include <brushfire/figure/detail/legend.h>
 #include <brushfire/figure/detail/panel.h>
 

@@ -2,7 +2,7 @@
 #include <brushfire/mesh/detail/connectivity.h>
 
 #include <brushfire/core/cancel.h>
-#include <brushfire/core/populate.h>
+#include <brushfire/core/detail/prefault.h>
 
 #include <algorithm>
 #include <array>
@@ -59,7 +59,7 @@ VertexCorners build_corners(Index vertex_count, std::span<const Face> faces) {
   Index sum = 0;
   for (Index& o : offset) o = sum += o;  // where the corners of v end
   result.corner.resize(3 * faces.size());
-  populate(result.corner);
+  prefault(result.corner);
   for (Index h = sum; h > 0; h -= 3) {  // backwards, so that every list ascends and ends with its offset in place
     const Face& t = faces[h / 3 - 1];
     for (Index k = 3; k-- > 0;) result.corner[--offset[t[k]]] = h - 3 + k;

@@ -1,10 +1,10 @@
 // Hilbert order by radix sort; breadth-first order for meshes without positions.
 //
 // Based on: Hamilton, Rau-Chaplin, "Compact Hilbert Indices", 2008 (the curve as a machine of 24 states).
-#include <brushfire/mesh/locality_order.h>
+#include <brushfire/mesh/detail/locality_order.h>
 
-#include <brushfire/core/populate.h>
-#include <brushfire/core/uninitialized.h>
+#include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/mesh/detail/hilbert.h>
 
 #include <algorithm>
@@ -121,12 +121,12 @@ VertexOrder radix_sorted(UninitializedArray<Keyed>& items) {
     for (int i = 0; i < kCount; ++i) ++start[static_cast<std::size_t>(i)][digit(k, i)];
   }
   UninitializedArray<Keyed> other(items.size());
-  populate(other);
+  prefault(other);
   VertexOrder order;
   order.vertices.resize(items.size());
   order.vertex_rank.resize(items.size());
-  populate(order.vertices);
-  populate(order.vertex_rank);
+  prefault(order.vertices);
+  prefault(order.vertex_rank);
   for (int i = 0; i < kCount; ++i) {
     auto& place = start[static_cast<std::size_t>(i)];
     Index sum = 0;
@@ -159,7 +159,7 @@ VertexOrder hilbert_order(std::span<const Vec3> positions, const Box& bounds) {
     return static_cast<std::uint32_t>(std::min((0.5 * x - 0.5 * lowest) * up * cells, kCells));
   };
   UninitializedArray<Keyed> items(positions.size());
-  populate(items);
+  prefault(items);
   for (Index v = 0; v < items.size(); ++v) {
     const Vec3 p = positions[v];
     const auto place = place_on_curve<kDigits.cube_bits>(cell(p.x, low.x), cell(p.y, low.y), cell(p.z, low.z));
@@ -210,7 +210,7 @@ VertexOrder vertex_locality_order(const Mesh& mesh) {
 // By the least place of a face's vertices: a counting sort.
 UninitializedArray<Index> face_ranks(std::span<const Face> faces, std::span<const Index> vertex_rank) {
   UninitializedArray<Index> rank(faces.size());  // first the key, then what becomes of it
-  populate(rank);
+  prefault(rank);
   std::vector<Index> start(vertex_rank.size() + 1, 0);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const Face& t = faces[f];

@@ -2,11 +2,11 @@
 #include <brushfire/mesh/mesh.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/planar.h>
+#include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/text.h>
+#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/planar.h>
-#include <brushfire/core/populate.h>
-#include <brushfire/core/text.h>
-#include <brushfire/core/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/face_geometry.h>
 #include <brushfire/mesh/detail/report.h>
@@ -79,7 +79,7 @@ UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> 
     throw Error(ErrorCode::TooLarge, std::to_string(faces.size()) + " faces do not fit into 32-bit halfedge numbers");
   }
   UninitializedArray<Face> copy(faces.size());
-  populate(copy);
+  prefault(copy);
   Index highest = 0;
   in_pieces(faces.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
@@ -109,7 +109,7 @@ UninitializedArray<Vec3> checked_copy(std::span<const Vec3> positions, Box& boun
     throw Error(ErrorCode::TooLarge, std::to_string(positions.size()) + " vertices do not fit into 32-bit indices");
   }
   UninitializedArray<Vec3> copy(positions.size());
-  populate(copy);
+  prefault(copy);
   Box box;
   Vec3 zero;  // stays so: 0 times what is not finite is NaN
   const auto take = [&](std::size_t v) {
@@ -409,12 +409,12 @@ Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> ve
   arrays->has_positions = old.has_positions;
   arrays->bounds = old.bounds;
   arrays->positions.resize(old.positions.size());
-  populate(arrays->positions);
+  prefault(arrays->positions);
   in_pieces(arrays->positions.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) arrays->positions[i] = old.positions[vertices[i]];
   });
   arrays->faces.resize(old.faces.size());
-  populate(arrays->faces);
+  prefault(arrays->faces);
   arrays->input_lengths.resize(old.input_lengths.size());
   in_pieces(old.faces.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {

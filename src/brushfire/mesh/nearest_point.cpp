@@ -2,8 +2,8 @@
 #include <brushfire/mesh/nearest_point.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/text.h>
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>

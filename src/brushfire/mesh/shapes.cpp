@@ -2,9 +2,9 @@
 #include <brushfire/mesh/shapes.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/memory.h>
+#include <brushfire/core/detail/random.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
-#include <brushfire/core/random.h>
 #include <brushfire/mesh/subdivide.h>
 
 #include <cmath>

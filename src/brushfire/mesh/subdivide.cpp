@@ -2,8 +2,8 @@
 #include <brushfire/mesh/subdivide.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/random.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/random.h>
 
 #include <vector>
 

@@ -1,9 +1,10 @@
 // Validation, snapping and evaluation of surface points.
 #include <brushfire/mesh/surface_point.h>
 
+#include <brushfire/core/detail/planar.h>
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/planar.h>
-#include <brushfire/core/text.h>
+#include <brushfire/mesh/detail/flat_face.h>
 
 #include <algorithm>
 #include <cmath>
@@ -138,20 +139,29 @@ Vec3 position(const Mesh& mesh, const SurfacePoint& point) {
   return p;
 }
 
+namespace {
+
+// Corner k in the origin, corner k+1 on the x axis: the point's coordinates are sums of positive multiples of the other
+// two weights, so a tiny weight keeps all its digits.
+double corner_distance_by_lengths(const Mesh& mesh, const PointLocation& point, Index k) {
+  const Index h = 3 * point.face + k;
+  const double wa = point.weights[(k + 1) % 3], wb = point.weights[(k + 2) % 3];
+  const double la = mesh.length(h), lb = mesh.length(Mesh::previous(h)), opposite = mesh.length(Mesh::next(h));
+  if (la == 0 || lb == 0) return la == 0 ? wb * lb : wa * la;
+  const Vec2 b = apex_over_edge(la, lb, opposite, mesh.double_area(point.face));
+  return std::hypot(wa * la + wb * b.x, wb * b.y);
+}
+
+}  // namespace
+
 std::array<double, 3> corner_distances(const Mesh& mesh, const PointLocation& point) {
-  // Corner k in the origin, corner k+1 on the x axis: the point's coordinates are sums of positive multiples of the
-  // other two weights, so a tiny weight keeps all its digits.
   std::array<double, 3> result;
   for (Index k = 0; k < 3; ++k) {
-    const Index h = 3 * point.face + k;
-    const double wa = point.weights[(k + 1) % 3], wb = point.weights[(k + 2) % 3];
-    const double la = mesh.length(h), lb = mesh.length(Mesh::previous(h)), opposite = mesh.length(Mesh::next(h));
-    if (la == 0 || lb == 0) {
-      result[k] = la == 0 ? wb * lb : wa * la;
-      continue;
-    }
-    const Vec2 b = apex_over_edge(la, lb, opposite, mesh.double_area(point.face));
-    result[k] = std::hypot(wa * la + wb * b.x, wb * b.y);
+    // Three rounded lengths do not tell the angles of a face whose edges are very unlike; its coordinates do.
+    std::array<double, 3> corner{0, 0, 0};
+    corner[k] = 1;
+    result[k] = mesh.has_positions() ? distance_within(mesh, point.face, point.weights, corner)
+                                     : corner_distance_by_lengths(mesh, point, k);
   }
   return result;
 }

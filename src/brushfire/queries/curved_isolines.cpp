@@ -2,10 +2,10 @@
 #include <brushfire/queries/curved_isolines.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/memory.h>
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
-#include <brushfire/core/text.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 
 #include <algorithm>
 #include <cmath>

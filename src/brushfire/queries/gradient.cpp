@@ -3,7 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 
 #include <cmath>
 #include <string>
@@ -120,6 +120,28 @@ std::vector<Vec3> face_gradients(const Mesh& mesh, std::span<const double> value
   return gradients;
 }
 
+std::vector<Vec3> vertex_gradients(const Mesh& mesh, std::span<const double> values) {
+  const std::vector<Vec3> of_faces = face_gradients(mesh, values);
+  std::vector<Vec3> sums(mesh.vertex_count());
+  std::vector<double> areas(mesh.vertex_count());
+  Poll poll;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    poll();
+    const Face& face = mesh.faces()[f];
+    const double area = mesh.double_area(f);
+    const bool is_finite = values[face[0]] < kInfinity && values[face[1]] < kInfinity && values[face[2]] < kInfinity;
+    if (!is_finite || !(area > 0) || !mesh.is_face_usable(f)) continue;
+    for (const Index v : face) {
+      sums[v] = sums[v] + area * of_faces[f];
+      areas[v] += area;
+    }
+  }
+  for (Index v = 0; v < sums.size(); ++v) {
+    if (areas[v] > 0) sums[v] = (1 / areas[v]) * sums[v];
+  }
+  return sums;
+}
+
 SurfaceDirection steepest_descent(const Mesh& mesh, std::span<const double> values, const SurfacePoint& point) {
   check_count(mesh, values);
   const PointLocation at = locate(mesh, point);
@@ -133,6 +155,24 @@ SurfaceDirection steepest_descent(const Mesh& mesh, std::span<const double> valu
   for (double& rate : best.weight_rates) rate /= mesh.unit();
   best.slope /= mesh.unit();
   return best;
+}
+
+SurfaceDirection steepest_descent(const Domain& domain, std::span<const double> values, const SurfacePoint& point) {
+  const std::vector<double> on_open = domain.spread(values);
+  const Mesh& open = domain.open();
+  double least = kInfinity;
+  SurfaceDirection steepest;
+  for (const SurfacePoint& side : domain.on_open(point)) {
+    double value = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (side.weights[k] > 0) value += side.weights[k] * on_open[open.faces()[side.face][k]];
+    }
+    if (value >= least) continue;
+    least = value;
+    steepest = steepest_descent(open, on_open, side);
+  }
+  if (steepest.face != kNoIndex) steepest.face = domain.face(steepest.face);
+  return steepest;
 }
 
 Vec3 in_space(const Mesh& mesh, const SurfaceDirection& direction) {

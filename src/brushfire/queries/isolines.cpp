@@ -2,9 +2,9 @@
 #include <brushfire/queries/isolines.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/memory.h>
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
-#include <brushfire/core/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -262,6 +262,12 @@ std::vector<Isoline> isolines(const Mesh& mesh, std::span<const double> values, 
                  });
   }
   return result;
+}
+
+std::vector<Isoline> isolines(const Domain& domain, std::span<const double> values, std::span<const double> levels) {
+  std::vector<Isoline> lines = isolines(domain.open(), domain.spread(values), levels);
+  for (Isoline& line : lines) domain.to_mesh(line.line.points);
+  return lines;
 }
 
 std::vector<double> levels_every(std::span<const double> values, double step) {

@@ -2,11 +2,12 @@
 #include <brushfire/queries/path.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/text.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/sleeve.h>
 #include <brushfire/queries/shorten.h>
+#include <brushfire/solvers/detail/walls.h>
 
 #include <algorithm>
 #include <cmath>
@@ -143,20 +144,88 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
   return path;
 }
 
-SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
-                         const CancelToken* cancel) {
-  if (from.is_nowhere() || to.is_nowhere()) return {};
+namespace {
+
+// To the nearest side of a target on a wall; the path has the numbers of the whole mesh.
+SurfacePath path_in(const Domain& domain, const WindowField& field, const SurfacePoint& target) {
+  const std::vector<SurfacePoint> sides = domain.on_open(target);
+  if (sides.empty()) return {};
+  const auto nearest = std::min_element(sides.begin(), sides.end(), [&](const SurfacePoint& a, const SurfacePoint& b) {
+    return field.value(a).distance < field.value(b).distance;
+  });
+  SurfacePath path = path_to(field, *nearest);
+  domain.to_mesh(path.points);
+  return path;
+}
+
+}  // namespace
+
+std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source> sources,
+                                 std::span<const SurfacePoint> targets, const DistanceOptions& how) {
   DistanceOptions options;
   options.method = Method::Exact;
   options.keep_paths = true;
-  options.targets = {to};
-  options.cancel = cancel;
+  options.targets.assign(targets.begin(), targets.end());
+  options.max_distance = how.max_distance;
+  options.threads = how.threads;
+  options.cancel = how.cancel;
+  const SparseField field = solver.distance_sparse(sources, options);
+  std::vector<SourcePath> paths;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    SourcePath& path = paths.emplace_back();
+    if (field.target_distance[i] == kInfinity) continue;
+    static_cast<SurfacePath&>(path) = path_in(solver.domain(), *field.windows, targets[i]);
+    path.source = field.target_source[i];
+  }
+  return paths;
+}
+
+std::vector<SourcePath> edge_paths_to(const Domain& domain, std::span<const Source> sources,
+                                      std::span<const SurfacePoint> targets, const DistanceOptions& how) {
+  const Mesh& open = domain.open();
+  const auto check_vertex = [&](const SurfacePoint& p) {
+    if (p.is_nowhere() || locate(domain.mesh(), p).on == On::Vertex) return;
+    throw Error(ErrorCode::InvalidArgument, "paths along edges run between vertices");
+  };
+  for (const Source& s : sources) check_vertex(s.point);
+  for (const SurfacePoint& t : targets) check_vertex(t);
+  DistanceOptions options = how;
+  options.method = Method::Dijkstra;
+  options.targets.assign(targets.begin(), targets.end());
+  const detail::WalledRun walled(domain, sources, options);
+  const DistanceField field = distance(open, walled.sources(), walled.options());
+  std::vector<SourcePath> paths;
+  for (const SurfacePoint& t : targets) {
+    SourcePath& path = paths.emplace_back();
+    Index nearest = kNoIndex;
+    for (const SurfacePoint& side : domain.on_open(t)) {
+      const Index v = locate(open, side).vertex;
+      if (nearest == kNoIndex || field.distance[v] < field.distance[nearest]) nearest = v;
+    }
+    if (nearest == kNoIndex || field.distance[nearest] == kInfinity) continue;
+    static_cast<SurfacePath&>(path) = edge_path_to(open, field, nearest);
+    domain.to_mesh(path.points);
+    path.source = walled.origin(field.source[nearest]);
+  }
+  return paths;
+}
+
+SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
+                         const DistanceOptions& how) {
+  if (to.is_nowhere() || solver.domain().on_open(from).empty()) return {};
   const Source source{from};
-  return path_to(*solver.distance_sparse(std::span(&source, 1), options).windows, to);
+  return paths_to(solver, std::span(&source, 1), std::span(&to, 1), how).front();
+}
+
+SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
+                         const CancelToken* cancel) {
+  DistanceOptions how;
+  how.cancel = cancel;
+  return path_between(solver, from, to, how);
 }
 
 SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed,
-                         const CancelToken* cancel) {
+                         const DistanceOptions& how) {
   if (waypoints.empty()) throw Error(ErrorCode::InvalidArgument, "a path needs at least one waypoint");
   const Mesh& mesh = solver.mesh();
   for (const SurfacePoint& p : waypoints) {
@@ -167,16 +236,26 @@ SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> w
   path.closed = closed;
   path.length = 0;
   path.points.push_back(waypoints.front());
+  DistanceOptions rest = how;
   for (std::size_t i = 0; i + (closed ? 0 : 1) < waypoints.size(); ++i) {
-    const SurfacePath piece = path_between(solver, waypoints[i], waypoints[(i + 1) % waypoints.size()], cancel);
+    const SurfacePath piece = path_between(solver, waypoints[i], waypoints[(i + 1) % waypoints.size()], rest);
     if (piece.points.empty()) return {{}, kInfinity, closed};
     join(mesh, path, piece);
+    if (path.length > how.max_distance) return {{}, kInfinity, closed};
+    rest.max_distance = how.max_distance - path.length;
   }
   if (closed && path.points.size() > 1) path.points.pop_back();  // the first point again
   return path;
 }
 
-PathFinder::PathFinder(Mesh mesh) : solver_(std::make_unique<DistanceSolver>(std::move(mesh))) {}
+SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed,
+                         const CancelToken* cancel) {
+  DistanceOptions how;
+  how.cancel = cancel;
+  return path_through(solver, waypoints, closed, how);
+}
+
+PathFinder::PathFinder(Domain domain) : solver_(std::make_unique<DistanceSolver>(std::move(domain))) {}
 PathFinder::~PathFinder() = default;
 PathFinder::PathFinder(PathFinder&&) noexcept = default;
 PathFinder& PathFinder::operator=(PathFinder&&) noexcept = default;

@@ -3,8 +3,8 @@
 // Based on: Lee, Preparata, "Euclidean shortest paths in the presence of rectilinear barriers", 1984 (the funnel).
 #include <brushfire/queries/detail/sleeve.h>
 
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/mesh/detail/wide_face.h>
-#include <brushfire/mesh/flat_face.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,13 +3,16 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/queries/detail/leaving_angles.h>
 #include <brushfire/queries/detail/tangent_fan.h>
+#include <brushfire/solvers/windows/paths/departures.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 
 namespace brushfire {
 namespace {
@@ -228,13 +231,26 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
     throw Error(ErrorCode::InvalidArgument, "a direction must have a finite length > 0");
   }
   const PointLocation at = locate(mesh, point);
-  if (at.on != On::Vertex) return wrapped(angle_in_face(mesh, at.face, 0, direction), 2 * kPi);
+  // A shadow on the surface that is shorter than this share of the direction is made of rounding.
+  constexpr double kShortest = 1e-12;
+  const auto check_shadow = [&](double length) {
+    if (length <= kShortest * size) {
+      throw Error(ErrorCode::InvalidArgument, "the direction is at right angles to the surface there");
+    }
+  };
+  if (at.on != On::Vertex) {
+    double length = 0;
+    const double angle = angle_in_face(mesh, at.face, 0, direction, &length);
+    check_shadow(length);
+    return wrapped(angle, 2 * kPi);
+  }
   const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
-  double best = 0, best_score = -kInfinity;
+  double best = 0, best_score = -kInfinity, longest = 0;
   for (const detail::FanCorner& c : fan.corners) {
     double length = 0;
     const double angle = angle_in_face(mesh, Mesh::face_of(c.corner), c.corner % 3, direction, &length);
     const double inside = std::clamp(angle, 0.0, c.angle);
+    longest = std::max(longest, length);
     // How far the direction reaches along the nearest direction of this face.
     const double score = length * std::cos(angle - inside);
     if (score > best_score) {
@@ -242,7 +258,15 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
       best = fan.around(c.corner, inside);
     }
   }
+  check_shadow(longest);
   return best;
+}
+
+bool is_counter_clockwise(const Mesh& mesh, const SurfacePoint& point) {
+  const PointLocation at = locate(mesh, point);
+  if (at.on != On::Vertex) return true;
+  const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
+  return fan.corners.empty() || !fan.corners.front().reversed;
 }
 
 Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, double length) {
@@ -255,73 +279,42 @@ Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, doub
 
 namespace {
 
-// The directions in which paths leave one point.
-class LeavingAngles {
- public:
-  LeavingAngles(const Mesh& mesh, const SurfacePoint& source) : mesh_(mesh), source_(locate(mesh, source)) {
-    if (source_.on == On::Vertex) fan_ = detail::tangent_fan(mesh, source_.vertex);
-  }
+SurfacePoint only_side(const Domain& domain, const SurfacePoint& point) {
+  const std::vector<SurfacePoint> sides = domain.on_open(point);
+  if (sides.size() == 1) return sides.front();
+  throw Error(ErrorCode::InvalidArgument, sides.empty() ? "the point lies behind a wall"
+                                                        : "the point lies on a wall that parts the surface there: its "
+                                                          "directions have no common angles");
+}
 
-  double total() const { return source_.on == On::Vertex ? fan_.total : 2 * kPi; }
-  bool is_source(Index vertex) const { return source_.on == On::Vertex && vertex == source_.vertex; }
+}  // namespace
 
-  // Of a path whose second point this is.
-  double towards(const SurfacePoint& point) const {
-    const PointLocation next = locate(mesh_, point);
-    const Index f = common_face(mesh_, source_, next, source_.face);
-    const std::array<Vec2, 3> c = flat_corners(mesh_, f);
-    const std::array<double, 3> own = *weights_in(mesh_, source_, f);
-    const Vec2 d = flat_difference(c, own, *weights_in(mesh_, next, f));
-    if (source_.on == On::Vertex) {
-      const auto k = static_cast<Index>(std::max_element(own.begin(), own.end()) - own.begin());
-      const Vec2 edge = c[(k + 1) % 3] - c[k];
-      const double inside = std::clamp(std::atan2(cross(edge, d), dot(edge, d)), 0.0, mesh_.corner_angle(3 * f + k));
-      return fan_.around(3 * f + k, inside);
-    }
-    return f == source_.face ? wrapped(direction_of(d) - base_direction(), 2 * kPi) : over_own_edge(f, c, d);
-  }
+Trace straightest(const Domain& domain, const SurfacePoint& from, double angle, double length) {
+  Trace trace = straightest(domain.open(), only_side(domain, from), angle, length);
+  domain.to_mesh(trace.path.points);
+  return trace;
+}
 
- private:
-  double base_direction() const {
-    const std::array<Vec2, 3> corners = flat_corners(mesh_, source_.face);
-    return direction_of(corners[1] - corners[0]);
-  }
+namespace {
 
-  // Over the source's own edge into face f: measured from the edge, which both faces have.
-  double over_own_edge(Index f, const std::array<Vec2, 3>& c, Vec2 d) const {
-    Index in = mesh_.opposite()[source_.halfedge];
-    while (Mesh::face_of(in) != f) in = mesh_.opposite()[in];
-    const Vec2 in_edge = c[Mesh::next(in) % 3] - c[in % 3];
-    const double above = std::atan2(cross(in_edge, d), dot(in_edge, d));  // into f, in [0, pi]
-    const bool same_start = mesh_.from(in) == mesh_.from(source_.halfedge);
-    const std::array<Vec2, 3> own_corners = flat_corners(mesh_, source_.face);
-    const Vec2 own_edge = own_corners[Mesh::next(source_.halfedge) % 3] - own_corners[source_.halfedge % 3];
-    // Below the edge in the source's face's plane, whichever way round the other face lies.
-    const double from_edge = same_start ? -above : above - kPi;
-    return wrapped(direction_of(own_edge) + from_edge - base_direction(), 2 * kPi);
-  }
-
-  const Mesh& mesh_;
-  PointLocation source_;
-  detail::TangentFan fan_;
-};
+using detail::LeavingAngles;
 
 constexpr double kUnknownAngle = std::numeric_limits<double>::quiet_NaN();
 
 // Sets map.angle along the path to entry i: back along the vertices that the path bends at, to one whose angle is known
 // or to the source. `chain` is room to work in.
-void find_angle(const WindowField& field, const LeavingAngles& leaving, SparseLogMap& map, std::size_t i,
+void find_angle(windows::Departures& departures, const LeavingAngles& leaving, SparseLogMap& map, std::size_t i,
                 std::vector<std::size_t>& chain) {
   chain.clear();
   double angle = 0;
   while (true) {
     chain.push_back(i);
-    const WindowField::Leg leg = field.last_leg(map.vertex[i]);
-    if (leg.vertex == kNoIndex || leaving.is_source(leg.vertex)) {
-      if (leg.points.size() > 1) angle = leaving.towards(leg.points[leg.points.size() - 2]);
+    const windows::Departures::Departure departure = departures.of(map.vertex[i]);
+    if (departure.vertex == kNoIndex || leaving.is_source(departure.vertex)) {
+      angle = leaving.within_turn(departure.angle);
       break;
     }
-    i = static_cast<std::size_t>(std::lower_bound(map.vertex.begin(), map.vertex.end(), leg.vertex) -
+    i = static_cast<std::size_t>(std::lower_bound(map.vertex.begin(), map.vertex.end(), departure.vertex) -
                                  map.vertex.begin());
     if (!std::isnan(map.angle[i])) {
       angle = map.angle[i];
@@ -333,30 +326,69 @@ void find_angle(const WindowField& field, const LeavingAngles& leaving, SparseLo
 
 }  // namespace
 
+namespace {
+
+// Of the copies of a vertex the nearest.
+SparseLogMap brought_back(const Domain& domain, const SparseLogMap& map) {
+  std::vector<std::size_t> order(map.vertex.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(domain.vertex(map.vertex[a]), map.radius[a], a) <
+           std::tuple(domain.vertex(map.vertex[b]), map.radius[b], b);
+  });
+  SparseLogMap result{{}, {}, {}, map.total_angle};
+  for (const std::size_t i : order) {
+    const Index v = domain.vertex(map.vertex[i]);
+    if (!result.vertex.empty() && result.vertex.back() == v) continue;
+    result.vertex.push_back(v);
+    result.radius.push_back(map.radius[i]);
+    result.angle.push_back(map.angle[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
+  DistanceOptions how;
+  how.max_distance = max_radius;
+  how.cancel = cancel;
+  return log_map(solver, source, how);
+}
+
+SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const DistanceOptions& how) {
+  if (const Domain& domain = solver.domain(); domain.has_walls()) {
+    DistanceSolver on_open(domain.open());
+    return brought_back(domain, log_map(on_open, only_side(domain, source), how));
+  }
   const LeavingAngles leaving(solver.mesh(), source);
   DistanceOptions options;
   options.method = Method::Exact;
-  options.max_distance = max_radius;
+  options.max_distance = how.max_distance;
+  options.threads = how.threads;
+  options.progress = how.progress;
   options.keep_paths = true;
-  options.cancel = cancel;
+  options.cancel = how.cancel;
   const Source origin{source};
   SparseField field = solver.distance_sparse(std::span(&origin, 1), options);
   SparseLogMap map{std::move(field.vertex), std::move(field.distance), {}, leaving.total()};
   map.angle.assign(map.vertex.size(), kUnknownAngle);
   std::vector<std::size_t> chain;
-  const CancelScope listen(cancel);
+  windows::Departures departures(*field.windows, map.vertex.size(),
+                                 [&](const WindowField::Leg& leg) { return leaving.of(leg); });
+  const CancelScope listen(how.cancel);
   Poll poll(64);
   for (std::size_t i = 0; i < map.vertex.size(); ++i) {
     poll();
     if (leaving.is_source(map.vertex[i])) map.angle[i] = 0;
-    if (std::isnan(map.angle[i])) find_angle(*field.windows, leaving, map, i, chain);
+    if (std::isnan(map.angle[i])) find_angle(departures, leaving, map, i, chain);
   }
   return map;
 }
 
-LogMap log_map(const Mesh& mesh, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
-  DistanceSolver solver(mesh);
+LogMap log_map(const Domain& domain, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
+  const Mesh& mesh = domain.mesh();
+  DistanceSolver solver(domain);
   const SparseLogMap reached = log_map(solver, source, max_radius, cancel);
   LogMap map{std::vector<double>(mesh.vertex_count(), kInfinity),
              std::vector<double>(mesh.vertex_count(), kUnknownAngle), reached.total_angle};

@@ -17,8 +17,13 @@ namespace brushfire {
 double total_angle(const Mesh& mesh, const SurfacePoint& point);
 
 // The angle of a direction in space, projected onto the surface: onto the face, or at a vertex onto the face that it
-// points into most. The mesh needs positions. Throws Error(InvalidArgument) for a direction of length 0.
+// points into most. The mesh needs positions. Throws Error(InvalidArgument) for a direction of length 0, and for one
+// that is at right angles to the surface.
 double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& direction);
+
+// Whether the angles at a point grow counter-clockwise, as the faces there run: they do but at some boundary vertices,
+// and where faces lie the wrong way round.
+bool is_counter_clockwise(const Mesh& mesh, const SurfacePoint& point);
 
 enum class TraceEnd : std::uint8_t {
   Length,       // the whole length was walked
@@ -39,6 +44,9 @@ struct Trace {
 //
 // Based on: Polthier, Schmies, "Straightest geodesics on polyhedral surfaces", 1998.
 Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, double length);
+// The same within walls, which are boundary. Throws Error(InvalidArgument) for a point behind a wall, and for one on a
+// wall that parts the surface there: directions at it have no common angles.
+Trace straightest(const Domain& domain, const SurfacePoint& from, double angle, double length);
 
 // Polar coordinates of every vertex around a source.
 struct LogMap {
@@ -51,7 +59,10 @@ struct LogMap {
 // Inside the injectivity radius of a point, straightest(source, angle[v], radius[v]) ends at v; behind a saddle or a
 // boundary, angles are those of the vertex that the path bends at. Throws as distance() and straightest() do.
 // The cost of the exact field, and O(edges crossed) for every vertex.
-LogMap log_map(const Mesh& mesh, const SurfacePoint& source, double max_radius = kInfinity,
+//
+// In a domain with walls the source must not lie on one that parts the surface there: Error(InvalidArgument). A vertex
+// on a wall has the polar coordinates of its nearer side.
+LogMap log_map(const Domain& domain, const SurfacePoint& source, double max_radius = kInfinity,
                const CancelToken* cancel = nullptr);
 
 // The same of the reached vertices only, which ascend: after the solver's first call a small disc costs little however
@@ -64,5 +75,7 @@ struct SparseLogMap {
 };
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double max_radius,
                      const CancelToken* cancel = nullptr);
+// Of `how` the max_distance, threads, progress and cancel count.
+SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const DistanceOptions& how);
 
 }  // namespace brushfire

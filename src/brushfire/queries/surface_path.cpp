@@ -2,7 +2,7 @@
 #include <brushfire/queries/surface_path.h>
 
 #include <brushfire/core/error.h>
-#include <brushfire/mesh/flat_face.h>
+#include <brushfire/mesh/detail/flat_face.h>
 
 #include <cmath>
 #include <limits>

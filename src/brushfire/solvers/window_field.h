@@ -10,11 +10,12 @@
 
 namespace brushfire {
 
-namespace detail {
-inline namespace in_doubles {  // see windows/detail/real.h
+namespace windows {
+inline namespace in_doubles {  // see windows/algebra/real.h
 struct WindowFieldData;
+class Departures;
 }
-}  // namespace detail
+}  // namespace windows
 
 // Made by a run with DistanceOptions::keep_paths or keep_windows (DistanceField::windows). Immutable; safe to read from
 // many threads; shares the mesh. All lengths are in the mesh's units.
@@ -55,10 +56,11 @@ class WindowField {
   // The mesh of the run.
   const Mesh& mesh() const noexcept;
 
-  explicit WindowField(std::shared_ptr<const detail::WindowFieldData> data);
+  explicit WindowField(std::shared_ptr<const windows::WindowFieldData> data);
 
  private:
-  std::shared_ptr<const detail::WindowFieldData> data_;
+  friend class windows::Departures;
+  std::shared_ptr<const windows::WindowFieldData> data_;
 };
 
 }  // namespace brushfire

@@ -1,11 +1,10 @@
 // Properties of the window algebra on random windows: 10^5 of them, or as many as the
 // environment variable BRUSHFIRE_RANDOM_WINDOWS says.
-#include <brushfire/solvers/windows/detail/envelope.h>
-#include <brushfire/solvers/windows/detail/fan.h>
-#include <brushfire/solvers/windows/detail/merge.h>
-#include <brushfire/solvers/windows/detail/propagate.h>
-#include <brushfire/solvers/windows/detail/ridge.h>
-#include <brushfire/solvers/windows/detail/sweep.h>
+#include <brushfire/solvers/windows/algebra/envelope.h>
+#include <brushfire/solvers/windows/algebra/merge.h>
+#include <brushfire/solvers/windows/algebra/sweep.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
+#include <brushfire/solvers/windows/propagation/fan.h>
 
 #include <gtest/gtest.h>
 
@@ -13,7 +12,9 @@
 #include <limits>
 #include <random>
 
-namespace brushfire::detail {
+#include "solvers/windows/children.h"
+
+namespace brushfire::windows {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -52,7 +53,7 @@ class Random {
     w.b1 = below(3) ? uniform(w.b0, length) : length;
     w.d0 = value_at(w, w.b0);
     w.d1 = value_at(w, w.b1);
-    w.root = static_cast<Index>(below(1000));
+    w.pseudo_source = static_cast<Index>(below(1000));
     return w;
   }
 
@@ -90,8 +91,7 @@ TEST(Algebra, ChildrenTileTheParentsIntervalAndKeepItsValues) {
   for (int i = 0; i < count(); ++i) {
     const Frame frame = random.frame();
     const Window w = random.window(frame.length);
-    const double apex_value = straight_value(w, frame.apex);
-    const Children c = propagate(w, frame, apex_value);
+    const Children c = children_of(w, frame);
     if (!c.has_left && !c.has_right) continue;
     const Crossing at = crossing(w, frame.apex);
     const double x = at.across / at.along;
@@ -122,7 +122,7 @@ TEST(Algebra, ChildrenTileTheParentsIntervalAndKeepItsValues) {
       }
       ASSERT_NEAR(child->d0, value_at(*child, child->b0), 16 * kEpsilon * (scale + w.sigma)) << i;
       ASSERT_NEAR(child->d1, value_at(*child, child->b1), 16 * kEpsilon * (scale + w.sigma)) << i;
-      ASSERT_EQ(child->root, w.root);
+      ASSERT_EQ(child->pseudo_source, w.pseudo_source);
     }
   }
 }
@@ -176,7 +176,7 @@ TEST(Algebra, TheRidgeIsWhereBothValuesAgree) {
     const double fp = value_at(a, p) - value_at(b, p), fq = value_at(a, q) - value_at(b, q);
     if (!(p < q) || !(fp * fq < 0)) continue;
     ++found;
-    const double x = ridge(a, b, p, q, fp, fq);
+    const double x = tie_point(a, b, p, q, fp, fq);
     ASSERT_GE(x, p);
     ASSERT_LE(x, q);
     // The place itself is a double: the difference of two values changes by up to twice as much as it is rounded.
@@ -398,4 +398,4 @@ TEST(Algebra, LightFromACornerFillsItsSectorWithTheDistanceToTheCorner) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

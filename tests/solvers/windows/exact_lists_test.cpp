@@ -1,16 +1,17 @@
 // Lists of exact runs on random windows: crossing a face, choosing sides, trimming, waiting.
-#include <brushfire/solvers/windows/detail/exact_cross.h>
-#include <brushfire/solvers/windows/detail/exact_lists.h>
-#include <brushfire/solvers/windows/detail/exact_trim.h>
-#include <brushfire/solvers/windows/detail/propagate.h>
-#include <brushfire/solvers/windows/detail/ridge.h>
+#include <brushfire/solvers/windows/algebra/exact_cross.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
+#include <brushfire/solvers/windows/propagation/exact_trim.h>
+#include <brushfire/solvers/windows/store/exact_lists.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-namespace brushfire::detail {
+#include "solvers/windows/children.h"
+
+namespace brushfire::windows {
 namespace {
 
 constexpr int kLists = 4000;
@@ -33,7 +34,7 @@ struct Random : std::mt19937 {
     w.b1 = uniform(0, 1) < 0.3 ? length : uniform(w.b0, length);
     w.d0 = value_at(w, w.b0);
     w.d1 = value_at(w, w.b1);
-    w.root = static_cast<Index>((*this)() % 1000);
+    w.pseudo_source = static_cast<Index>((*this)() % 1000);
     return w;
   }
   // Sorted by where they begin.
@@ -81,7 +82,7 @@ std::vector<Window> crossed_envelope(Random& random, double& length) {
     w.d1 = value_at(w, w.b1);
   }
   for (const Window& w : envelope(far)) {
-    const Children c = propagate(w, frame, straight_value(w, frame.apex));
+    const Children c = children_of(w, frame);
     if (c.has_left) result.push_back(c.left);
   }
   length = frame.left;
@@ -106,7 +107,7 @@ TEST(ExactLists, CrossingAFaceEqualsPropagatingEachWindow) {
                                : cross_to_right(w, list.size, routes, sight, frame, block.columns());
       std::vector<Window> expected;
       for (const Window& parent : windows) {
-        const Children c = propagate(parent, frame, straight_value(parent, frame.apex));
+        const Children c = children_of(parent, frame);
         if (left ? c.has_left : c.has_right) expected.push_back(left ? c.left : c.right);
       }
       const std::vector<Window> got = windows_of(block.columns(), count);
@@ -117,7 +118,7 @@ TEST(ExactLists, CrossingAFaceEqualsPropagatingEachWindow) {
         ASSERT_NEAR(got[i].b1, expected[i].b1, scale) << "run " << run;
         ASSERT_NEAR(got[i].d0, expected[i].d0, scale) << "run " << run;
         ASSERT_NEAR(got[i].d1, expected[i].d1, scale) << "run " << run;
-        ASSERT_EQ(got[i].root, expected[i].root) << "run " << run;
+        ASSERT_EQ(got[i].pseudo_source, expected[i].pseudo_source) << "run " << run;
       }
     }
     pool.release(block);
@@ -144,7 +145,7 @@ TEST(ExactLists, WhatIsNotSentToOneSideIsReachedAsSoonAlongTheBestWindow) {
     }
     find_routes(w, list.size, frame, sight, best, routes);
     for (Index i = 0; i < list.size; ++i) {
-      const Children c = propagate(windows[i], frame, straight_value(windows[i], frame.apex));
+      const Children c = children_of(windows[i], frame);
       for (const bool left : {true, false}) {
         const bool sent =
             left ? i < routes.left_end && routes.goes_left[i] > 0 : i >= routes.right_begin && routes.goes_right[i] > 0;
@@ -269,9 +270,9 @@ TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
   ExactLists lists;
   BlockPool blocks;
   Index face = kNoIndex;
-  const auto one = [&](Index root) {
+  const auto one = [&](Index pseudo_source) {
     Window w = random.window(1);
-    w.root = root;
+    w.pseudo_source = pseudo_source;
     return list_of({w}, blocks);
   };
   lists.put(face, 7, Origin::End, one(3));
@@ -279,14 +280,14 @@ TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
   lists.key(face, 7) = 0.25;
   lists.put(face, 7, Origin::Start, one(1));
   Window apex = random.window(1);
-  apex.root = 2;
+  apex.pseudo_source = 2;
   lists.put(face, 7, Origin::Apex, apex, blocks);
   EXPECT_EQ(lists.key(face, 7), 0.25) << "the key stays with the halfedge";
   EXPECT_TRUE(lists.empty(face, 8));
   const WindowList list = lists.take(face, 7, blocks);
   ASSERT_EQ(list.size, 3u);
   EXPECT_TRUE(list.ordered);
-  for (Index i = 0; i < 3; ++i) EXPECT_EQ(list.block.columns().root[i], i + 1);
+  for (Index i = 0; i < 3; ++i) EXPECT_EQ(list.block.columns().pseudo_source[i], i + 1);
   EXPECT_TRUE(lists.empty(face, 7));
   EXPECT_FALSE(lists.empty(face, 6));
   lists.put(face, 6, Origin::Start, one(10));
@@ -297,4 +298,4 @@ TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -2,9 +2,9 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
-#include <brushfire/solvers/detail/shares.h>
-#include <brushfire/solvers/windows/detail/engine.h>
-#include <brushfire/solvers/windows/detail/structure.h>
+#include <brushfire/solvers/partition/scheduler.h>
+#include <brushfire/solvers/windows/engine.h>
+#include <brushfire/solvers/windows/propagation/structure.h>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include "support/engine_run.h"
 #include "support/same_field.h"
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 namespace {
 
 using test::expect_equal_bits;
@@ -76,7 +76,7 @@ void expect_same_distances(const DistanceField& a, const DistanceField& b, const
   }
 }
 
-TEST(Parts, EveryFaceIsInOnePartWithVerticesOfItsOwnAndCopiesFormRings) {
+TEST(Parts, EveryFaceIsInOnePartWithVerticesOfItsOwnAndGhostsFormRings) {
   for (const Case& c : cases()) {
     for (const unsigned bits : {0u, 3u, 6u, kOnePart}) {
       const WindowStructure whole(c.mesh, kOnePart), cut(c.mesh, bits);
@@ -90,16 +90,17 @@ TEST(Parts, EveryFaceIsInOnePartWithVerticesOfItsOwnAndCopiesFormRings) {
         for (std::size_t k = 0; k < 3; ++k) {
           const Index v = cut.faces[inner].vertex[k];
           EXPECT_EQ(cut.outer_vertex(v), c.mesh.faces()[f][k]);
-          EXPECT_TRUE(cut.is_in(cut.part_of_face(inner), v));
+          EXPECT_TRUE(cut.partition.is_in(cut.part_of_face(inner), v));
           EXPECT_EQ(cut.part_of_vertex(v), cut.part_of_face(inner));
-          EXPECT_EQ(cut.copy_in(cut.part_of_face(inner), cut.inner_vertex(c.mesh.faces()[f][k])), v);
+          EXPECT_EQ(cut.ghost_in(cut.part_of_face(inner), cut.inner_vertex(c.mesh.faces()[f][k])), v);
         }
       }
       for (Index v = 0; v < cut.vertex_count(); ++v) {
         std::set<Index> ring{v};
-        for (Index w = cut.next_copy(v); w != kNoIndex && w != v; w = cut.next_copy(w)) ring.insert(w);
+        for (Index w = cut.partition.next_ghost(v); w != kNoIndex && w != v; w = cut.partition.next_ghost(w))
+          ring.insert(w);
         for (const Index w : ring) EXPECT_TRUE(cut.is_same(v, w));
-        EXPECT_EQ(*ring.begin(), cut.inner_vertex(cut.outer_vertex(v))) << "the first copy";
+        EXPECT_EQ(*ring.begin(), cut.inner_vertex(cut.outer_vertex(v))) << "in the first part";
       }
     }
   }
@@ -234,24 +235,24 @@ TEST(Parts, ARunThatIsStoppedLeavesNothingBehind) {
   }
 }
 
-TEST(Shares, EveryPartIsTakenOnceAndLoadsAreNearlyEven) {
-  Shares shares(std::chrono::microseconds(20));
-  shares.reset(12, 3);
-  std::vector<Shares::Due> due;
+TEST(Scheduler, EveryPartIsTakenOnceAndLoadsAreNearlyEven) {
+  partition::Scheduler scheduler(std::chrono::microseconds(20));
+  scheduler.reset(12, 3);
+  std::vector<partition::Due> due;
   for (Index p = 0; p < 12; ++p) due.push_back({p, 5 + p % 4});
   for (int round = 0; round < 3; ++round) {
-    shares.deal(due);
+    scheduler.deal(due);
     std::vector<int> taken(12, 0);
     std::size_t first = 0;
-    shares.take(0, [&](Index p) {
+    scheduler.take(0, [&](Index p) {
       ++taken[p];
       first += 5 + p % 4;
     });
     EXPECT_EQ(taken, std::vector<int>(12, 1)) << "who comes first helps the others out";
-    shares.take(1, [&](Index p) { ++taken[p]; });
+    scheduler.take(1, [&](Index p) { ++taken[p]; });
     EXPECT_EQ(taken, std::vector<int>(12, 1));
   }
 }
 
 }  // namespace
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

@@ -6,8 +6,8 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/windows/detail/links.h>
-#include <brushfire/solvers/windows/detail/spines.h>
+#include <brushfire/solvers/windows/propagation/links.h>
+#include <brushfire/solvers/windows/store/spines.h>
 
 #include <gtest/gtest.h>
 
@@ -218,7 +218,7 @@ TEST(Sheets, OfTwoTriangulationsCarryTheirLightOnce) {
   }
 }
 
-namespace d = detail;
+namespace d = windows;
 
 d::Window window(double b0, double b1, Vec2 source, double sigma) {
   d::Window w;
@@ -285,7 +285,7 @@ TEST(LinkShadow, IsAllOfTheOtherFanAndNothingOfAFlatOne) {
   }
   const d::WindowStructure structure(Mesh(positions, faces), 15);
   const Index v = structure.inner_vertex(0), h = structure.inner_halfedge(1);
-  EXPECT_EQ(structure.bend[v], d::Bend::Fans);
+  EXPECT_EQ(structure.vertex_type[v], d::VertexType::Fans);
   std::vector<Index> room;
   d::LinkShadow shadow;
   const double middle = 0.5 * structure.faces[h / 3].length[h % 3];

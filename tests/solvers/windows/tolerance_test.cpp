@@ -4,9 +4,9 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/windows/detail/engine.h>
-#include <brushfire/solvers/windows/detail/least_budget.h>
-#include <brushfire/solvers/windows/detail/structure.h>
+#include <brushfire/solvers/windows/engine.h>
+#include <brushfire/solvers/windows/propagation/least_budget.h>
+#include <brushfire/solvers/windows/propagation/structure.h>
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ DistanceOptions windows(double tolerance, Bound bound = Bound::Estimate) {
 class Merging {
  public:
   explicit Merging(const Mesh& mesh)
-      : mesh_(mesh), engine_(detail::make_windows(mesh, detail::kPartBits, detail::Merging::Always)) {}
+      : mesh_(mesh), engine_(windows::make_windows(mesh, windows::kPartBits, windows::Merging::Always)) {}
   DistanceField operator()(const std::vector<Source>& sources, const DistanceOptions& options) {
     return test::run(*engine_, mesh_, sources, options);
   }
@@ -167,7 +167,7 @@ TEST(Tolerance, OfZeroIsExactToTheBit) {
 // ---- where exact runs are quicker
 
 TEST(LeastTolerance, FallsWithTheReachAndRisesWithTheDefect) {
-  using detail::least_tolerance;
+  using windows::least_tolerance;
   const double usual = least_tolerance({40000, 1, 0.01});
   EXPECT_GT(least_tolerance({40000, 1, 0.02}), usual);
   EXPECT_GT(least_tolerance({40000, 10, 0.01}), usual);
@@ -185,9 +185,9 @@ TEST(LeastTolerance, FallsWithTheReachAndRisesWithTheDefect) {
 
 TEST(LeastTolerance, BelowItFieldsAreThoseOfAnExactRun) {
   for (const auto& [name, mesh] : meshes()) {
-    const detail::WindowStructure structure(mesh, detail::kPartBits);
+    const windows::WindowStructure structure(mesh, windows::kPartBits);
     const double least =
-        detail::least_tolerance({static_cast<double>(mesh.vertex_count()), 1, structure.typical_defect});
+        windows::least_tolerance({static_cast<double>(mesh.vertex_count()), 1, structure.typical_deficit});
     DistanceSolver solver(mesh);
     const Source source{vertex_point(mesh, mesh.faces()[0][0])};
     DistanceOptions exact;
@@ -223,12 +223,14 @@ TEST(LeastTolerance, BelowItFieldsAreThoseOfAnExactRun) {
 }
 
 TEST(LeastTolerance, IsReadOffTheMesh) {
-  const auto defect = [](const Mesh& mesh) { return detail::WindowStructure(mesh, detail::kPartBits).typical_defect; };
-  EXPECT_NEAR(defect(shapes::plane(30, 20).mesh()), 0, 1e-12);
-  EXPECT_NEAR(defect(shapes::cube(8).mesh()), 0, 1e-12);  // but for eight corners
+  const auto deficit = [](const Mesh& mesh) {
+    return windows::WindowStructure(mesh, windows::kPartBits).typical_deficit;
+  };
+  EXPECT_NEAR(deficit(shapes::plane(30, 20).mesh()), 0, 1e-12);
+  EXPECT_NEAR(deficit(shapes::cube(8).mesh()), 0, 1e-12);  // but for eight corners
   const Mesh sphere = shapes::icosphere(3).mesh();
-  EXPECT_NEAR(defect(sphere), 4 * 3.14159265 / sphere.vertex_count(), 2e-3);  // Gauss and Bonnet
-  EXPECT_EQ(defect(Mesh(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Face>{{0, 1, 2}})), 0);
+  EXPECT_NEAR(deficit(sphere), 4 * 3.14159265 / sphere.vertex_count(), 2e-3);  // Gauss and Bonnet
+  EXPECT_EQ(deficit(Mesh(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Face>{{0, 1, 2}})), 0);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // The two numbers that windows are made of, beside each other, and what decides between them.
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/windows/detail/engine.h>
-#include <brushfire/solvers/windows/detail/rounding.h>
-#include <brushfire/solvers/windows/detail/trails.h>
+#include <brushfire/solvers/windows/engine.h>
+#include <brushfire/solvers/windows/propagation/rounding.h>
+#include <brushfire/solvers/windows/store/trails.h>
 
 #include <gtest/gtest.h>
 
@@ -28,10 +28,17 @@ Mesh ball(double far = 1) {
   return shape.mesh();
 }
 
+// A frame over an edge of such a face has the rounding of that edge, however near the source is.
+TEST(Rounding, KnowsTheEdgesOfFacesOneOfWhoseEdgesHasNoLength) {
+  windows::Unevenness folded;
+  folded.add(2, 2, 0);
+  EXPECT_GE(windows::rounding_of(folded).absolute, 2 * windows::kEpsilon);
+}
+
 TEST(WideNumbers, GiveWhatDoublesGiveOnOrdinaryMeshes) {
   const Mesh mesh = ball();
-  const auto narrow = detail::in_doubles::make_engine(mesh, kOnePart, detail::Merging::Always);
-  const auto wide = detail::in_double_doubles::make_engine(mesh, kOnePart, detail::Merging::Always);
+  const auto narrow = windows::in_doubles::make_engine(mesh, kOnePart, windows::Merging::Always);
+  const auto wide = windows::in_double_doubles::make_engine(mesh, kOnePart, windows::Merging::Always);
   for (const double tolerance : {0.0, 1e-3}) {
     DistanceOptions options;
     options.tolerance = tolerance;
@@ -49,8 +56,8 @@ TEST(WideNumbers, GiveWhatDoublesGiveOnOrdinaryMeshes) {
 TEST(WideNumbers, AreWithinTheBoundsOfDoublesOnUnevenMeshes) {
   for (const double far : {1e2, 1e4, 1e6, 1e8}) {
     const Mesh mesh = ball(far);
-    const auto narrow = detail::in_doubles::make_engine(mesh, kOnePart, detail::Merging::Always);
-    const auto wide = detail::in_double_doubles::make_engine(mesh, kOnePart, detail::Merging::Always);
+    const auto narrow = windows::in_doubles::make_engine(mesh, kOnePart, windows::Merging::Always);
+    const auto wide = windows::in_double_doubles::make_engine(mesh, kOnePart, windows::Merging::Always);
     EXPECT_LT(wide->doubt(), 1e-6 * narrow->doubt());
     DistanceOptions options;
     options.method = Method::Exact;
@@ -84,22 +91,22 @@ TEST(WideNumbers, PathsAreAsLongAsTheirField) {
 }
 
 TEST(Rounding, OrdinaryMeshesAreSureToTenDigitsAndUnevenOnesAreNot) {
-  detail::Unevenness even, uneven;
+  windows::Unevenness even, uneven;
   even.add(1, 1.5, 2);
   uneven.add(1, 1e6, 1e6);
-  EXPECT_LT(detail::rounding_of(even).doubt, 1e-12);
-  EXPECT_GT(detail::rounding_of(uneven).doubt, 1e-4);
-  EXPECT_EQ(detail::rounding_of(uneven).of(0), 0);  // a source is where it is
+  EXPECT_LT(windows::rounding_of(even).doubt, 1e-12);
+  EXPECT_GT(windows::rounding_of(uneven).doubt, 1e-4);
+  EXPECT_EQ(windows::rounding_of(uneven).of(0), 0);  // a source is where it is
 }
 
 TEST(Rounding, NothingIsPromisedWhereProductsLeaveTheRangeOfDoubles) {
-  detail::Unevenness u;
+  windows::Unevenness u;
   u.add(1e-200, 1, 1);
-  EXPECT_EQ(detail::rounding_of(u).absolute, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(windows::rounding_of(u).absolute, std::numeric_limits<double>::infinity());
 }
 
 TEST(Trails, AFaceIsFoundAgainSoonerOrLater) {
-  detail::Trails trails;
+  windows::Trails trails;
   Index trail = kNoIndex;
   EXPECT_FALSE(trails.has_been(trail, 7));
   trail = trails.with(trail, 7);

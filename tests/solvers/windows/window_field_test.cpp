@@ -65,6 +65,44 @@ TEST(WindowField, EveryTracedPolylineIsAsLongAsTheDistance) {
   }
 }
 
+TEST(WindowField, KeptWindowsOfWiderNumbersAgreeWithTargetsAsWell) {
+  Shape shape = shapes::icosphere(1);
+  for (const Index v : {4u, 5u, 11u}) shape.positions[v] = 1e-9 * shape.positions[v];
+  shape.positions[2] = 1e7 * shape.positions[2];
+  const Mesh mesh = shape.mesh();
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  DistanceOptions everywhere, at_targets;
+  everywhere.method = at_targets.method = Method::Exact;
+  everywhere.keep_windows = true;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const double a = uniform(random), b = uniform(random) * (1 - a);
+    at_targets.targets.push_back({f, {a, b, 1 - a - b}});
+    at_targets.targets.push_back({f, {0, a, 1 - a}});
+  }
+  for (const Source& source : {Source{vertex_point(mesh, 4)}, Source{{7, {0.25, 0.25, 0.5}}}}) {
+    const DistanceField all = distance(mesh, std::span(&source, 1), everywhere);
+    const DistanceField some = distance(mesh, std::span(&source, 1), at_targets);
+    for (std::size_t i = 0; i < at_targets.targets.size(); ++i) {
+      const double d = some.target_distance[i];
+      EXPECT_NEAR(all.windows->value(at_targets.targets[i]).distance, d, 4e-15 * d) << i;
+    }
+  }
+}
+
+// A face with a vertex twice is an edge: a source in it and points in it lie on a line.
+TEST(WindowField, KeptWindowsGiveTheDistanceAlongTheEdgeOfAFaceWithARepeatedVertex) {
+  const Mesh mesh = Shape{{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 0, 1}, {1, 2, 2}}}.mesh();
+  const std::vector<Source> sources{{{0, {0.25, 0.25, 0.5}}}};
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.keep_windows = true;
+  const DistanceField field = distance(mesh, sources, options);
+  EXPECT_DOUBLE_EQ(field.windows->value({0, {0.75, 0, 0.25}}).distance, 0.75);
+  EXPECT_DOUBLE_EQ(field.windows->value({0, {0, 0.125, 0.875}}).distance, 1.125);
+  EXPECT_DOUBLE_EQ(field.windows->value({1, {0.5, 0.5, 0}}).distance, 4);
+}
+
 TEST(WindowField, KeptWindowsGiveTheDistanceAtEveryPointAndAgreeWithTargets) {
   const Mesh mesh = shapes::noise_terrain(20, 20, 0.5).mesh();
   std::mt19937 random(7);

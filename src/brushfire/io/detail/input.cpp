@@ -1,7 +1,7 @@
 // Reading whole files, inflating them, and wording errors.
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/memory.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/memory.h>
 #include <brushfire/io/byte_stream.h>
 #include <brushfire/io/detail/inflate.h>
 #include <brushfire/io/detail/input.h>

@@ -1,7 +1,7 @@
 // Which faces meet at which vertex and over which edge: counting sorts over the index array, no hash maps.
 #pragma once
 
-#include <brushfire/core/uninitialized.h>
+#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
 
 #include <span>

@@ -1,7 +1,7 @@
 // Lengths and area of a face from the positions of its corners: the same bits whoever asks.
 #pragma once
 
-#include <brushfire/core/inline.h>
+#include <brushfire/core/detail/inline.h>
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/mesh.h>
 

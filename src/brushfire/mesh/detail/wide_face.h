@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/core/detail/double_double.h>
+#include <brushfire/core/types.h>
 #include <brushfire/mesh/mesh.h>
 
 #include <array>
@@ -9,15 +10,7 @@
 namespace brushfire::detail {
 
 // A point or an arrow of the plane.
-struct WideVec2 {
-  DoubleDouble x, y;
-  friend constexpr WideVec2 operator+(WideVec2 a, WideVec2 b) { return {a.x + b.x, a.y + b.y}; }
-  friend constexpr WideVec2 operator-(WideVec2 a, WideVec2 b) { return {a.x - b.x, a.y - b.y}; }
-  friend WideVec2 operator*(DoubleDouble s, WideVec2 a) { return {s * a.x, s * a.y}; }
-};
-inline DoubleDouble dot(WideVec2 a, WideVec2 b) { return a.x * b.x + a.y * b.y; }
-inline DoubleDouble cross(WideVec2 a, WideVec2 b) { return a.x * b.y - a.y * b.x; }
-inline DoubleDouble norm(WideVec2 a) { return sqrt(dot(a, a)); }
+using WideVec2 = BasicVec2<DoubleDouble>;
 
 struct WideFrame {
   DoubleDouble length;

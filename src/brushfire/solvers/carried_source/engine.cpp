@@ -2,6 +2,7 @@
 #include <brushfire/solvers/carried_source/engine.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/solvers/carried_source/detail/march.h>
 #include <brushfire/solvers/carried_source/detail/points.h>
 #include <brushfire/solvers/carried_source/detail/records.h>
@@ -127,7 +128,7 @@ class Marcher {
       for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
         if (mesh_.length(h) == 0) continue;
         const double third = at.weights[Mesh::previous(h) % 3], ahead = at.weights[Mesh::next(h) % 3];
-        const Vec2 apex = detail::apex_over(mesh_, h, h);
+        const Vec2 apex = apex_over(mesh_, h, h);
         through_edge(h, {ahead * mesh_.length(h) + third * apex.x, third * apex.y}, offer);
       }
       return;
@@ -140,7 +141,7 @@ class Marcher {
         const double length = mesh_.length(h);
         if (length == 0) continue;
         // The third corner over h is an end of g; the target lies between it and the end that h shares with g.
-        const Vec2 apex = detail::apex_over(mesh_, h, h);
+        const Vec2 apex = apex_over(mesh_, h, h);
         const Vec2 shared = h == Mesh::next(g) ? Vec2{0, 0} : Vec2{length, 0};
         const double share = h == Mesh::next(g) ? 1 - t : t;
         through_edge(h, shared + share * (apex - shared), offer);

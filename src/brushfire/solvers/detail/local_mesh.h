@@ -1,8 +1,8 @@
 // A mesh in an order that keeps neighbours close in memory.
 #pragma once
 
-#include <brushfire/core/uninitialized.h>
-#include <brushfire/mesh/locality_order.h>
+#include <brushfire/core/detail/uninitialized.h>
+#include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 

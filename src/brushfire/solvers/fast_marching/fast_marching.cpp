@@ -1,16 +1,19 @@
 // From a problem to a march and back: starts, stops, targets, labels.
-#include <brushfire/solvers/fast_marching/fast_marching.h>
+#include <brushfire/solvers/fast_marching/detail/fast_marching.h>
 
+#include <brushfire/core/detail/planar.h>
+#include <brushfire/core/detail/prefetch.h>
+#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/error.h>
-#include <brushfire/core/planar.h>
-#include <brushfire/core/uninitialized.h>
-#include <brushfire/mesh/locality_order.h>
-#include <brushfire/solvers/detail/crew.h>
+#include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/mesh/detail/locality_order.h>
+#include <brushfire/solvers/detail/local_mesh.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
-#include <brushfire/solvers/fast_marching/march.h>
-#include <brushfire/solvers/fast_marching/ring_blocks.h>
-#include <brushfire/solvers/fast_marching/triangle_update.h>
+#include <brushfire/solvers/fast_marching/detail/fronts.h>
+#include <brushfire/solvers/fast_marching/detail/march.h>
+#include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
+#include <brushfire/solvers/partition/worker_team.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,53 +24,31 @@
 #include <optional>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 namespace {
+
+using detail::LocalMesh;
 
 FrontModel front_model(Method method) {
   if (method == Method::KimmelSethian) return FrontModel::Planar;
   return method == Method::NovotniKlein2002 ? FrontModel::LiteralCircular : FrontModel::Circular;
 }
 
-double update(FrontModel model, const UpdateTriangle<double>& at, double t1, double t2) {
-  if (model == FrontModel::Planar) return PlanarFront::update(at, t1, t2).value;
-  if (model == FrontModel::LiteralCircular) return LiteralCircularFront::update(at, t1, t2).value;
-  return CircularFront::update(at, t1, t2).value;
+// The value at a target in the frame of an edge (fronts_kernel.h) with values t1 and t2 at its ends; through its first
+// end where the front does not reach it otherwise.
+template <class Front>
+double update(double length, Vec2 at, double t1, double t2) {
+  const auto front = portable::FrontOverEdge<Front, double>::of(length, 1 / length, t1, t2);
+  bool through = false;
+  const double value = front.update(at.x, at.y, norm(at), true, through);
+  return through ? value : t1 + norm(at);
 }
 
-// The mesh in an order that keeps neighbours close.
-class LocalMesh {
- public:
-  explicit LocalMesh(const Mesh& mesh) : mesh_(mesh) {
-    if (is_local(mesh)) return;
-    VertexOrder order = vertex_locality_order(mesh);
-    face_rank_ = face_ranks(mesh.faces(), order.vertex_rank);
-    mesh_ = mesh.renumbered(order.vertices, order.vertex_rank, face_rank_);
-    vertex_ = std::move(order.vertices);
-  }
-
-  const Mesh& mesh() const { return mesh_; }
-
-  // From numbers of this mesh to the caller's, and back.
-  Index vertex(Index local) const { return vertex_.empty() ? local : vertex_[local]; }
-  PointLocation location(PointLocation at) const {
-    if (vertex_.empty()) return at;
-    const Index face = at.face;
-    at.face = face_rank_[face];
-    if (at.halfedge != kNoIndex) at.halfedge = 3 * at.face + (at.halfedge - 3 * face);
-    if (at.vertex != kNoIndex) {
-      Index k = 0;  // a point at a vertex weighs that alone
-      while (k < 2 && !(at.weights[k] > 0)) ++k;
-      at.vertex = mesh_.from(3 * at.face + k);
-    }
-    return at;
-  }
-
- private:
-  Mesh mesh_;
-  UninitializedArray<Index> vertex_;     // [vertex_count] the caller's numbers; empty: the same
-  UninitializedArray<Index> face_rank_;  // [face_count] the number here of each of the caller's faces
-};
+double update(FrontModel model, double length, Vec2 at, double t1, double t2) {
+  if (model == FrontModel::Planar) return update<PlanarFront>(length, at, t1, t2);
+  if (model == FrontModel::LiteralCircular) return update<LiteralCircularFront>(length, at, t1, t2);
+  return update<CircularFront>(length, at, t1, t2);
+}
 
 // Rounds are as short as it would take to wait for another thread, and a part is soon in another cache.
 constexpr std::chrono::microseconds kPatience{0};
@@ -82,14 +63,14 @@ class Marcher {
     state_.buckets_per_unit = static_cast<T>(2 / rings_.layout.mean_edge);
   }
 
-  void solve(const Problem& in_callers_numbers, DistanceField& field) {
+  void solve(const detail::Problem& in_callers_numbers, DistanceField& field) {
     sources_.clear();
-    for (const LocatedSource& s : in_callers_numbers.sources) {
+    for (const detail::LocatedSource& s : in_callers_numbers.sources) {
       sources_.push_back({local_.location(s.at), s.offset, s.label});
     }
     targets_.clear();
     for (const PointLocation& at : in_callers_numbers.targets) targets_.push_back(local_.location(at));
-    Problem problem = in_callers_numbers;
+    detail::Problem problem = in_callers_numbers;
     problem.sources = sources_;
     problem.targets = targets_;
     start(problem);
@@ -104,13 +85,13 @@ class Marcher {
   }
 
  private:
-  void start(const Problem& problem) {
-    crew_.hire(problem.options->threads, rings_.layout.parts.count());
+  void start(const detail::Problem& problem) {
+    workers_.assemble(problem.options->threads, rings_.layout.parts.count());
     for_each_part(state_.used, is_much(state_.touched()), [&](Index part) { state_.reset_part(part); });
     state_.reset();
     final_ = kInfinity;
     base_ = kInfinity;
-    for (const LocatedSource& s : problem.sources) base_ = std::min(base_, s.offset);
+    for (const detail::LocatedSource& s : problem.sources) base_ = std::min(base_, s.offset);
     // One source needs no labels; neither does a method that keeps them anyway.
     state_.labelled = problem.sources.size() > 1 || front_model(problem.options->method) == FrontModel::LiteralCircular;
     if (state_.labelled && state_.label.empty()) state_.label.assign(state_.front_at.size(), kNoIndex);
@@ -118,16 +99,16 @@ class Marcher {
     if (state_.labelled) state_.start.resize(problem.sources.back().label + 1);
     // The other two are given what their papers give them: the corners around the source.
     const int crossings = problem.options->method == Method::NovotniKlein ? rings_.layout.longest_unfolding : 0;
-    for (const LocatedSource& s : problem.sources) {
+    for (const detail::LocatedSource& s : problem.sources) {
       const double offset = s.offset - base_;
       if (state_.labelled) state_.start[s.label] = static_cast<T>(offset);
-      for (const Seed& seed : seeds_.in_sight(mesh_, s.at, crossings, problem.max_distance - s.offset)) {
-        state_.offer(seed.vertex, static_cast<T>(offset + seed.distance), s.label);
+      for (const detail::Seed& seed : seeds_.in_sight(mesh_, s.at, crossings, problem.max_distance - s.offset)) {
+        state_.seed(seed.vertex, static_cast<T>(offset + seed.distance), s.label);
       }
     }
   }
 
-  void march(const Problem& problem) {
+  void march(const detail::Problem& problem) {
     const double last = last_front(problem);
     std::size_t first_open_target = 0;
     march_part_ = march_part<T>(front_model(problem.options->method), state_.labelled);
@@ -150,13 +131,13 @@ class Marcher {
   // One round.
   void work(const CancelToken* cancel) {
     constexpr std::size_t kWorthSharing = 64;
-    if (!crew_.team() || state_.load < kWorthSharing) {
+    if (!workers_.team() || state_.load < kWorthSharing) {
       for (const Index part : state_.work) march_part_(rings_, state_, part);
       return;
     }
     due_.clear();
     for (const Index part : state_.work) due_.push_back({part, state_.outlook[part].load});
-    crew_.work(due_, [this, cancel](unsigned, Index part) {
+    workers_.work(due_, [this, cancel](unsigned, Index part) {
       if (!(cancel && cancel->cancelled())) march_part_(rings_, state_, part);
     });
   }
@@ -168,14 +149,14 @@ class Marcher {
     const auto take = [&](unsigned, std::size_t) {
       for (std::size_t i = next++; i < parts.size(); i = next++) act(parts[i]);
     };
-    if (crew_.team() && is_much) {
-      crew_.team()->run(std::min<std::size_t>(crew_.size(), parts.size()), std::ref(take));
+    if (workers_.team() && is_much) {
+      workers_.team()->run(std::min<std::size_t>(workers_.size(), parts.size()), std::ref(take));
     } else {
       take(0, 0);
     }
   }
 
-  void check_cancel(const Problem& problem) const {
+  void check_cancel(const detail::Problem& problem) const {
     if (problem.cancel && problem.cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
     if (problem.options->progress) {
       problem.options->progress(static_cast<double>(state_.touched()) / static_cast<double>(state_.front_at.size()));
@@ -188,55 +169,55 @@ class Marcher {
   // A target is read from the corners of its faces, so these have to be final.
   bool is_final(const PointLocation& at, double front) const {
     if (at.on == PointLocation::On::Vertex) return base_ + value(at.vertex) < front;
-    for (const Seed& seed : seeds_.in_own_faces(mesh_, at)) {
+    for (const detail::Seed& seed : seeds_.in_own_faces(mesh_, at)) {
       if (!(base_ + value(seed.vertex) < front)) return false;
     }
     return true;
   }
 
   // How far the front has to go for what is asked within max_distance: to the corners around the targets, too.
-  double last_front(const Problem& problem) const {
+  double last_front(const detail::Problem& problem) const {
     double around = 0;
     for (const PointLocation& at : problem.targets) {
       if (at.on == PointLocation::On::Vertex) continue;
-      for (const Seed& seed : seeds_.in_own_faces(mesh_, at)) around = std::max(around, seed.distance);
+      for (const detail::Seed& seed : seeds_.in_own_faces(mesh_, at)) around = std::max(around, seed.distance);
     }
     return problem.max_distance + around;
   }
 
   // A target inside a face is one more corner: of the three triangles that it forms with the face's edges; on an edge,
   // of those in all faces of the edge. From a source in the same face or the next it is reached straight.
-  void evaluate(const Problem& problem, std::size_t i, DistanceField& field) const {
+  void evaluate(const detail::Problem& problem, std::size_t i, DistanceField& field) const {
     const PointLocation& at = problem.targets[i];
     double best = kInfinity;
     Index source = kNoIndex;
-    const auto offer = [&](double d, Index l) {
+    const auto consider = [&](double d, Index l) {
       if (d < kInfinity && std::pair(d, l) < std::pair(best, source)) best = d, source = l;
     };
     if (at.on == PointLocation::On::Vertex) {
-      offer(base_ + value(at.vertex), label(at.vertex));
+      consider(base_ + value(at.vertex), label(at.vertex));
     } else {
-      for (const Seed& seed : seeds_.in_own_faces(mesh_, at)) {
-        offer(base_ + value(seed.vertex) + seed.distance, label(seed.vertex));
+      for (const detail::Seed& seed : seeds_.in_own_faces(mesh_, at)) {
+        consider(base_ + value(seed.vertex) + seed.distance, label(seed.vertex));
       }
-      if (mesh_.is_face_usable(at.face)) through_faces(problem, at, offer);
-      for (const LocatedSource& s : problem.sources) {
-        const double d = straight_distance(mesh_, s.at, at);
-        offer(s.offset + d, s.label);
+      if (mesh_.is_face_usable(at.face)) through_faces(problem, at, consider);
+      for (const detail::LocatedSource& s : problem.sources) {
+        const double d = detail::straight_distance(mesh_, s.at, at);
+        consider(s.offset + d, s.label);
       }
     }
     field.target_distance[i] = best;
     field.target_source[i] = source;
   }
 
-  template <class Offer>
-  void through_faces(const Problem& problem, const PointLocation& at, const Offer& offer) const {
+  template <class Consider>
+  void through_faces(const detail::Problem& problem, const PointLocation& at, const Consider& consider) const {
     if (at.on == PointLocation::On::Interior) {
       for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
         const double third = at.weights[Mesh::previous(h) % 3], ahead = at.weights[Mesh::next(h) % 3];
         if (mesh_.length(h) == 0) continue;
         const Vec2 apex = apex_over(mesh_, h, h);
-        through_edge(problem, h, {ahead * mesh_.length(h) + third * apex.x, third * apex.y}, offer);
+        through_edge(problem, h, {ahead * mesh_.length(h) + third * apex.x, third * apex.y}, consider);
       }
       return;
     }
@@ -251,26 +232,25 @@ class Marcher {
         const Vec2 apex = apex_over(mesh_, h, h);
         const Vec2 shared = h == Mesh::next(g) ? Vec2{0, 0} : Vec2{length, 0};
         const double share = h == Mesh::next(g) ? 1 - t : t;
-        through_edge(problem, h, shared + share * (apex - shared), offer);
+        through_edge(problem, h, shared + share * (apex - shared), consider);
       }
       g = mesh_.opposite(g);
     } while (g != at.halfedge);
   }
 
   // `at`: the target in the frame of halfedge h.
-  template <class Offer>
-  void through_edge(const Problem& problem, Index h, Vec2 at, const Offer& offer) const {
+  template <class Consider>
+  void through_edge(const detail::Problem& problem, Index h, Vec2 at, const Consider& consider) const {
     const Index v1 = mesh_.from(h), v2 = mesh_.to(h);
     const Index l = label(v1);
     if (l == kNoIndex || l != label(v2)) return;
     const double started = state_.labelled ? static_cast<double>(state_.start[l]) : 0.0;
-    const double length = mesh_.length(h);
-    const UpdateTriangle<double> triangle{length, 1 / length, at.x, at.y, norm(at), true};
-    const double d = update(front_model(problem.options->method), triangle, value(v1) - started, value(v2) - started);
-    offer(base_ + started + d, l);
+    const FrontModel model = front_model(problem.options->method);
+    const double d = update(model, mesh_.length(h), at, value(v1) - started, value(v2) - started);
+    consider(base_ + started + d, l);
   }
 
-  void write(const Problem& problem, DistanceField& field) {
+  void write(const detail::Problem& problem, DistanceField& field) {
     field.updates = state_.pops();
     std::atomic<Index> beyond{0};
     const auto write_part = [&](Index part) { beyond += write(problem, part, field); };
@@ -280,7 +260,7 @@ class Marcher {
   static bool is_much(std::size_t vertices) { return vertices > 20000; }
 
   // Returns how many vertices of a part have values that are not final.
-  Index write(const Problem& problem, Index part, DistanceField& field) const {
+  Index write(const detail::Problem& problem, Index part, DistanceField& field) const {
     Index beyond = 0;
     if (state_.touched_most(part) && !problem.touched) {
       constexpr Index kAhead = 32;  // places in the caller's order are far from each other
@@ -303,7 +283,7 @@ class Marcher {
   }
 
   // False where the value is there, but not final.
-  bool write_vertex(const Problem& problem, Index place, DistanceField& field) const {
+  bool write_vertex(const detail::Problem& problem, Index place, DistanceField& field) const {
     const double d = base_ + static_cast<double>(state_.front_at[place].value);
     if (d >= final_) return !(d < kInfinity);
     const Index v = local_.vertex(place);
@@ -316,18 +296,18 @@ class Marcher {
   const LocalMesh& local_;
   const Mesh& mesh_;
   Rings<T> rings_;
-  std::vector<LocatedSource> sources_;  // of the run, in local numbers
+  std::vector<detail::LocatedSource> sources_;  // of the run, in local numbers
   std::vector<PointLocation> targets_;
-  mutable SeedSearch seeds_;
+  mutable detail::SeedSearch seeds_;
   MarchState<T> state_;
   MarchPart<T> march_part_ = nullptr;  // of this run
-  Crew crew_{kPatience};
-  std::vector<Shares::Due> due_;  // the parts that work in this round
-  double base_ = 0;               // the lowest offset: values are kept relative to it
-  double final_ = kInfinity;      // where the front stopped
+  partition::WorkerTeam workers_{kPatience};
+  std::vector<partition::Due> due_;  // the parts that work in this round
+  double base_ = 0;                  // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;         // where the front stopped
 };
 
-class FastMarching final : public Engine {
+class FastMarching final : public detail::Engine {
  public:
   FastMarching(Mesh mesh, Index part_size)
       : mesh_(std::move(mesh)), part_size_(part_size), float_is_enough_(is_float_enough(mesh_)) {}
@@ -344,7 +324,7 @@ class FastMarching final : public Engine {
     }
   }
 
-  void solve(const Problem& problem, DistanceField& field) override {
+  void solve(const detail::Problem& problem, DistanceField& field) override {
     set_up(*problem.options);
     if (problem.options->method == Method::NovotniKlein2002) {
       literal_->solve(problem, field);
@@ -394,15 +374,15 @@ Index usual_part_size(const Mesh& mesh) {
 
 // Copies of faces are looked for where there are more faces than a closed surface with few handles has. (A few copies
 // elsewhere do no harm: fronts pass edges of many faces one face at a time.)
-std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh) {
+std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh) {
   const bool many_faces = mesh.face_count() / 17 * 8 > mesh.vertex_count();
-  std::shared_ptr<const Sheets> sheets = many_faces ? Sheets::of(mesh) : nullptr;
-  const auto make = [](const Mesh& m) { return make_fast_marching(m, usual_part_size(m)); };
-  return sheets ? make_on_one_sheet(std::move(sheets), make) : make(mesh);
+  std::shared_ptr<const detail::Sheets> sheets = many_faces ? detail::Sheets::of(mesh) : nullptr;
+  const auto make = [](const Mesh& m) { return make_engine(m, usual_part_size(m)); };
+  return sheets ? detail::make_on_one_sheet(std::move(sheets), make) : make(mesh);
 }
 
-std::unique_ptr<Engine> make_fast_marching(const Mesh& mesh, Index part_size) {
+std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Index part_size) {
   return std::make_unique<FastMarching>(mesh, part_size);
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -1,12 +1,13 @@
 // Who works in a round, and what is handed over between two rounds.
-#include <brushfire/solvers/fast_marching/march_state.h>
+#include <brushfire/solvers/fast_marching/detail/march_state.h>
 
-#include <brushfire/core/populate.h>
+#include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/prefetch.h>
 
 #include <algorithm>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 template <class T>
 MarchState<T>::MarchState(const Parts& shared_out)
@@ -16,9 +17,9 @@ MarchState<T>::MarchState(const Parts& shared_out)
       parts(shared_out.count()),
       channels(shared_out.channels.size()),
       outlook(shared_out.count()) {
-  populate(front_at);
+  prefault(front_at);
   std::fill(front_at.begin(), front_at.end(), Front{});
-  populate(open);
+  prefault(open);
   std::fill(open.begin(), open.end(), std::uint8_t{0});
   layout->for_each_shared_vertex([&](Index v) { open[v] = Openness::kShared; });
   std::fill(open.begin() + layout->first_ghost(), open.end(), Openness::kShared);
@@ -67,7 +68,7 @@ void MarchState<T>::reset_part(Index p) {
 }
 
 template <class T>
-void MarchState<T>::offer(Index place, T v, Index source) {
+void MarchState<T>::seed(Index place, T v, Index source) {
   Front& at = front_at[place];
   if (!(labelled ? std::pair(v, source) < std::pair(at.value, label[place]) : v < at.value)) return;
   Part& part = parts[layout->of(place)];
@@ -156,7 +157,7 @@ void MarchState<T>::write_letters(Part& part, Index place) {
     std::vector<Letter>& letters = channel.letters[channel.writes];
     if (std::exchange(channel.last_round, round) != round) part.outbox.push(c);
     channel.lowest = letters.empty() ? falls_into : std::min(channel.lowest, falls_into);
-    letters.push_back({to, labelled ? label[place] : 0, at.value, at.root});
+    letters.push_back({to, labelled ? label[place] : 0, at.value, at.sigma});
   }
 }
 
@@ -188,4 +189,4 @@ std::uint64_t MarchState<T>::pops() const {
 template struct MarchState<float>;
 template struct MarchState<double>;
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -1,11 +1,11 @@
 // Finds ghosts, and who is to be told about whom.
-#include <brushfire/solvers/fast_marching/parts.h>
+#include <brushfire/solvers/fast_marching/detail/parts.h>
 
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 
 int part_shift(Index part_size) {
   return std::min(kWholeMesh, static_cast<int>(std::bit_width(std::max<Index>(1, part_size) - 1)));
@@ -125,4 +125,4 @@ void PartsBuilder::open_channels() {
   });
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

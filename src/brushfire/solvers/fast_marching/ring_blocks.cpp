@@ -1,15 +1,15 @@
 // Builds the blocks: writes the sides and triangles around one vertex after the other, unfolds the obtuse corners that
 // are found on the way, and adds what comes of that to the vertices around.
-#include <brushfire/solvers/fast_marching/ring_blocks.h>
+#include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
 
 #include <brushfire/core/cancel.h>
-#include <brushfire/core/planar.h>
-#include <brushfire/core/populate.h>
-#include <brushfire/solvers/fast_marching/bend.h>
-#include <brushfire/solvers/fast_marching/lane_writer.h>
-#include <brushfire/solvers/fast_marching/plain_fan.h>
-#include <brushfire/solvers/fast_marching/unfolded_corners.h>
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/core/detail/planar.h>
+#include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/prefetch.h>
+#include <brushfire/solvers/fast_marching/detail/corner_unfolder.h>
+#include <brushfire/solvers/fast_marching/detail/curvature_correction.h>
+#include <brushfire/solvers/fast_marching/detail/lane_writer.h>
+#include <brushfire/solvers/fast_marching/detail/regular_ring.h>
 
 #include <algorithm>
 #include <bit>
@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 namespace {
 
 template <class T>
@@ -28,20 +28,20 @@ class RingBuilder {
       : mesh_(mesh),
         variant_(variant),
         faces_(mesh.faces()),
-        fans_{mesh.positions(),
-              mesh.faces(),
-              mesh.corner_offsets(),
-              mesh.all_corners(),
-              1 / mesh.unit(),
-              mesh.vertex_count(),
-              mesh.has_positions() && !mesh.has_slits()},
+        shape_{mesh.positions(),
+               mesh.faces(),
+               mesh.corner_offsets(),
+               mesh.all_corners(),
+               1 / mesh.unit(),
+               mesh.vertex_count(),
+               mesh.has_positions() && !mesh.has_slits()},
         part_shift_(part_shift(part_size)),
         lanes_(mesh.vertex_count()),
         unfolded_(mesh, variant) {}
 
   Rings<T> build() {
     fill();
-    bend_fronts();
+    correct_curvature();
     rings_.layout.longest_unfolding = unfolded_.most_crossed();
     for (const Index h : unfolded_.unsplit()) mark_unsplit(h);
     mark_crowded();
@@ -51,40 +51,28 @@ class RingBuilder {
 
  private:
   void fill() {
-    patches_.resize(mesh_.vertex_count() + 1);
-    populate(patches_);
-    patches_.back() = {};
-    plain_sides_.resize(mesh_.vertex_count());
-#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-    if (in_registers()) {
-      fill<FanInRegisters<T>>();
-    } else {
-      fill<FanInLoops<T>>();
-    }
-#else
-    fill<FanInLoops<T>>();
-#endif
+    deficits_.resize(mesh_.vertex_count() + 1);
+    prefault(deficits_);
+    deficits_.back() = {};
+    regular_sides_.resize(mesh_.vertex_count());
+    fill_rings();
     lanes_.take(rings_);
     if (sum_of_lengths_ > 0) rings_.layout.mean_edge = sum_of_lengths_ / static_cast<double>(mesh_.halfedge_count());
   }
 
-#ifdef BRUSHFIRE_HAS_AVX2_VARIANT
-  bool in_registers() const { return variant_ == Variant::Best && has_avx2(); }
-#endif
-
-  template <class Fan>
-  void fill() {
-    PlainFans<T> fans;
-    for (Index first = 0; first < fans_.none; first = begun_) {
+  void fill_rings() {
+    RegularRings<T> regular;
+    for (Index first = 0; first < shape_.none; first = begun_) {
       poll_();
-      begun_ = std::min(first + kFans, fans_.none);
+      begun_ = std::min(first + kRingsAtOnce, shape_.none);
       lanes_.make_room(begun_);
-      Fan::fill(fans_, first, begun_ - first, lanes_.first_block(first), lanes_.first_links(first), fans);
-      note(first, begun_ - first, fans);
-      obtuse_.insert(obtuse_.end(), fans.obtuse, fans.obtuse + fans.obtuse_count);
+      BRUSHFIRE_ON_TARGET(variant_, fill_regular_rings(shape_, first, begun_ - first, lanes_.first_block(first),
+                                                       lanes_.first_links(first), regular));
+      note(first, begun_ - first, regular);
+      obtuse_.insert(obtuse_.end(), regular.obtuse, regular.obtuse + regular.obtuse_count);
       for (Index v = first; v < begun_; ++v) {
         lanes_.begin(v);
-        if (!fans.plain[v - first]) fill_any(v);
+        if (!regular.regular[v - first]) fill_any(v);
       }
       if (part_shift_ != kWholeMesh) note_border(first, begun_);
       if (obtuse_.size() >= kUnfoldAtOnce) unfold_obtuse_corners();
@@ -104,8 +92,8 @@ class RingBuilder {
     obtuse_.clear();
   }
 
-  // For UnfoldedCorners.
-  friend class UnfoldedCorners<T>;
+  // For CornerUnfolder.
+  friend class CornerUnfolder<T>;
   void prefetch(Index v) const { lanes_.prefetch_ring(v); }
   BRUSHFIRE_INLINE void add_unfolded(Index v, const Corner& corner) {
     poll_();
@@ -117,25 +105,25 @@ class RingBuilder {
     }
   }
 
-  Index faces_at(Index v) const { return fans_.corner_offsets[v + 1] - fans_.corner_offsets[v]; }
+  Index faces_at(Index v) const { return shape_.corner_offsets[v + 1] - shape_.corner_offsets[v]; }
 
   // Remembers vertices one of whose sides ends in another part.
   void note_border(Index first, Index end) {
     for (Index v = first; v < end; ++v) {
       const RingBlock<T>& block = *lanes_.first_block(v);
       Index differ = 0;
-      for (Index k = 0; k < kLanes; ++k) differ |= block.end[k] == fans_.none ? 0 : block.end[k] ^ v;
+      for (Index k = 0; k < kLanes; ++k) differ |= block.end[k] == shape_.none ? 0 : block.end[k] ^ v;
       if (differ >> part_shift_ != 0) at_border_.push_back(v);
     }
   }
 
-  void note(Index first, Index count, const PlainFans<T>& fans) {
+  void note(Index first, Index count, const RegularRings<T>& rings) {
     for (Index i = 0; i < count; ++i) {
-      const double deficit = 2 * kPi - static_cast<double>(fans.angle[i]);
+      const double deficit = 2 * kPi - static_cast<double>(rings.angle[i]);
       const float own = std::abs(deficit) < kFlat<T> ? 0.0f : static_cast<float>(deficit);
-      patches_[first + i] = {own, static_cast<float>(fans.area[i] / 6)};
-      plain_sides_[first + i] = static_cast<std::uint8_t>(faces_at(first + i));
-      sum_of_lengths_ += static_cast<double>(fans.length[i]);
+      deficits_[first + i] = {own, static_cast<float>(rings.area[i] / 6)};
+      regular_sides_[first + i] = static_cast<std::uint8_t>(faces_at(first + i));
+      sum_of_lengths_ += static_cast<double>(rings.length[i]);
     }
   }
 
@@ -165,12 +153,12 @@ class RingBuilder {
       loose_.push_back({a, b, la, lb, dot, area});
       ends_.insert(ends_.end(), {a, b});
       if (dot < 0) obtuse_.push_back(h);
-      deficit -= quick_angle(dot, area);
+      deficit -= portable::quick_angle(dot, area);
       around += area / 6;
     }
     const bool inner = is_inner(v), flat = !inner || std::abs(deficit) < kFlat<T>;
-    patches_[v] = {flat ? 0.0f : static_cast<float>(deficit), static_cast<float>(around)};
-    plain_sides_[v] = 0;
+    deficits_[v] = {flat ? 0.0f : static_cast<float>(deficit), static_cast<float>(around)};
+    regular_sides_[v] = 0;
     if (differ >> part_shift_ != 0) at_border_.push_back(v);
     add_fans(v, inner);
   }
@@ -238,38 +226,38 @@ class RingBuilder {
 
   bool has_two_faces(Index h) const { return mesh_.neighbour(h) != h; }
 
-  // Patches are smoothed once, over the other ends of each vertex's halfedges.
-  void bend_fronts() {
+  // AngleDeficites are smoothed once, over the other ends of each vertex's halfedges.
+  void correct_curvature() {
     constexpr Index kAhead = 12;
-    for (Index v = 0; v < fans_.none; ++v) {
+    for (Index v = 0; v < shape_.none; ++v) {
       poll_();
-      if (v + kAhead < fans_.none) detail::prefetch(&rings_.blocks[v + kAhead]);
-      const Patch around = plain_sides_[v] > 0 ? plain_sum(v) : any_sum(v);
-      rings_.heads[v].bend = static_cast<T>(front_bend(patches_[v], around));
+      if (v + kAhead < shape_.none) brushfire::prefetch(&rings_.blocks[v + kAhead]);
+      const AngleDeficit around = regular_sides_[v] > 0 ? regular_sum(v) : any_sum(v);
+      rings_.heads[v].correction = static_cast<T>(curvature_correction(deficits_[v], around));
     }
   }
 
-  Patch any_sum(Index v) const {
-    Patch sum = patches_[v];
-    for (const Index h : mesh_.corners(v)) sum += patches_[mesh_.to(h)];
+  AngleDeficit any_sum(Index v) const {
+    AngleDeficit sum = deficits_[v];
+    for (const Index h : mesh_.corners(v)) sum += deficits_[mesh_.to(h)];
     return sum;
   }
 
   // All lanes, as there is no telling how many are used: no side ends in no patch.
-  Patch plain_sum(Index v) const {
+  AngleDeficit regular_sum(Index v) const {
     const Index* const end = rings_.blocks[v].end;
-    const Index sides = plain_sides_[v];
+    const Index sides = regular_sides_[v];
     Index other[kLanes];
-    for (Index k = 0; k < kLanes; ++k) other[k] = k < sides ? end[k] : fans_.none;
-    Patch sum = patches_[v];
-    for (const Index w : other) sum += patches_[w];
+    for (Index k = 0; k < kLanes; ++k) other[k] = k < sides ? end[k] : shape_.none;
+    AngleDeficit sum = deficits_[v];
+    for (const Index w : other) sum += deficits_[w];
     return sum;
   }
 
   // Puts ghosts in place of vertices of other parts.
   void separate_parts() {
     RingLayout& layout = rings_.layout;
-    PartsBuilder builder(fans_.none, part_shift_);
+    PartsBuilder builder(shape_.none, part_shift_);
     std::sort(at_border_.begin(), at_border_.end());
     at_border_.erase(std::unique(at_border_.begin(), at_border_.end()), at_border_.end());
     for (std::size_t begin = 0, end = 0; begin < at_border_.size(); begin = end) {
@@ -283,9 +271,9 @@ class RingBuilder {
     }
     layout.parts = builder.take();
     rings_.heads.resize(layout.parts.places());
-    rings_.heads[fans_.none] = {};
+    rings_.heads[shape_.none] = {};
     for (std::size_t g = 0; g < layout.parts.owner.size(); ++g) {
-      rings_.heads[layout.parts.first_ghost() + g] = {rings_.heads[layout.parts.owner[g]].bend, 0};
+      rings_.heads[layout.parts.first_ghost() + g] = {rings_.heads[layout.parts.owner[g]].correction, 0};
     }
   }
 
@@ -294,7 +282,7 @@ class RingBuilder {
     for (const Index v : vertices) {
       for_each_block(v, [&](Index i) {
         for (Index& end : rings_.blocks[i].end) {
-          if (end < fans_.none && (end ^ v) >> part_shift_ != 0) act(v, end);
+          if (end < shape_.none && (end ^ v) >> part_shift_ != 0) act(v, end);
         }
       });
     }
@@ -362,25 +350,25 @@ class RingBuilder {
   Variant variant_;
   std::span<const Face> faces_;
   Poll poll_{256};  // a step may be a vertex of many faces
-  FanMesh fans_;
+  RingMesh shape_;
   int part_shift_;
   double sum_of_lengths_ = 0;
   Rings<T> rings_;
   LaneWriter<T> lanes_;
   Index begun_ = 0;            // vertices whose rings have been begun
   std::vector<Index> obtuse_;  // corners to be unfolded
-  UnfoldedCorners<T> unfolded_;
+  CornerUnfolder<T> unfolded_;
   struct Late {
     Index at;
     Corner corner;
   };
-  std::vector<Late> late_;                        // unfolded triangles at vertices whose rings had not been begun
-  UninitializedArray<Patch> patches_;             // [vertex_count]
-  UninitializedArray<std::uint8_t> plain_sides_;  // [vertex_count] of a plain fan; 0 for any other vertex
-  std::vector<Corner> loose_, fan_;               // of one vertex
-  std::vector<Index> ends_;                       // of the sides of its loose corners
-  std::vector<Unsplit> crowded_;                  // at vertices of many faces
-  std::vector<Index> at_border_;                  // vertices whose blocks name vertices of other parts
+  std::vector<Late> late_;                          // unfolded triangles at vertices whose rings had not been begun
+  UninitializedArray<AngleDeficit> deficits_;       // [vertex_count]
+  UninitializedArray<std::uint8_t> regular_sides_;  // [vertex_count] of a regular ring; 0 for any other vertex
+  std::vector<Corner> loose_, fan_;                 // of one vertex
+  std::vector<Index> ends_;                         // of the sides of its loose corners
+  std::vector<Unsplit> crowded_;                    // at vertices of many faces
+  std::vector<Index> at_border_;                    // vertices whose blocks name vertices of other parts
 };
 
 }  // namespace
@@ -393,4 +381,4 @@ Rings<T> build_rings(const Mesh& mesh, Index part_size, Variant variant) {
 template Rings<float> build_rings<float>(const Mesh& mesh, Index part_size, Variant variant);
 template Rings<double> build_rings<double>(const Mesh& mesh, Index part_size, Variant variant);
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

@@ -1,13 +1,13 @@
 // Unrolls the faces behind an obtuse corner into the corner's plane.
-#include <brushfire/solvers/fast_marching/unfold.h>
+#include <brushfire/solvers/fast_marching/detail/unfold.h>
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
 #include <brushfire/mesh/detail/face_geometry.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace brushfire::detail {
+namespace brushfire::fast_marching {
 namespace {
 
 constexpr Index kCrowd = 64;
@@ -36,7 +36,7 @@ Unfolder::Unfolder(const Mesh& mesh)
       scale_(1 / mesh.unit()) {}
 
 Mesh::FaceGeometry Unfolder::geometry(Index f) const {
-  return plain_ ? geometry_of(positions_, faces_[f], scale_) : mesh_.face_geometry(f);
+  return plain_ ? detail::geometry_of(positions_, faces_[f], scale_) : mesh_.face_geometry(f);
 }
 
 // Among the faces at one of the edge's ends; where there are too many, the mesh knows better.
@@ -64,7 +64,7 @@ Unfolder::Behind Unfolder::look_over(Index f, Index left, Index right) const {
   const Face& t = faces_[behind.face];
   behind.vertex = t[0] + t[1] + t[2] - left - right;
   if (plain_) {
-    const Mesh::FaceGeometry face = geometry_of(positions_, {left, right, behind.vertex}, scale_);
+    const Mesh::FaceGeometry face = detail::geometry_of(positions_, {left, right, behind.vertex}, scale_);
     behind.to_right = face.lengths[1], behind.to_left = face.lengths[2];
     behind.double_area = face.double_area;
     return behind;
@@ -124,4 +124,4 @@ Unfolding Unfolder::unfold(Index h, std::vector<UnfoldedTriangle>& triangles) co
   return result;
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::fast_marching

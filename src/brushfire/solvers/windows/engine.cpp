@@ -1,5 +1,5 @@
 // Which numbers a run needs: doubles, or wider ones where lengths differ too much for them.
-#include <brushfire/solvers/windows/detail/engine.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/detail/sheets.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace brushfire::detail {
+namespace brushfire::windows {
 namespace {
 
 // Doubles serve exact runs as long as they are sure to tell the distance between any two neighbours to this share of
@@ -22,19 +22,19 @@ constexpr double kOfTolerance = 1.0 / 64;
 // One part: what crosses from part to part forgets its trail (Trails), and threads would not make up for the numbers.
 constexpr unsigned kOnePart = 31;
 
-class Windows final : public Engine {
+class Windows final : public detail::Engine {
  public:
   Windows(const Mesh& mesh, Merging merging, std::unique_ptr<NumberedEngine> in_doubles)
       : mesh_(mesh), merging_(merging), narrow_(std::move(in_doubles)) {}
 
   void set_up(const DistanceOptions& options) override { engine_for(options).set_up(options); }
-  void solve(const Problem& problem, DistanceField& field) override {
+  void solve(const detail::Problem& problem, DistanceField& field) override {
     engine_for(*problem.options).solve(problem, field);
   }
   bool lists_touched() const override { return true; }
 
  private:
-  Engine& engine_for(const DistanceOptions& options) {
+  detail::Engine& engine_for(const DistanceOptions& options) {
     const double tolerance = options.method == Method::Exact ? 0 : options.tolerance;
     const double allowed = mesh_.face_count() < kLarge ? kDoubtAllowed : kDoubtAllowedInLarge;
     if (narrow_->doubt() <= std::max(allowed, kOfTolerance * tolerance)) return *narrow_;
@@ -49,17 +49,18 @@ class Windows final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_windows(const Mesh& mesh, unsigned part_bits, Merging merging) {
+std::unique_ptr<detail::Engine> make_windows(const Mesh& mesh, unsigned part_bits, Merging merging) {
   if (mesh.vertex_count() >= kNoIndex / 2) throw Error(ErrorCode::TooLarge, "too many vertices for windows");
   auto engine = in_doubles::make_engine(mesh, part_bits, merging);
   // Copies of faces are looked for where their edges have been met: other meshes pay nothing for it. (Two copies on
   // their own are a flat bag, and no harm.)
-  std::shared_ptr<const Sheets> sheets = engine->has_spines() ? Sheets::of(mesh) : nullptr;
+  std::shared_ptr<const detail::Sheets> sheets = engine->has_spines() ? detail::Sheets::of(mesh) : nullptr;
   if (!sheets) return std::make_unique<Windows>(mesh, merging, std::move(engine));
   engine.reset();
-  return make_on_one_sheet(std::move(sheets), [part_bits, merging](const Mesh& single) -> std::unique_ptr<Engine> {
-    return std::make_unique<Windows>(single, merging, in_doubles::make_engine(single, part_bits, merging));
-  });
+  return detail::make_on_one_sheet(
+      std::move(sheets), [part_bits, merging](const Mesh& single) -> std::unique_ptr<detail::Engine> {
+        return std::make_unique<Windows>(single, merging, in_doubles::make_engine(single, part_bits, merging));
+      });
 }
 
-}  // namespace brushfire::detail
+}  // namespace brushfire::windows

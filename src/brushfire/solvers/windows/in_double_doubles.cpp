@@ -1,20 +1,29 @@
-// This room once more, with windows made of DoubleDouble: see detail/real.h.
+// This room once more, with windows made of DoubleDouble: see algebra/real.h.
 #define BRUSHFIRE_WIDE_NUMBERS
 
-#include "envelope.cpp"
-#include "exact_cross.cpp"
-#include "exact_lists.cpp"
-#include "exact_trim.cpp"
-#include "face_shape.cpp"
-#include "keep_plain.cpp"
-#include "links.cpp"
-#include "merge.cpp"
-#include "part.cpp"
-#include "part_lists.cpp"
-#include "part_windows.cpp"
-#include "propagation.cpp"
-#include "rays.cpp"
-#include "results.cpp"
-#include "ridge.cpp"
-#include "structure.cpp"
-#include "targets.cpp"
+// Floor by floor: what is below comes first.
+#include "algebra/envelope.cpp"
+#include "algebra/exact_cross.cpp"
+#include "algebra/face_shape.cpp"
+#include "algebra/merge.cpp"
+#include "algebra/rays.cpp"
+#include "algebra/tie_point.cpp"
+
+#include "store/exact_lists.cpp"
+
+#include "propagation/arrivals.cpp"
+#include "propagation/exact_trim.cpp"
+#include "propagation/links.cpp"
+#include "propagation/own_vertices.cpp"
+#include "propagation/part.cpp"
+#include "propagation/pseudo_sources.cpp"
+#include "propagation/results.cpp"
+#include "propagation/single_windows.cpp"
+#include "propagation/sink.cpp"
+#include "propagation/structure.cpp"
+#include "propagation/targets.cpp"
+#include "propagation/window_engine.cpp"
+#include "propagation/window_lists.cpp"
+
+#include "paths/keep_plain.cpp"
+#include "paths/point_values.cpp"

@@ -1,7 +1,7 @@
 // Turns of vertices in buckets of their values.
 #include <brushfire/solvers/carried_source/detail/march.h>
 
-#include <brushfire/solvers/fast_marching/vector_target.h>
+#include <brushfire/core/detail/prefetch.h>
 
 #include <algorithm>
 #include <bit>
@@ -32,7 +32,6 @@ BRUSHFIRE_INLINE T minus_if(Index one) {
   return T(1) - T(2) * static_cast<T>(static_cast<int>(one));
 }
 
-using detail::prefetch;
 constexpr std::size_t kFrontAhead = 16, kRecordAhead = 10, kEndsAhead = 5, kRecordLines = 9, kCacheLine = 64;
 constexpr Index kUsualSides = 8;
 

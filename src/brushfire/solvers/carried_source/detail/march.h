@@ -1,7 +1,7 @@
 // The march of one field: every vertex carries the (pseudo-)source that it is seen from.
 #pragma once
 
-#include <brushfire/core/bucket_queue.h>
+#include <brushfire/core/detail/bucket_queue.h>
 #include <brushfire/solvers/carried_source/detail/records.h>
 #include <brushfire/solvers/carried_source/detail/update.h>
 

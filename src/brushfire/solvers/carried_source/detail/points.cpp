@@ -1,7 +1,7 @@
 // Directions from the corners of a face to points of it.
 #include <brushfire/solvers/carried_source/detail/points.h>
 
-#include <brushfire/core/planar.h>
+#include <brushfire/mesh/detail/flat_face.h>
 
 #include <cmath>
 
@@ -19,7 +19,7 @@ void Points::add_face(Index f, const std::array<double, 3>& weights) {
       near_.push_back({mesh_.from(h), mesh_.length(Mesh::previous(h)) * weights[Mesh::previous(h) % 3], {}, false, 0});
       continue;
     }
-    const Vec2 apex = detail::apex_over(mesh_, h, h);
+    const Vec2 apex = apex_over(mesh_, h, h);
     const double ahead = weights[Mesh::next(h) % 3], third = weights[Mesh::previous(h) % 3];
     const Vec2 at{ahead * length + third * apex.x, third * apex.y};
     const FanCorner& corner = fans().corner(h);

@@ -112,11 +112,11 @@ class RecordBuilder {
     set(other, q, k, fans_.side(previous, true));
     const bool mirrored = fans_.corner(h).mirrored;
     const FanCorner &at_p = fans_.corner(next), &at_q = fans_.corner(previous);
-    if (l > 0 && !split_[previous]) {
+    if (l > 0 && k > 0 && !split_[previous]) {
       DraftUpdate u{own, other, l, hand_if(!mirrored), hand_if(at_p.mirrored), !at_q.mirrored};
       set_target(q, fans_.direction(previous, true), k, across, u);
     }
-    if (k > 0 && !split_[next]) {
+    if (l > 0 && k > 0 && !split_[next]) {
       DraftUpdate u{other, own, k, hand_if(mirrored), hand_if(!at_q.mirrored), at_p.mirrored};
       set_target(p, fans_.direction(next, false), l, across, u);
     }
@@ -135,7 +135,7 @@ class RecordBuilder {
     const UnrolledEnd &own = is_right ? t.right : t.left, &other = is_right ? t.left : t.right;
     const Index corner = mesh_.from(t.corner);
     const double length = norm(other.at - own.at), along = norm(own.at);
-    if (!(length > 0)) return;
+    if (!(length > 0) || !(along > 0)) return;
     DraftUpdate u;
     u.support = side(own.side_to_other, other.vertex, length, own.to_other, other.to_other);
     u.target = side(own.side_to_corner, corner, along, own.to_corner, own.from_corner);

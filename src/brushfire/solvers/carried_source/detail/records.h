@@ -2,8 +2,8 @@
 // the vertex may offer over them.
 #pragma once
 
-#include <brushfire/core/inline.h>
-#include <brushfire/core/uninitialized.h>
+#include <brushfire/core/detail/inline.h>
+#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/carried_source/detail/sight.h>
 

@@ -1,7 +1,7 @@
 // Unrolls faces behind obtuse corners, with the directions that vertices on the way know.
 #include <brushfire/solvers/carried_source/detail/unrolled.h>
 
-#include <brushfire/core/planar.h>
+#include <brushfire/core/detail/planar.h>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // one to a lane.
 #pragma once
 
-#include <brushfire/core/inline.h>
+#include <brushfire/core/detail/inline.h>
 
 #include <cmath>
 #include <cstdint>

@@ -1,0 +1,161 @@
+// One register, what lanes are made of: a vector of the compiler, whose arithmetic it knows by itself. Here is what it
+// does not know, for any machine, and better for some.
+namespace brushfire::lanes::BRUSHFIRE_TARGET {
+
+#ifdef BRUSHFIRE_HAS_VECTORS
+template <class T, int N>
+struct RegisterOf {
+  typedef T Type __attribute__((vector_size(N * sizeof(T))));
+  typedef T InMemory __attribute__((vector_size(N * sizeof(T)), aligned(alignof(T)), may_alias));  // anywhere
+};
+#else
+template <class T, int N>
+struct RegisterOf {
+  using Type = LoopVector<T, N>;
+  using InMemory = Type;
+};
+#endif
+template <class T, int N>
+using Register = typename RegisterOf<T, N>::Type;
+
+// Whole numbers as wide as T: what comparisons of T give, all bits or none.
+template <std::size_t kBytes>
+using MaskNumber = std::conditional_t<kBytes == 4, std::int32_t, std::int64_t>;
+
+template <class R>
+using NumberOf = std::remove_cv_t<std::remove_reference_t<decltype(std::declval<R>()[0])>>;
+template <class R>
+inline constexpr int kCountOf = static_cast<int>(sizeof(R) / sizeof(NumberOf<R>));
+
+template <class To, class From>
+BRUSHFIRE_INLINE To same_bits(From from) {
+  return __builtin_bit_cast(To, from);
+}
+
+// a ? b : c, bit by bit.
+template <class M, class R>
+BRUSHFIRE_INLINE R selected(M mask, R yes, R no) {
+  return same_bits<R>((mask & same_bits<M>(yes)) | (~mask & same_bits<M>(no)));
+}
+template <class R>
+BRUSHFIRE_INLINE R lesser_of(R a, R b) {
+  return selected(a < b, a, b);
+}
+template <class R>
+BRUSHFIRE_INLINE R greater_of(R a, R b) {
+  return selected(a > b, a, b);
+}
+template <class R>
+BRUSHFIRE_INLINE R root_of(R a) {
+  R root{};
+  for (int k = 0; k < kCountOf<R>; ++k) root[k] = std::sqrt(a[k]);
+  return root;
+}
+template <class M>
+BRUSHFIRE_INLINE std::uint32_t bits_of(M mask) {
+  std::uint32_t bits = 0;
+  for (int k = 0; k < kCountOf<M>; ++k) bits |= (mask[k] != 0 ? 1u : 0u) << k;
+  return bits;
+}
+
+// The numbers as those of another type; the lanes with these numbers of two registers.
+#ifdef BRUSHFIRE_HAS_VECTORS
+template <class To, class R>
+BRUSHFIRE_INLINE Register<To, kCountOf<R>> converted_of(R a) {
+  return __builtin_convertvector(a, Register<To, kCountOf<R>>);
+}
+template <int... kLane, class R>
+BRUSHFIRE_INLINE Register<NumberOf<R>, static_cast<int>(sizeof...(kLane))> shuffled(R a, R b) {
+  return __builtin_shufflevector(a, b, kLane...);
+}
+#else
+template <class To, class R>
+BRUSHFIRE_INLINE Register<To, kCountOf<R>> converted_of(R a) {
+  Register<To, kCountOf<R>> result{};
+  for (int k = 0; k < kCountOf<R>; ++k) result[k] = static_cast<To>(a[k]);
+  return result;
+}
+template <int... kLane, class R>
+BRUSHFIRE_INLINE Register<NumberOf<R>, static_cast<int>(sizeof...(kLane))> shuffled(R a, R b) {
+  return {{(kLane < kCountOf<R> ? a[kLane % kCountOf<R>] : b[kLane % kCountOf<R>])...}};
+}
+#endif
+
+#if !defined(BRUSHFIRE_HAS_VECTORS)
+// All in loops.
+
+#elif defined(__x86_64__)
+
+using Float4 = Register<float, 4>;
+using Double2 = Register<double, 2>;
+using Mask4 = Register<std::int32_t, 4>;
+using WideMask2 = Register<std::int64_t, 2>;
+BRUSHFIRE_INLINE Float4 root_of(Float4 a) { return _mm_sqrt_ps(a); }
+BRUSHFIRE_INLINE Double2 root_of(Double2 a) { return _mm_sqrt_pd(a); }
+BRUSHFIRE_INLINE Float4 lesser_of(Float4 a, Float4 b) { return _mm_min_ps(a, b); }
+BRUSHFIRE_INLINE Double2 lesser_of(Double2 a, Double2 b) { return _mm_min_pd(a, b); }
+BRUSHFIRE_INLINE Float4 greater_of(Float4 a, Float4 b) { return _mm_max_ps(a, b); }
+BRUSHFIRE_INLINE Double2 greater_of(Double2 a, Double2 b) { return _mm_max_pd(a, b); }
+BRUSHFIRE_INLINE std::uint32_t bits_of(Mask4 m) {
+  return static_cast<std::uint32_t>(_mm_movemask_ps(same_bits<Float4>(m)));
+}
+BRUSHFIRE_INLINE std::uint32_t bits_of(WideMask2 m) {
+  return static_cast<std::uint32_t>(_mm_movemask_pd(same_bits<Double2>(m)));
+}
+
+#elif defined(__ARM_NEON) && defined(__aarch64__)
+
+BRUSHFIRE_INLINE Register<float, 4> root_of(Register<float, 4> a) { return vsqrtq_f32(a); }
+BRUSHFIRE_INLINE Register<double, 2> root_of(Register<double, 2> a) { return vsqrtq_f64(a); }
+
+#elif defined(__wasm_simd128__)
+
+BRUSHFIRE_INLINE Register<float, 4> root_of(Register<float, 4> a) {
+  return same_bits<Register<float, 4>>(wasm_f32x4_sqrt(same_bits<Register<std::int32_t, 4>>(a)));
+}
+BRUSHFIRE_INLINE Register<double, 2> root_of(Register<double, 2> a) {
+  return same_bits<Register<double, 2>>(wasm_f64x2_sqrt(same_bits<Register<std::int32_t, 4>>(a)));
+}
+BRUSHFIRE_INLINE std::uint32_t bits_of(Register<std::int32_t, 4> m) { return wasm_i32x4_bitmask(m); }
+BRUSHFIRE_INLINE std::uint32_t bits_of(Register<std::int64_t, 2> m) {
+  return wasm_i64x2_bitmask(same_bits<Register<std::int32_t, 4>>(m));
+}
+
+#endif
+
+#ifdef BRUSHFIRE_TARGET_IS_AVX2
+
+using Float8 = Register<float, 8>;
+using Double4 = Register<double, 4>;
+using Mask8 = Register<std::int32_t, 8>;
+using WideMask4 = Register<std::int64_t, 4>;
+BRUSHFIRE_INLINE Float8 root_of(Float8 a) { return _mm256_sqrt_ps(a); }
+BRUSHFIRE_INLINE Double4 root_of(Double4 a) { return _mm256_sqrt_pd(a); }
+BRUSHFIRE_INLINE Float8 lesser_of(Float8 a, Float8 b) { return _mm256_min_ps(a, b); }
+BRUSHFIRE_INLINE Double4 lesser_of(Double4 a, Double4 b) { return _mm256_min_pd(a, b); }
+BRUSHFIRE_INLINE Float8 greater_of(Float8 a, Float8 b) { return _mm256_max_ps(a, b); }
+BRUSHFIRE_INLINE Double4 greater_of(Double4 a, Double4 b) { return _mm256_max_pd(a, b); }
+BRUSHFIRE_INLINE std::uint32_t bits_of(Mask8 m) {
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(same_bits<Float8>(m)));
+}
+BRUSHFIRE_INLINE std::uint32_t bits_of(WideMask4 m) {
+  return static_cast<std::uint32_t>(_mm256_movemask_pd(same_bits<Double4>(m)));
+}
+BRUSHFIRE_INLINE Float8 selected(Mask8 m, Float8 yes, Float8 no) {
+  return _mm256_blendv_ps(no, yes, same_bits<Float8>(m));
+}
+BRUSHFIRE_INLINE Double4 selected(WideMask4 m, Double4 yes, Double4 no) {
+  return _mm256_blendv_pd(no, yes, same_bits<Double4>(m));
+}
+template <>  // which GCC does in four steps
+BRUSHFIRE_INLINE WideMask4 converted_of<std::int64_t, Mask4>(Mask4 a) {
+  return same_bits<WideMask4>(Register<long long, 4>(_mm256_cvtepi32_epi64(same_bits<Register<long long, 2>>(a))));
+}
+template <class R>  // whole numbers
+BRUSHFIRE_INLINE R selected(Mask8 m, R yes, R no) {
+  return same_bits<R>(selected(m, same_bits<Float8>(yes), same_bits<Float8>(no)));
+}
+
+#endif
+
+}  // namespace brushfire::lanes::BRUSHFIRE_TARGET

@@ -1,0 +1,43 @@
+// Which instruction sets kernels are compiled for, and which of them this processor has.
+//
+// A kernel is a header whose name ends in _kernel.h: each_target.h includes it once for each target, in a namespace of
+// the target's name. Its namesake (fronts.h for fronts_kernel.h) makes it all so, and is what others include.
+#pragma once
+
+#include <brushfire/core/detail/inline.h>
+
+#include <cstdint>
+
+// AVX2 is a target of its own on x86, entered after the processor has said that it has it. Everywhere else, and for
+// compilers that know no targets within a file, there is one: what the file is compiled for (SSE2, NEON, WebAssembly
+// SIMD, or no vectors at all).
+#if defined(__GNUC__) && !defined(BRUSHFIRE_WITHOUT_VECTORS)
+#define BRUSHFIRE_HAS_VECTORS 1
+#if defined(__x86_64__)
+#define BRUSHFIRE_HAS_AVX2_TARGET 1
+#endif
+#endif
+
+namespace brushfire {
+
+// Which one of the targets to take: all of them give the same bits.
+enum class Variant : std::uint8_t { Best, Portable };
+
+inline bool has_avx2() {
+#ifdef BRUSHFIRE_HAS_AVX2_TARGET
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("popcnt");
+#else
+  return false;
+#endif
+}
+
+}  // namespace brushfire
+
+// BRUSHFIRE_ON_TARGET(variant, expression): the expression with the functions of that target, whose namespace it is
+// to be looked up in: BRUSHFIRE_ON_TARGET(variant, sum(x)) is avx2::sum(x) or portable::sum(x).
+#ifdef BRUSHFIRE_HAS_AVX2_TARGET
+#define BRUSHFIRE_ON_TARGET(variant, ...) \
+  ((variant) == Variant::Best && has_avx2() ? avx2::__VA_ARGS__ : portable::__VA_ARGS__)
+#else
+#define BRUSHFIRE_ON_TARGET(variant, ...) (static_cast<void>(variant), portable::__VA_ARGS__)
+#endif

@@ -1,0 +1,71 @@
+// The value of any point of a mesh, from all windows of a run.
+#pragma once
+
+#include <brushfire/core/types.h>
+#include <brushfire/mesh/surface_point.h>
+#include <brushfire/solvers/detail/engine.h>
+#include <brushfire/solvers/windows/algebra/rays.h>
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace brushfire::windows {
+
+// See Ray; as doubles, in types that every number's room can name.
+struct PlainRay {
+  brushfire::Vec2 source;
+  Index halfedge = kNoIndex, pseudo_source = kNoIndex;
+};
+
+// The least that the run knows of a point: its name in the face over which that came, the value with all offsets, in
+// mesh.unit(), rounded to a double, and the ray. Infinity where the run did not come.
+struct PointValue {
+  Index face = kNoIndex;
+  std::array<double, 3> weights{0, 0, 0};
+  double value = kInfinity;
+  Index label = kNoIndex;
+  PlainRay ray;
+};
+
+class PointValues {
+ public:
+  virtual ~PointValues() = default;
+  // O(windows of the faces that hold the point).
+  virtual PointValue at(const PointLocation& point) const = 0;
+};
+
+}  // namespace brushfire::windows
+
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
+
+// In the numbers of the run: a window that is rounded is as wrong as one of a run in narrower numbers.
+class KeptWindows final : public PointValues {
+ public:
+  struct Vertex {
+    Real value = kInfinity;  // NaN: not known
+    Index label = kNoIndex;
+  };
+  // What the run began with and found, by the mesh's numbers; the windows in any order. `shift`: what was added to all
+  // values.
+  KeptWindows(const Mesh& mesh, std::span<const detail::LocatedSource> sources, Real shift,
+              std::vector<Vertex> vertices, std::span<const KeptWindow> windows);
+
+  PointValue at(const PointLocation& point) const override;
+
+ private:
+  class Least;
+  void offer_corners(const FaceWeights& at, Least& least) const;
+  void offer_sources(const FaceWeights& at, Least& least) const;
+  void offer_windows(const FaceWeights& at, Least& least) const;
+
+  Mesh mesh_;
+  std::vector<detail::LocatedSource> sources_;
+  Real shift_;
+  std::vector<Vertex> vertices_;
+  std::vector<std::size_t> first_;  // [halfedge_count + 1]
+  std::vector<Window> windows_;     // by halfedge
+};
+
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,0 +1,192 @@
+// A ray is followed backwards from face to face, each laid flat over the edge just crossed, until its pseudo-source is
+// found. Only where that is beyond doubt: over edges of two faces, past vertices at a distance that can be told.
+#include <brushfire/solvers/windows/paths/trace.h>
+
+#include <brushfire/solvers/windows/algebra/frame.h>
+#include <brushfire/solvers/windows/paths/leg_search.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
+namespace {
+
+// Places on an edge are known to a few epsilons of its length. A ray may cross no edge this near (share of the edge) to
+// an end or to the point before: what is longer keeps its direction to 1e-7.
+constexpr Real kTooShort = 1e-8;
+// By what angle the ray may miss its pseudo-source: seen from the last edge crossed.
+constexpr Real kMissed = 1e-7;
+
+struct Position {
+  Index halfedge;  // the next edge to cross, from inside of its face
+  Vec2 source;     // the ray's pseudo-source, in the halfedge's frame: below
+  Vec2 point;      // where the ray is: above, or on the edge
+  bool mirrored = false;
+};
+
+class Tracer {
+ public:
+  Tracer(const WindowFieldData& data, const Ray& ray, Real value, const CrossingListener& knows_the_rest)
+      : data_(data),
+        mesh_(data.mesh),
+        faces_(mesh_.faces()),
+        lengths_(mesh_.lengths()),
+        opposite_(mesh_.opposite()),
+        ray_(ray),
+        value_(value),
+        start_(ray.pseudo_source < mesh_.vertex_count() ? value_of(ray.pseudo_source) : 0),
+        knows_the_rest_(knows_the_rest) {}
+
+  WindowField::Leg run(const FaceWeights& at) {
+    leg_.points.reserve(16);
+    leg_.points.push_back({at.face, at.weights});
+    Position here{ray_.halfedge, ray_.source, in_frame(frame_at(ray_.halfedge), ray_.halfedge % 3, at.weights)};
+    bool found = ends_in_face(here);
+    // A ray crosses a face a few times at most.
+    std::size_t budget = 16 + 3 * static_cast<std::size_t>(mesh_.face_count());
+    while (!found && budget-- > 0) {
+      const Step step = over_edge(here);
+      if (step == Step::Lost) return {};
+      if (step == Step::On && knows_the_rest_ &&
+          knows_the_rest_({here.halfedge, here.source, here.point, here.mirrored}))
+        return {};
+      found = step == Step::Found || ends_in_face(here);
+      if (!found) leave(here);
+    }
+    return found && is_explained() ? leg_ : WindowField::Leg{};
+  }
+
+ private:
+  enum class Step { On, Found, Lost };
+
+  Frame frame_at(Index h) const { return frame_of(shape_of(mesh_, h / 3), h % 3); }
+  Real value_of(Index v) const { return data_.vertices[v].value; }
+  Index from(Index h) const { return faces_[h / 3][h % 3]; }
+  Index to(Index h) const { return from(Mesh::next(h)); }
+
+  // A real path of this length is there; is it the one that the value means?
+  bool is_explained() const {
+    const Real start =
+        leg_.vertex != kNoIndex ? value_of(leg_.vertex) : data_.sources[leg_.source].offset + data_.shift;
+    return abs(start + leg_.length - value_) <= kAgreement * value_;
+  }
+
+  // Over the position's edge into the face beyond, or to a vertex in the way.
+  Step over_edge(Position& at) {
+    const Index h = at.halfedge, g = opposite_[h];
+    const Real length = lengths_[h];
+    const Real across = at.source.x * at.point.y - at.source.y * at.point.x, along = at.point.y - at.source.y;
+    if (!(at.source.y < 0) || !(along > 0) || !(length > 0)) return Step::Lost;
+    const Real x = across / along, rest = length - x;
+    const auto ends_at_end = [&](Index v, Index corner, Real place, Real miss) {
+      if (abs(miss) > 2 * kThrough * value_) return false;  // no leg is that long
+      return ends_at_vertex(v, {Mesh::face_of(h), corner}, {at.point.x - place, at.point.y},
+                            {at.source.x - place, at.source.y}, abs(miss));
+    };
+    if (ends_at_end(from(h), h % 3, 0, x)) return Step::Found;
+    if (ends_at_end(to(h), next3(h % 3), length, rest)) return Step::Found;
+    const Real way = length_of(at.point.x - x, at.point.y);
+    const SurfacePoint& first = leg_.points.front();
+    const bool begins_here =
+        leg_.points.size() == 1 && first.face == Mesh::face_of(h) && first.weights[previous3(h % 3)] == 0;
+    const bool is_sure =
+        x > kTooShort * length && rest > kTooShort * length && (begins_here || way > kTooShort * length);
+    if (!is_sure || g == h || opposite_[g] != h) return Step::Lost;
+    SurfacePoint crossing{Mesh::face_of(h), {0, 0, 0}};
+    crossing.weights[next3(h % 3)] = x / length;
+    crossing.weights[h % 3] = rest / length;
+    if (!begins_here) leg_.points.push_back(crossing);
+    leg_.length += way;
+    const bool turned = from(g) == to(h);
+    at = {
+        g, {turned ? length - at.source.x : at.source.x, -at.source.y}, {turned ? rest : x, 0}, at.mirrored != !turned};
+    return Step::On;
+  }
+
+  // From a position on an edge of a face (the ray's pseudo-source above, beyond the face) to the edge through which it
+  // leaves: the one to the left of the apex or the other.
+  void leave(Position& at) const {
+    const Frame frame = frame_at(at.halfedge);
+    const bool left = cross(frame.apex - at.point, at.source - at.point) > 0;
+    const Index h = left ? Mesh::previous(at.halfedge) : Mesh::next(at.halfedge);
+    const Real side = left ? frame.left : frame.right;
+    const Vec2 origin = left ? frame.apex : Vec2{frame.length, 0};
+    const Vec2 end = left ? Vec2{0, 0} : frame.apex;
+    const Vec2 u = (1 / side) * (end - origin);
+    const auto turn = [&](Vec2 p) { return Vec2{dot(u, p - origin), cross(u, p - origin)}; };
+    at = {h, turn(at.source), turn(at.point), at.mirrored};
+  }
+
+  struct Corner {
+    Index face, corner;
+  };
+
+  // Whether the ray goes through vertex v, as far as anyone can see from either end, and v's value says so as well;
+  // `before` and `after`: the arrows from v to where the ray was and to its pseudo-source.
+  bool ends_at_vertex(Index v, Corner at, Vec2 before, Vec2 after, Real miss) {
+    const Real way = length_of(before.x, before.y);
+    const Real nearer = std::min(leg_.length + way, length_of(after.x, after.y));
+    if (!(miss <= kThrough * nearer)) return false;
+    if (!(value_of(v) < value_) || !(abs(value_of(v) + leg_.length + way - value_) <= kAgreement * value_))
+      return false;
+    std::array<Real, 3> weights{0, 0, 0};
+    weights[at.corner] = 1;
+    leg_.vertex = v;
+    finish(at.face, weights, way);
+    return true;
+  }
+
+  bool finish(Index face, const std::array<Real, 3>& weights, Real way) {
+    leg_.points.push_back({face, weights});
+    leg_.length += way;
+    return true;
+  }
+
+  // Whether the pseudo-source is in the face of the position's halfedge, where the ray says.
+  bool ends_in_face(const Position& at) {
+    const Index h = at.halfedge, face = Mesh::face_of(h), n = mesh_.vertex_count();
+    const auto is_source = [&](const std::array<Real, 3>& weights) {
+      const Vec2 p = in_frame(frame_at(h), h % 3, weights);
+      const Real way = length_of(p.x - at.point.x, p.y - at.point.y);
+      if (!(length_of(p.x - at.source.x, p.y - at.source.y) <= kMissed * way)) return false;
+      return way > kTooShort * lengths_[h] && finish(face, weights, way);
+    };
+    if (ray_.pseudo_source < n) {
+      if (!(start_ < value_)) return false;
+      leg_.vertex = ray_.pseudo_source;
+      for (Index i = 0; i < 3; ++i) {
+        if (from(3 * face + i) != ray_.pseudo_source) continue;
+        std::array<Real, 3> weights{0, 0, 0};
+        weights[i] = 1;
+        if (is_source(weights)) return true;
+      }
+      leg_.vertex = kNoIndex;
+      return false;
+    }
+    bool found = false;
+    for_each_face_around(mesh_, data_.sources[ray_.pseudo_source - n].at,
+                         [&](const FaceWeights& f) { found = found || (f.face == face && is_source(f.weights)); });
+    if (found) leg_.source = ray_.pseudo_source - n;
+    return found;
+  }
+
+  const WindowFieldData& data_;
+  const Mesh& mesh_;
+  const std::span<const Face> faces_;
+  const std::span<const double> lengths_;
+  const std::span<const Index> opposite_;
+  const Ray& ray_;
+  const Real value_;
+  const Real start_;  // the pseudo-source's value, where that is a vertex
+  const CrossingListener& knows_the_rest_;
+  WindowField::Leg leg_;
+};
+
+}  // namespace
+
+WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, Real value,
+                           const CrossingListener& knows_the_rest) {
+  return Tracer(data, ray, value, knows_the_rest).run(at);
+}
+
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

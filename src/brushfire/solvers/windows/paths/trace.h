@@ -1,0 +1,27 @@
+// Following a ray back to its pseudo-source.
+#pragma once
+
+#include <brushfire/solvers/window_field.h>
+#include <brushfire/solvers/windows/paths/record.h>
+
+#include <functional>
+
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
+
+// Where a ray, followed backwards, comes into a face over one of its edges. In the frame of the edge's halfedge in it.
+struct RayCrossing {
+  Index halfedge = kNoIndex;
+  Vec2 source;            // the ray's pseudo-source
+  Vec2 point;             // on the edge
+  bool mirrored = false;  // the face lies the other way round than the one where the trace began
+};
+using CrossingListener = std::function<bool(const RayCrossing&)>;
+
+// The leg that ends at the point `at` of the face of ray.halfedge and came along `ray`; value: of the point. No points
+// where rounding could have decided anything about it, or where it is not as long as the values at its ends say:
+// find_leg() then has to look. `knows_the_rest`, where given, hears of each crossing and may end the trace there: no
+// points either.
+WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, Real value,
+                           const CrossingListener& knows_the_rest = {});
+
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,0 +1,170 @@
+// Values and legs of shortest paths at vertices, targets and, where all windows were kept, everywhere.
+#include <brushfire/solvers/window_field.h>
+
+#include <brushfire/core/error.h>
+#include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/solvers/detail/sheets.h>
+#include <brushfire/solvers/windows/algebra/frame.h>
+#include <brushfire/solvers/windows/paths/leg_search.h>
+#include <brushfire/solvers/windows/paths/record.h>
+#include <brushfire/solvers/windows/paths/trace.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace brushfire {
+namespace {
+
+using windows::FaceWeights;
+using windows::PointRecord;
+using windows::Ray;
+
+Error not_a_target(Index face) {
+  return Error(ErrorCode::InvalidArgument, "a point in face " + std::to_string(face) +
+                                               " was not a target of the run: give it as one, or set keep_windows");
+}
+
+struct Found {
+  FaceWeights at;
+  PointRecord record;
+};
+
+class Look {
+ public:
+  explicit Look(const windows::WindowFieldData& data) : data_(data), mesh_(data.mesh) {}
+
+  Found vertex(Index v) const {
+    const PointRecord& record = data_.vertices[v];
+    Found found{{kNoIndex, {0, 0, 0}}, record};
+    // In the face over which the ray came; the vertex is opposite of the ray's halfedge.
+    const Index h = record.ray.halfedge;
+    if (h != kNoIndex) {
+      found.at.face = Mesh::face_of(h);
+      found.at.weights[Mesh::previous(h) % 3] = 1;
+    } else if (!mesh_.corners(v).empty()) {
+      const SurfacePoint p = vertex_point(mesh_, v);
+      found.at = {p.face, p.weights};
+    }
+    return found;
+  }
+
+  Found point(const PointLocation& at) const {
+    if (at.on == PointLocation::On::Vertex) return vertex(at.vertex);
+    if (data_.all_points) return evaluate(at);
+    for (std::size_t i = 0; i < data_.targets.size(); ++i) {
+      const PointLocation& target = data_.targets[i];
+      if (target.face == at.face && target.weights == at.weights) {
+        const PointRecord& record = data_.target[i];
+        for (const FaceWeights& f : windows::faces_around(mesh_, at)) {
+          if (record.ray.halfedge != kNoIndex && f.face == Mesh::face_of(record.ray.halfedge)) return {f, record};
+        }
+        return {{at.face, at.weights}, record};
+      }
+    }
+    throw not_a_target(at.face);
+  }
+
+ private:
+  Found evaluate(const PointLocation& at) const {
+    const windows::PointValue p = data_.all_points->at(at);
+    return {{p.face, p.weights}, {p.value, p.label, {p.ray.source, p.ray.halfedge, p.ray.pseudo_source, {}}}};
+  }
+
+  const windows::WindowFieldData& data_;
+  const Mesh& mesh_;
+};
+
+// Where no ray came: the point is a source at a vertex, or the pseudo-source is at the other end of an edge.
+WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Found& found, Index vertex) {
+  const Mesh& mesh = data.mesh;
+  const Index pseudo_source = found.record.ray.pseudo_source, n = mesh.vertex_count();
+  WindowField::Leg leg;
+  if (pseudo_source >= n) {
+    const PointLocation& source = data.sources[pseudo_source - n].at;
+    if (source.on != PointLocation::On::Vertex || source.vertex != vertex) return {};
+    leg.source = pseudo_source - n;
+    leg.points.push_back({found.at.face, found.at.weights});
+    return leg;
+  }
+  return leg;
+}
+
+WindowField::Leg last_leg_of(const windows::WindowFieldData& data, const Found& found, Index vertex) {
+  if (!data.exact) {
+    throw Error(ErrorCode::InvalidArgument, "windows were merged: paths need the method exact");
+  }
+  if (!(found.record.value < kInfinity)) return {};
+  const Ray& ray = found.record.ray;
+  WindowField::Leg leg;
+  if (ray.halfedge == kNoIndex) leg = leg_without_ray(data, found, vertex);
+  if (ray.halfedge != kNoIndex) leg = windows::trace_leg(data, found.at, ray, found.record.value);
+  if (leg.points.empty()) {
+    const std::function<double(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
+    const PointLocation at = locate(data.mesh, {found.at.face, found.at.weights});
+    leg = windows::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value,
+                             ray.pseudo_source, ray.halfedge, ray.source});
+  }
+  leg.length *= data.mesh.unit();
+  return leg;
+}
+
+// A point of the caller's mesh, in the mesh of the run.
+PointLocation located(const windows::WindowFieldData& data, const SurfacePoint& point) {
+  if (!data.view) return locate(data.mesh, point);
+  const detail::Sheets& sheets = *data.view->sheets;
+  const PointLocation at = locate(sheets.mesh(), point);
+  const auto is_same = [&](const PointLocation& t) { return t.face == at.face && t.weights == at.weights; };
+  const std::vector<PointLocation>& targets = data.view->targets;
+  // Another copy of the face may have a target there.
+  if (!data.all_points && sheets.is_inside_copy(at) && std::none_of(targets.begin(), targets.end(), is_same)) {
+    throw not_a_target(point.face);
+  }
+  return sheets.to_single(at);
+}
+
+// The faces of the caller's mesh; and sources where they were given, maybe inside of a copy.
+WindowField::Leg in_callers_numbers(const windows::WindowFieldData& data, WindowField::Leg leg) {
+  if (!data.view) return leg;
+  for (SurfacePoint& p : leg.points) p = data.view->sheets->from_single(p);
+  if (leg.source != kNoIndex) {
+    const PointLocation& source = data.view->sources[leg.source];
+    leg.points.back() = {source.face, source.weights};
+  }
+  return leg;
+}
+
+}  // namespace
+
+WindowField::WindowField(std::shared_ptr<const windows::WindowFieldData> data) : data_(std::move(data)) {}
+
+const Mesh& WindowField::mesh() const noexcept { return data_->view ? data_->view->sheets->mesh() : data_->mesh; }
+
+WindowField::Value WindowField::value(const SurfacePoint& point) const {
+  if (point.is_nowhere()) return {};
+  const PointRecord record = Look(*data_).point(located(*data_, point)).record;
+  if (!(record.value < kInfinity)) return {};
+  const double base = data_->bases.empty() ? 0 : data_->bases[record.label];
+  return {base + data_->mesh.unit() * (record.value - data_->shift), record.label};
+}
+
+WindowField::Leg WindowField::last_leg(Index vertex) const {
+  if (vertex >= data_->vertices.size()) {
+    throw Error(ErrorCode::IndexOutOfRange, "vertex " + std::to_string(vertex) + " does not exist: the mesh has " +
+                                                std::to_string(data_->vertices.size()) + " vertices");
+  }
+  return in_callers_numbers(*data_, last_leg_of(*data_, Look(*data_).vertex(vertex), vertex));
+}
+
+WindowField::Leg WindowField::last_leg(const SurfacePoint& point) const {
+  if (point.is_nowhere()) return {};
+  const PointLocation at = located(*data_, point);
+  if (at.on == PointLocation::On::Vertex) return last_leg(at.vertex);
+  Leg leg = in_callers_numbers(*data_, last_leg_of(*data_, Look(*data_).point(at), kNoIndex));
+  // It may be inside of a copy of the face. (On an edge it may have been snapped, and the leg begins in another face.)
+  if (data_->view && at.on == PointLocation::On::Interior && !leg.points.empty()) leg.points.front() = point;
+  return leg;
+}
+
+}  // namespace brushfire

@@ -1,0 +1,135 @@
+// The first windows of a source or a pseudo-source, and what it sees along edges.
+#include <brushfire/solvers/windows/propagation/pseudo_sources.h>
+
+#include <brushfire/solvers/windows/propagation/arrivals.h>
+#include <brushfire/solvers/windows/propagation/sink.h>
+
+#include <algorithm>
+#include <span>
+
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
+namespace {
+
+// A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
+// directions: limit rays through the corner are known to epsilon / share only.
+constexpr double kNear = 1e-3 * kFiner;
+
+// A path from v along an edge to w.
+void reach_along(PartState& part, Index v, Index w, Real length, const Ray& ray) {
+  const Real value = part.vertices[v].lower + length;
+  part.vertices.reach(w, value + part.vertices.slack(v));
+  part.vertices.expect(w, value, part.vertices.lift(v));
+  see_vertex(part, w, value, ray, false);
+}
+
+// Along the edge from v to corner j of a face that contains both.
+void propagate_along(PartState& part, Index v, Index face, Index j, Real length) {
+  const WindowFace& f = part.run->structure.faces[face];
+  const Index opposite = next3(j);  // the halfedge opposite of corner j; v is one of its ends
+  const Real x = f.vertex[opposite] == v ? 0 : f.length[opposite];
+  const bool framed = f.length[opposite] > 0;
+  reach_along(part, v, f.vertex[j], length, {{x, 0}, framed ? 3 * face + opposite : kNoIndex, v, WindowKind::Circular});
+}
+
+// Along the sector's edges to their ends, and through its face.
+void propagate_into(PartState& part, Index v, Sector sector) {
+  const WindowFace& f = part.run->structure.faces[sector.face];
+  const Index i = sector.corner, near = next3(i), far = previous3(i);
+  // Where the corner lies on the opposite edge, an interval there cannot tell directions: light goes in all of them.
+  if (f.double_area <= kOnEdge * f.length[near] * f.length[near]) sector = whole_sector(f, sector.face, i);
+  if (sector.from_edge()) propagate_along(part, v, sector.face, near, f.length[i]);
+  if (sector.to_edge()) propagate_along(part, v, sector.face, far, f.length[far]);
+  if (!(f.length[near] > 0)) return;
+  Window w = window_of(f, sector, part.vertices[v].lower);
+  w.slack = part.vertices.slack(v);
+  w.lift = static_cast<float>(part.vertices.lift(v));
+  w.pseudo_source = v;
+  if (is_visible(w)) leave_face(part, 3 * sector.face + near, w, Origin::Apex);
+}
+
+// Through the whole of the face of a corner at v.
+void propagate_through(PartState& part, Index v, Index corner) {
+  const Index face = corner / 3, i = corner % 3;
+  const WindowFace& f = part.run->structure.faces[face];
+  if (f.usable) return propagate_into(part, v, whole_sector(f, face, i));
+  for (const Index j : {next3(i), previous3(i)}) {
+    if (f.vertex[j] == v) continue;
+    reach_along(part, v, f.vertex[j], f.length[j == next3(i) ? i : j], {{}, kNoIndex, v, WindowKind::Circular});
+  }
+}
+
+// The targets in the face of a source.
+void reach_targets(PartState& part, const FaceWeights& at, Real sigma, Index pseudo_source) {
+  const WindowFace& f = part.run->structure.faces[at.face];
+  part.run->targets.for_each_in(at.face, [&](const TargetInFace& t) {
+    const Index k = f.length[0] > 0 ? 0 : 1;
+    if (!(f.length[k] > 0)) return;
+    std::array<Real, 3> step;
+    for (std::size_t i = 0; i < 3; ++i) step[i] = t.weights[i] - at.weights[i];
+    const Vec2 d = in_frame(frame_of(f, k), k, step);
+    const Vec2 source = in_frame(frame_of(f, k), k, at.weights);
+    reach_target(part, t.target, sigma + length_of(d.x, d.y), 0, 0,
+                 {source, 3 * at.face + k, pseudo_source, WindowKind::Circular});
+  });
+}
+
+}  // namespace
+
+void propagate_from_vertex(PartState& part, Index v) {
+  const WindowStructure& structure = part.run->structure;
+  PseudoSource& pseudo_source = part.vertices.pseudo_source(v);
+  pseudo_source.waiting = false;
+  if (part.vertices[v].lower > part.run->radius) return;
+  if (pseudo_source.all_around || structure.vertex_type[v] == VertexType::Full || pseudo_source.halfedge == kNoIndex) {
+    for (const Index h : structure.corners_of(v, part.number, part.bench->corners)) propagate_through(part, v, h);
+    return;
+  }
+  const auto into = [&](const Sector& sector) {
+    if (part.is_here(sector.face)) propagate_into(part, v, sector);
+  };
+  if (structure.vertex_type[v] == VertexType::Fans) {
+    const std::span<const Index> corners = structure.corners_of(v, part.bench->corners);
+    for (const Sector& sector : part.bench->link(structure, corners, pseudo_source.from())) into(sector);
+    return;
+  }
+  for_each_shadow(structure, v, pseudo_source.from(), into);
+}
+
+void start_at_vertex(PartState& part, Index v, Real sigma, Index pseudo_source) {
+  part.vertices.reach(v, sigma);
+  part.vertices.expect(v, sigma, 0);
+  see_vertex(part, v, sigma, {{}, kNoIndex, pseudo_source, WindowKind::Circular}, true);
+}
+
+// Straight to the corners, and through the edges that the source does not lie on.
+void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pseudo_source) {
+  const WindowFace& f = part.run->structure.faces[at.face];
+  const std::array<Real, 3> distance = corner_distances_of(part.run->structure, at);
+  const Real longest = std::max({f.length[0], f.length[1], f.length[2]});
+  for (Index k = 0; k < 3; ++k) {
+    const Index h = 3 * at.face + next3(k);  // opposite of corner k
+    Ray ray{{}, kNoIndex, pseudo_source, WindowKind::Circular};
+    if (f.usable && f.length[next3(k)] > 0) {
+      ray.halfedge = h;
+      ray.source = in_frame(frame_of(f, next3(k)), next3(k), at.weights);
+    }
+    const Real value = sigma + distance[k];
+    part.vertices.reach(f.vertex[k], value);
+    part.vertices.expect(f.vertex[k], value, 0);
+    see_vertex(part, f.vertex[k], value, ray, ray.halfedge == kNoIndex || distance[k] < kNear * longest);
+    if (part.vertices[f.vertex[k]].lower == value) part.vertices.mark_direct(f.vertex[k]);
+    if (ray.halfedge == kNoIndex) continue;
+    Window w;
+    w.b1 = f.length[next3(k)];
+    w.source = {w.b1 - ray.source.x, -ray.source.y};
+    w.sigma = sigma;
+    w.d0 = sigma + distance[previous3(k)];
+    w.d1 = sigma + distance[next3(k)];
+    w.pseudo_source = pseudo_source;
+    // A source on the edge of a face with an area lights nothing through that edge: the faces beyond start it, too.
+    if (is_visible(w) && (w.source.y < 0 || f.double_area == 0)) leave_face_once(part, h, w);
+  }
+  if (f.has_target) reach_targets(part, at, sigma, pseudo_source);
+}
+
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,0 +1,175 @@
+// Bounds into values, inner numbers into the mesh's own, and what is known of a vertex in several parts into one.
+#include <brushfire/solvers/windows/propagation/results.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
+
+void Results::write(std::vector<Index>& scratch, ThreadTeam* team) {
+  finish_targets();
+  finish_labels(scratch);
+  write_vertices(team);
+  write_targets();
+  if (run_.keeps_rays()) keep();
+}
+
+Index Results::label_of(Index pseudo_source) const {
+  const Index n = run_.structure.vertex_count();
+  return pseudo_source >= n ? pseudo_source - n : run_.several ? run_.provenance[pseudo_source].label : 0;
+}
+
+void Results::offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight) {
+  TargetState& t = run_.targets[target];
+  t.upper = std::min(t.upper, value + slack);
+  if (!straight) return;
+  if (value > t.lower || (value == t.lower && label_of(ray.pseudo_source) >= label_of(t.ray.pseudo_source))) return;
+  t.lower = value;
+  t.estimate = value + lift;
+  t.ray = ray;
+}
+
+// Around the corners of a target's face.
+void Results::finish_targets() {
+  for (const TargetInFace& t : run_.targets.in_faces()) {
+    const std::array<Real, 3> d = corner_distances_of(run_.structure, {t.face, t.weights});
+    for (Index k = 0; k < 3; ++k) {
+      const Index v = run_.structure.faces[t.face].vertex[k];
+      const VertexValues& at = run_.values[v];
+      if (at.upper == kInfinity) continue;
+      const Real slack = std::max(Real{0}, at.upper - at.lower);
+      offer_target(t.target, at.lower + d[k], slack, std::clamp(at.estimate - at.lower, Real{0}, slack),
+                   {{}, kNoIndex, v, WindowKind::Circular});
+    }
+  }
+}
+
+// A vertex belongs to the source to which its chain of pseudo-sources leads; with ties, pseudo-sources may have changed
+// hands since.
+void Results::finish_labels(std::vector<Index>& chain) {
+  if (!run_.several) return;
+  const Index n = run_.structure.vertex_count();
+  std::vector<Provenance>& provenance = run_.provenance;
+  for (const Part& part : parts_) {
+    part.vertices().for_each_touched([&](Index v) {
+      chain.clear();
+      while (v < n && provenance[v].pseudo_source < n && chain.size() <= n) {
+        chain.push_back(v);
+        v = provenance[v].pseudo_source;
+      }
+      if (v >= n) return;
+      for (const Index u : chain) provenance[u].label = provenance[v].label;
+    });
+  }
+}
+
+// What is known of a vertex in any part.
+VertexValues Results::with_ghosts(Index v) const {
+  VertexValues all = run_.values[v];
+  for (Index c = all.next_ghost; c != v && c != kNoIndex; c = run_.values[c].next_ghost) {
+    all.upper = std::min(all.upper, run_.values[c].upper);
+    if (run_.values[c].lower <= all.lower) all.direct |= run_.values[c].direct;
+    all.lower = std::min(all.lower, run_.values[c].lower);
+    all.estimate = std::min(all.estimate, run_.values[c].estimate);
+  }
+  return all;
+}
+
+bool Results::is_owner(Index v) const {
+  return !run_.values[v].has_ghosts() || run_.structure.inner_vertex(run_.structure.outer_vertex(v)) == v;
+}
+
+void Results::write_vertices(ThreadTeam* team) {
+  if (!run_.problem->touched) field_.error_bound.assign(run_.structure.mesh.vertex_count(), kInfinity);
+  field_.max_error_bound = 0;
+  const auto count = [&](const Tally& tally) {
+    field_.beyond_radius += tally.beyond_radius;
+    field_.max_error_bound = std::max(field_.max_error_bound, tally.largest_bound);
+  };
+  if (!team || run_.problem->touched) {
+    for (const Part& part : parts_) count(write_vertices(part));
+    return;
+  }
+  std::vector<Tally> tallies(parts_.size());
+  team->run(parts_.size(), [&](unsigned, std::size_t p) { tallies[p] = write_vertices(parts_[p]); });
+  for (const Tally& tally : tallies) count(tally);
+}
+
+Results::Tally Results::write_vertices(const Part& part) {
+  const bool narrowed = run_.radius < run_.problem->max_distance + run_.shift;
+  Tally tally;
+  part.vertices().for_each_touched([&](Index v) {
+    if (!is_owner(v)) return;
+    const Index outer = run_.structure.outer_vertex(v);
+    if (run_.problem->touched) run_.problem->touched->push_back(outer);
+    const VertexValues s = with_ghosts(v);
+    // Seen by no window yet, or not final when the run stopped.
+    if (s.lower == kInfinity || (narrowed && s.lower > run_.radius)) {
+      ++tally.beyond_radius;
+      return;
+    }
+    const Index label = label_of(v);
+    const CertifiedValue r = read(s.lower, s.upper, s.estimate, label, rounding_at(outer, s));
+    field_.distance[outer] = to_double(r.value - run_.shift);
+    field_.source[outer] = label;
+    if (!run_.problem->touched) field_.error_bound[outer] = r.bound;
+    if (r.value <= run_.radius) tally.largest_bound = std::max(tally.largest_bound, r.relative);
+  });
+  return tally;
+}
+
+void Results::write_targets() {
+  for (Index i = 0; i < run_.targets.size(); ++i) {
+    const PointLocation& at = run_.problem->targets[i];
+    if (at.on == PointLocation::On::Vertex) continue;  // read off the field
+    const TargetState& t = run_.targets[i];
+    if (t.upper == kInfinity) continue;
+    field_.target_source[i] = label_of(t.ray.pseudo_source);
+    field_.target_distance[i] =
+        to_double(read(t.lower, t.upper, t.estimate, field_.target_source[i], run_.rounding).value - run_.shift);
+  }
+}
+
+// A vertex that a source sees within its own face is as far as that straight line is long, which is the chord in space:
+// no frame had a part in it, however near the source is.
+Rounding Results::rounding_at(Index outer, const VertexValues& values) const {
+  constexpr std::size_t kFewSources = 64;  // each of the others is looked at
+  const std::span<const detail::LocatedSource> sources = run_.problem->sources;
+  const Mesh& mesh = run_.structure.mesh;
+  if (!values.direct || !mesh.has_positions() || sources.size() > kFewSources) return run_.rounding;
+  const Real unit = mesh.unit();
+  for (const detail::LocatedSource& s : sources) {
+    if (sources.size() == 1) break;
+    const Face& t = mesh.faces()[s.at.face];
+    brushfire::Vec3 chord;
+    for (std::size_t k = 0; k < 3; ++k) {
+      chord = chord + s.at.weights[k] * (mesh.positions()[t[k]] - mesh.positions()[outer]);
+    }
+    // Nearer, or not surely farther: then windows decided.
+    if (run_.start_of(s.label) + norm(chord) / unit < values.lower * (1 - 1e-12)) return run_.rounding;
+  }
+  Rounding direct = run_.rounding;
+  direct.absolute = 0;
+  return direct;
+}
+
+CertifiedValue Results::read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const {
+  return certified_value(lower, upper, estimate, run_.start_of(label), run_.shift, run_.budget.share, rounding,
+                         run_.problem->options->bound);
+}
+
+// With the mesh's own numbers. Sources come behind the vertices: here behind the mesh's, in the run behind the ghosts,
+// too.
+Index Results::outer_pseudo_source(Index pseudo_source) const {
+  const Index n = run_.structure.vertex_count();
+  return pseudo_source < n ? run_.structure.outer_vertex(pseudo_source)
+                           : pseudo_source - n + run_.structure.mesh.vertex_count();
+}
+Ray Results::outer(Ray ray) const {
+  if (ray.halfedge != kNoIndex) ray.halfedge = run_.structure.outer_halfedge(ray.halfedge);
+  if (ray.pseudo_source != kNoIndex) ray.pseudo_source = outer_pseudo_source(ray.pseudo_source);
+  return ray;
+}
+
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,0 +1,136 @@
+// Trimming and merging of what waits at a halfedge, and its way through the face.
+#include <brushfire/solvers/windows/propagation/single_windows.h>
+
+#include <brushfire/solvers/windows/algebra/propagate.h>
+#include <brushfire/solvers/windows/algebra/sweep.h>
+#include <brushfire/solvers/windows/propagation/arrivals.h>
+#include <brushfire/solvers/windows/propagation/sink.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
+namespace {
+
+// L5. Windows with their source on the edge are not trimmed (all their light passes through that one point, where
+// others may tie with them): they go on whole unless another path to the source itself is shorter. Returns the
+// others.
+std::span<Window> set_apart(std::span<Window> windows, std::vector<Window>& on_edge) {
+  const auto others = std::stable_partition(windows.begin(), windows.end(), is_on_edge);
+  for (auto w = windows.begin(); w != others; ++w) {
+    const Real x = w->source.x;
+    const bool beaten = std::any_of(windows.begin(), windows.end(), [&](const Window& o) {
+      return o.b0 <= x && x <= o.b1 && value_at(o, x) - w->source.y < w->sigma - tie(w->sigma);
+    });
+    if (!beaten) on_edge.push_back(*w);
+  }
+  return {others, windows.end()};
+}
+
+// Light of different sources stays apart, so that labels do.
+bool merge_pair(const PartState& part, const Window& a, Window& b, const Joint& joint) {
+  const RunState& run = *part.run;
+  if (run.problem->sources.size() == 1) return merge_into(a, b, joint, run.start_of(0), run.budget);
+  const Index label = part.vertices.label_of(a.pseudo_source);
+  return label == part.vertices.label_of(b.pseudo_source) && merge_into(a, b, joint, run.start_of(label), run.budget);
+}
+
+// L2, L8. From left to right, each with the one before it as long as that works. Returns how many are left.
+std::size_t merge_neighbours(const PartState& part, std::span<Window> w) {
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < w.size(); ++i) {
+    w[++last] = w[i];
+    while (last > 0 && w[last].b0 - w[last - 1].b1 <= 2 * kSliver * (w[last].d0 - w[last].sigma) &&
+           merge_pair(part, w[last - 1], w[last], {w[last - 1].b1, w[last - 1].d1, w[last].d0})) {
+      w[last - 1] = w[last];
+      --last;
+    }
+  }
+  return w.empty() ? 0 : last + 1;
+}
+
+// L2, L5, L8: what is left of the windows of an edge.
+std::span<Window> merged(PartState& part, std::span<Window> windows) {
+  constexpr std::size_t kFew = 8;  // more are sorted by the envelope
+  if (windows.size() <= kFew) {
+    for (std::size_t i = 1; i < windows.size(); ++i) {
+      for (std::size_t j = i; j > 0 && windows[j].b0 < windows[j - 1].b0; --j) std::swap(windows[j], windows[j - 1]);
+    }
+    Sweep sweep(windows,
+                [&part](const Window& a, Window& b, const Joint& joint) { return merge_pair(part, a, b, joint); });
+    const bool done = sweep();
+    windows = windows.first(sweep.count());
+    if (done) return windows;
+  }
+  windows = part.bench->envelope(windows);
+  return windows.first(merge_neighbours(part, windows));
+}
+
+// Light from a point on the edge of a face without area: the point lies on another edge as well.
+void pass_along(PartState& part, Index h, const Frame& frame, const Window& w) {
+  const Index face = 3 * (h / 3), k = h % 3;
+  const Real apex = frame.apex.x, x = w.source.x;
+  Window out = w;
+  out.b0 = 0;
+  const auto leave = [&](Index edge, Real length, Real from_start) {
+    out.source = {from_start, 0};
+    out.b1 = length;
+    out.d0 = value_at(out, 0);
+    out.d1 = value_at(out, length);
+    if (is_visible(out)) leave_face(part, face + edge, out, Origin::Anywhere);
+  };
+  leave(previous3(k), frame.left, apex > 0 ? x : -x);
+  leave(next3(k), frame.right, apex < frame.length ? x - apex : apex - x);
+}
+
+}  // namespace
+
+void propagate_windows(PartState& part, Index h) {
+  WindowFace& f = part.face(h);
+  const Index k = h % 3;
+  Workbench& bench = *part.bench;
+  bench.taken.clear();
+  part.activity->windows.take(f.waiting, h, [&](const Window& w) {
+    if (!((least_value(w) > part.run->radius) | is_dominated(part.vertices.bounds(f, k), w.b0, w.b1, w.d0, w.d1))) {
+      bench.taken.push_back(w);
+    }
+  });
+  if (bench.taken.empty()) return;
+  const Frame frame = frame_of(f, k);
+  std::span<Window> windows = bench.taken;
+  if (windows.size() > 1 && std::any_of(windows.begin(), windows.end(), is_on_edge)) {
+    windows = set_apart(windows, bench.on_edge);
+  }
+  if (windows.size() > 1) windows = part.run->merges() ? merged(part, windows) : bench.envelope(windows);
+  for (const Window& w : windows) pass_face(part, h, frame, w);
+  for (const Window& w : bench.on_edge) pass_face(part, h, frame, w);
+  bench.on_edge.clear();
+}
+
+void pass_face(PartState& part, Index h, const Frame& frame, const Window& waiting) {
+  Window w = waiting;
+  w.kind = WindowKind::Circular;  // known here: no other kind is ever started
+  const WindowFace& f = part.face(h);
+  const Index apex = f.vertex[previous3(h % 3)];
+  if (leaves_trail(f)) w.trail = part.trails.with(w.trail, h / 3);
+  const Ray ray{w.source, h, w.pseudo_source, w.kind};
+  const Arrival at = arrival(w, frame.apex);
+  if (at.detour <= kSeen * at.value) {
+    part.vertices.reach(apex, at.value + w.slack);
+    see_vertex(part, apex, at.value, ray, false);
+  }
+  if (f.has_target) {
+    part.run->targets.for_each_in(h / 3, [&](const TargetInFace& t) {
+      const Arrival there = arrival(w, in_frame(frame, h % 3, t.weights));
+      reach_target(part, t.target, there.value, w.slack, w.lift, ray, there.detour <= kSeen * there.value);
+    });
+  }
+  if (part.run->problem->options->keep_windows) part.kept.push_back({part.run->structure.outer_halfedge(h), w});
+  if (frame.apex.y == 0 && w.source.y == 0) return pass_along(part, h, frame, w);
+  propagate(
+      w, frame, [&](const Window& left) { leave_face(part, 3 * (h / 3) + previous3(h % 3), left, Origin::Anywhere); },
+      [&](const Window& right) { leave_face(part, 3 * (h / 3) + next3(h % 3), right, Origin::Anywhere); });
+}
+
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,0 +1,11 @@
+// Whole lists of windows, of exact runs: trimmed now and then, and on to the other two edges of a face.
+#pragma once
+
+#include <brushfire/solvers/windows/propagation/part_state.h>
+
+namespace brushfire::windows::BRUSHFIRE_NUMBERS {
+
+// The turn of halfedge h: what waits there goes on as one list.
+void propagate_list(PartState& part, Index h);
+
+}  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,0 +1,15 @@
+// A hint to the processor that memory will be needed soon.
+#pragma once
+
+namespace brushfire::windows {
+
+[[gnu::always_inline]] inline void prefetch([[maybe_unused]] const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+  // Without this, GCC takes functions that do nothing but prefetch for functions without effect and drops calls of
+  // them.
+  __asm__ volatile("" : : "r"(address));
+#endif
+}
+
+}  // namespace brushfire::windows

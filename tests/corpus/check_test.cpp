@@ -1,0 +1,43 @@
+// Cases of the corpus that were wrong once.
+#include "corpus/check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace brushfire::corpus {
+namespace {
+
+struct Once {
+  const char* family;
+  std::uint64_t seed, index;
+  const char* method;
+  const char* what;
+};
+
+constexpr Once kWrongOnce[] = {
+    {"soup", 2, 2, "paths", "source and target in one face with a repeated vertex"},
+    {"far-point", 2, 47, "paths", "a search for a leg that wound round a spike"},
+    {"mutilated", 2, 76, "exact", "no bound where every face has an edge without length"},
+    {"tiny-clusters", 2, 14, "dijkstra", "distances to corners from three lengths"},
+};
+
+TEST(Corpus, WhatWasWrongOnceIsRight) {
+  for (const Once& once : kWrongOnce) {
+    const auto families = small_families();
+    const auto family =
+        std::find_if(families.begin(), families.end(), [&](const Family& f) { return f.name == once.family; });
+    ASSERT_NE(family, families.end());
+    Examination examination(*family, once.seed);
+    const std::vector<Task> tasks = tasks_of({once.method}, {});
+    for (const std::size_t start : {0u, 1u}) {
+      const Outcome outcome = examination.run(once.index, start, tasks.back());
+      limit_processor_time(0);
+      EXPECT_TRUE(outcome.good()) << once.family << ", " << once.what << ": " << outcome.text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace brushfire::corpus
