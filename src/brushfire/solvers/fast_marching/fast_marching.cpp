@@ -132,12 +132,10 @@ class Marcher {
   void work(const CancelToken* cancel) {
     constexpr std::size_t kWorthSharing = 64;
     if (!workers_.team() || state_.load < kWorthSharing) {
-      for (const Index part : state_.work) march_part_(rings_, state_, part);
+      for (const partition::Due& d : state_.due) march_part_(rings_, state_, d.part);
       return;
     }
-    due_.clear();
-    for (const Index part : state_.work) due_.push_back({part, state_.outlook[part].load});
-    workers_.work(due_, [this, cancel](unsigned, Index part) {
+    workers_.work(state_.due, [this, cancel](unsigned, Index part) {
       if (!(cancel && cancel->cancelled())) march_part_(rings_, state_, part);
     });
   }
@@ -302,9 +300,8 @@ class Marcher {
   MarchState<T> state_;
   MarchPart<T> march_part_ = nullptr;  // of this run
   partition::WorkerTeam workers_{kPatience};
-  std::vector<partition::Due> due_;  // the parts that work in this round
-  double base_ = 0;                  // the lowest offset: values are kept relative to it
-  double final_ = kInfinity;         // where the front stopped
+  double base_ = 0;           // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;  // where the front stopped
 };
 
 class FastMarching final : public detail::Engine {
