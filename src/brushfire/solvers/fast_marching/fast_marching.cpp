@@ -5,6 +5,7 @@
 #include <brushfire/core/detail/prefetch.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/solvers/detail/local_mesh.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
 #include <brushfire/solvers/fast_marching/detail/fronts.h>
@@ -24,6 +25,8 @@
 
 namespace brushfire::fast_marching {
 namespace {
+
+using detail::LocalMesh;
 
 FrontModel front_model(Method method) {
   if (method == Method::KimmelSethian) return FrontModel::Planar;
