@@ -121,7 +121,7 @@ windows::Frame frame(Random& random) {
   return {length, norm(apex), norm(apex - Vec2{length, 0}), apex};
 }
 
-Window window(Random& random, double b0, double b1, Index root) {
+Window window(Random& random, double b0, double b1, Index pseudo_source) {
   Window w;
   w.sigma = random.uniform(0, 0.5);
   w.source = {random.uniform(-1, 2), -random.uniform(2, 4)};
@@ -129,7 +129,7 @@ Window window(Random& random, double b0, double b1, Index root) {
   w.b1 = b1;
   w.d0 = windows::value_at(w, b0);
   w.d1 = windows::value_at(w, b1);
-  w.root = root;
+  w.pseudo_source = pseudo_source;
   return w;
 }
 

@@ -17,12 +17,14 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 
 from brushfire._any import from_any
 from brushfire._core import version as __version__
+from brushfire._cells import Boundary, Centroidal, Discs, Extent, Mean, Medoids, Parcels, k_medoids
 from brushfire._certify import Certificate
 from brushfire._curves import LogMap, Path
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
 from brushfire._io import FileInfo, read
+from brushfire._lines import read_lines
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
@@ -31,21 +33,28 @@ from brushfire._regions import Border, Cut, Samples, Voronoi
 __all__ = [
     "At",
     "Border",
+    "Boundary",
     "BrushfireError",
     "BrushfireIndexError",
     "BrushfireTypeError",
     "BrushfireWarning",
+    "Centroidal",
     "Certificate",
     "Comparison",
     "Cut",
     "Descent",
+    "Discs",
     "Errors",
+    "Extent",
     "FileInfo",
     "Isoline",
     "LogMap",
+    "Mean",
+    "Medoids",
     "Mesh",
     "MeshReport",
     "Panel",
+    "Parcels",
     "Path",
     "Point",
     "Points",
@@ -57,8 +66,10 @@ __all__ = [
     "at",
     "compare",
     "from_any",
+    "k_medoids",
     "methods",
     "read",
+    "read_lines",
     "render",
     "render_svg",
     "write",

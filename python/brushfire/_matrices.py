@@ -35,7 +35,7 @@ class Matrices(OnMesh):
         *,
         method: str | None = None,
         tolerance: float | None = None,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         out: Any = None,
@@ -48,7 +48,7 @@ class Matrices(OnMesh):
         :param rows: places: vertices, points or a mask; all vertices if none are given.
         :param columns: likewise.
         :param method, tolerance, precision: as for :meth:`distance`.
-        :param max_distance: what is farther reads +inf.
+        :param radius: what is farther reads +inf.
         :param dtype: float32 (rounded from float64, 7 digits), float64, or float16 (3 digits, up to 65504: what does not
             fit is an error).
         :param out: of shape (rows, columns), to be filled instead of a new array, its dtype is what counts: a
@@ -69,7 +69,7 @@ class Matrices(OnMesh):
         if symmetric is not None:
             _check_symmetric(symmetric, row, column)
         shape = (self._count(row), self._count(column))
-        chosen = options(method, tolerance, max_distance, precision=precision)
+        chosen = options(method, tolerance, radius, precision=precision)
         team = thread_count(threads)
         result = _new_matrix(shape, dtype) if out is None else out
         array = _memory_of(result)
@@ -94,7 +94,7 @@ class Matrices(OnMesh):
         threads: int,
         report: Reporter | None,
     ) -> None:
-        _core.fill_matrix(self._mesh, array, *_pair(row), *_pair(column), chosen, threads, report)
+        _core.fill_matrix(self._space, array, *_pair(row), *_pair(column), chosen, threads, report)
 
     def _fill_by_blocks(
         self,
@@ -165,7 +165,7 @@ class Matrices(OnMesh):
         chosen = options(method, tolerance, np.inf, precision=precision)
         limit, team = number(radius, "radius"), thread_count(threads)
         with shown(progress, "rows") as report:
-            data, indices, starts = compute(self._mesh, limit, *_pair(row), chosen, team, most, report)
+            data, indices, starts = compute(self._space, limit, *_pair(row), chosen, team, most, report)
         if symmetric is not None:
             data, indices, starts = _symmetric_rows(data, indices, starts, symmetric)
         return sparse_matrix(data, indices, starts, self._mesh.vertex_count)
@@ -178,7 +178,7 @@ class Matrices(OnMesh):
         *,
         method: str | None = None,
         tolerance: float | None = None,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         threads: int = 0,
@@ -199,11 +199,11 @@ class Matrices(OnMesh):
         [[3.0, 0.0, 4.0, 7.0]]
         """
         row, column = self._optional(rows, "rows"), self._optional(columns, "columns")
-        chosen = options(method, tolerance, max_distance, precision=precision)
+        chosen = options(method, tolerance, radius, precision=precision)
         single = bool(float_type(dtype) == np.float32)
         team = thread_count(threads)
         with shown(progress, "matrix") as report:
-            _core.write_matrix(self._mesh, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
+            _core.write_matrix(self._space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
 
     def _optional(self, places: Any, what: str) -> PlaceArrays | None:
         """None for all vertices."""

@@ -12,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, number
+from brushfire._arrays import Floats, Ints, number
+from brushfire._cells import Cells
 from brushfire._certify import Certificates
 from brushfire._curves import Curves
 from brushfire._distance import Distances
@@ -87,7 +88,7 @@ class MeshReport:
         return "\n".join([head, *self.remarks])
 
 
-class Mesh(Distances, Curves, Fields, Certificates, Regions, Matrices, Pictures, Files):
+class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pictures, Files):
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
     :param vertices: (n, 3) positions, or (n, 2) for a flat mesh. Kept as float64.
@@ -107,6 +108,8 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Matrices, Pictures,
 
     _mesh: _core.Mesh
     _finder: _core.NearestPointFinder | None = None
+    _walls: tuple[Ints, Ints, Ints] | None = None  # blocked vertices and faces, and the ends of blocked edges
+    _domain: _core.Domain | None = None
 
     def __init__(self, vertices: npt.ArrayLike, faces: npt.ArrayLike) -> None:
         f = _arrays.faces(faces)
@@ -229,8 +232,61 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Matrices, Pictures,
             )
         return points
 
+    def _snapped_all(self, xyz: Floats) -> Points:
+        return self._snapped(at(xyz))
+
+    def walled(
+        self,
+        *,
+        mask: npt.ArrayLike | None = None,
+        vertices: npt.ArrayLike = (),
+        faces: npt.ArrayLike = (),
+        edges: npt.ArrayLike = (),
+    ) -> Mesh:
+        """The same mesh with walls in it: the same vertices and faces, through which no distance and no path goes.
+
+        :param mask: one bool per vertex: open are the faces whose three vertices are.
+        :param vertices: numbers, or a mask with one bool per vertex: nothing passes them, all their faces are blocked.
+        :param faces: numbers, or a mask with one bool per face: nothing enters them.
+        :param edges: (k, 2) vertex numbers: both sides can be reached, nothing crosses.
+        :return: a mesh whose every method keeps to what is open, in the numbers of this one. What lies behind a wall reads
+            +inf; a vertex on a wall has the least distance of its sides.
+        :raises BrushfireError: for arrays of another shape, and two vertices that no edge joins.
+        :raises BrushfireIndexError: for what does not exist.
+
+        Walls add to those that are there. A wall is tight, also where blocked faces touch at a vertex only.
+        :meth:`cut` gives the open part as a mesh of its own.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> walled = mesh.walled(edges=[(0, 2)])
+        >>> mesh.distance(1, method="exact").tolist(), walled.distance(1, method="exact").tolist()
+        ([3.0, 0.0, 4.0, 5.0], [3.0, 0.0, 4.0, inf])
+        >>> walled
+        Mesh(4 vertices, 2 faces, walls)
+        """
+        blocked = self._barriers(vertices, faces, edges)
+        if mask is not None:
+            closed = self._closed_faces(mask)
+            blocked = blocked[0], np.concatenate([blocked[1], closed]), blocked[2]
+        if self._walls is not None:
+            old = self._walls
+            blocked = tuple(np.concatenate(pair) for pair in zip(old, blocked, strict=True))  # type: ignore[assignment]
+        walled = self._of(self._mesh)
+        walled._walls, walled._domain = blocked, _core.make_domain(self._mesh, *blocked)
+        return walled
+
+    def _closed_faces(self, open_vertices: npt.ArrayLike) -> Ints:
+        mask = np.asarray(open_vertices)
+        if mask.dtype != np.bool_ or mask.shape != (self.vertex_count,):
+            raise BrushfireError(
+                f"open_vertices: one bool per vertex is needed, not {mask.dtype} of shape {mask.shape}"
+            )
+        closed = ~mask[self.faces].all(axis=1) if self.face_count else np.zeros(0, dtype=bool)
+        return np.flatnonzero(closed).astype(np.int64)
+
     def masked(self, open_vertices: npt.ArrayLike) -> Mesh:
-        """The mesh of the faces whose three vertices are all open; vertices keep their numbers.
+        """:meth:`walled` by a mask: only the faces whose three vertices are all open.
 
         :param open_vertices: one bool per vertex. Closed vertices, and those left without a face, read +inf.
 
@@ -239,15 +295,52 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Matrices, Pictures,
         >>> mesh.masked([True, True, True, False]).distance(0, method="exact").tolist()
         [0.0, 3.0, 5.0, inf]
         """
-        mask = np.asarray(open_vertices)
-        if mask.dtype != np.bool_ or mask.shape != (self.vertex_count,):
-            raise BrushfireError(
-                f"open_vertices: one bool per vertex is needed, not {mask.dtype} of shape {mask.shape}"
-            )
-        chosen = mask[self.faces].all(axis=1) if self.face_count else np.zeros(0, dtype=bool)
-        if self._mesh.has_positions:
-            return type(self)(self.vertices, self.faces[chosen])
-        return type(self).from_lengths(self.faces[chosen], self._mesh.lengths()[chosen], self.vertex_count)
+        return self.walled(mask=open_vertices)
+
+    @property
+    def open_vertices(self) -> npt.NDArray[np.bool_]:
+        """Which vertices are in a face that no wall blocks, (vertex_count,).
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.walled(faces=[1]).open_vertices.tolist()
+        [True, True, True, False]
+        """
+        return self._open_part()["open"].astype(bool)  # type: ignore[no-any-return]
+
+    @property
+    def open_components(self) -> int:
+        """In how many pieces walls leave the mesh, which hang together through faces and vertices.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.open_components, mesh.walled(edges=[(0, 2)]).open_components
+        (1, 2)
+        """
+        return int(self._open_part()["components"])
+
+    def _open_part(self) -> dict[str, Any]:
+        return (self._domain or _core.Domain(self._mesh)).open_part()
+
+    @property
+    def _space(self) -> _core.Space:
+        return self._mesh if self._domain is None else self._domain
+
+    def weld(self, tolerance: float) -> tuple[Mesh, npt.NDArray[np.int32]]:
+        """The mesh with vertices that are near one another made one, so that faces that only touch are connected.
+
+        :param tolerance: how near, >= 0, in units of the vertices; 0 joins equal positions. No position moves farther.
+        :return: the mesh, and which of its vertices each of these became, (vertex_count,). Faces keep their numbers.
+        :raises BrushfireError: for a mesh from lengths, and for a tolerance that is no number >= 0.
+
+        >>> import brushfire as bf
+        >>> torn = bf.Mesh([[0, 0], [1, 0], [1, 1], [1, 0], [2, 0], [1, 1]], [[0, 1, 2], [3, 4, 5]])
+        >>> mesh, vertex_map = torn.weld(0)
+        >>> mesh, vertex_map.tolist(), mesh.distance(0)[vertex_map].round(6).tolist()
+        (Mesh(4 vertices, 2 faces), [0, 1, 2, 1, 3, 2], [0.0, 1.0, 1.414214, 1.0, 2.0, 1.414214])
+        """
+        core, vertex_map, _ = _core.weld(self._mesh, number(tolerance, "tolerance"))
+        return type(self)._of(core), vertex_map
 
     @property
     def area(self) -> float:
@@ -271,7 +364,7 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Matrices, Pictures,
         return Solver(self, method, tolerance=tolerance, bound=bound, precision=precision)
 
     def _run(self) -> _core.Solver:
-        return _core.Solver(self._mesh)
+        return _core.Solver(self._space)
 
     def _whole(self) -> Mesh:
         return self
@@ -282,12 +375,15 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Matrices, Pictures,
         return place_arrays(places, self.vertex_count, what)
 
     def __repr__(self) -> str:
-        return f"Mesh({self.vertex_count} vertices, {self.face_count} faces)"
+        walls = "" if self._walls is None else ", walls"
+        return f"Mesh({self.vertex_count} vertices, {self.face_count} faces{walls})"
 
     def _repr_html_(self) -> str:
         return mesh_table(self)
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
+        if self._walls is not None:
+            return _walled, (self._of(self._mesh), *self._walls)
         if self._mesh.has_positions:
             return type(self), (self.vertices, self.faces)
         return type(self).from_lengths, (self.faces, self._mesh.lengths(), self.vertex_count)
@@ -333,7 +429,7 @@ class Solver(Distances, Curves, Fields):
     ) -> None:
         self.mesh = mesh
         self._mesh = mesh._mesh
-        self._solver = _core.Solver(mesh._mesh)
+        self._solver = _core.Solver(mesh._space)
         self._defaults = (method, tolerance, bound, precision)
         chosen = options(method, tolerance, np.inf, bound, precision)
         if "method" in chosen:
@@ -389,6 +485,11 @@ class Solver(Distances, Curves, Fields):
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         return _solver, (self.mesh, *self._defaults)
+
+
+def _walled(mesh: Mesh, vertices: Ints, faces: Ints, ends: Ints) -> Mesh:
+    """One that was pickled."""
+    return mesh.walled(vertices=vertices, faces=faces, edges=ends.reshape(-1, 2))
 
 
 def _solver(mesh: Mesh, method: Any, tolerance: Any, bound: Any, precision: Any) -> Solver:

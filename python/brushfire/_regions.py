@@ -33,12 +33,14 @@ class Voronoi:
 
     ``distance`` (vertex_count,): from the nearest source, +inf where none reaches. ``source`` (vertex_count,): its
     position in the list, -1 for none. ``area`` (sources,): of each cell. ``borders``: where cells meet, ascending.
+    ``dual`` (k, 3): three cells that meet in a face, each once: a triangulation of the sources.
     """
 
     distance: Floats
     source: Labels
     area: Floats
     borders: list[Border]
+    dual: Labels
 
     def __repr__(self) -> str:
         return f"Voronoi({len(self.area)} cells, {len(self.borders)} borders)"
@@ -135,12 +137,12 @@ class Regions(OnMesh):
         method: str | None = None,
         tolerance: float | None = None,
         offset: npt.ArrayLike = 0.0,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         progress: Progress = None,
     ) -> Voronoi:
         """The geodesic Voronoi diagram: which source is nearest where, the borders in between, the area of each cell.
 
-        :param sources, method, tolerance, offset, max_distance, progress: as for :meth:`distance`.
+        :param sources, method, tolerance, offset, radius, progress: as for :meth:`distance`.
         :raises BrushfireError: as :meth:`distance` does.
 
         >>> import brushfire as bf
@@ -150,11 +152,11 @@ class Regions(OnMesh):
         ([0, 1, 1, 0], 4.0, (0, 1))
         """
         start = self._arrays(sources, "sources")
-        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, max_distance)
+        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, radius)
         with shown(progress, "voronoi") as report:
-            found = _core.voronoi(self._mesh, start.index, start.weights, given, chosen, report)
-        distance, source, area, borders = found
-        return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders])
+            found = _core.voronoi(self._space, start.index, start.weights, given, chosen, report)
+        distance, source, area, borders, dual = found
+        return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders], dual)
 
     def farthest_points(
         self,
@@ -163,14 +165,14 @@ class Regions(OnMesh):
         *,
         method: str | None = None,
         tolerance: float | None = None,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         progress: Progress = None,
     ) -> Samples:
         """Farthest-point sampling: again and again the vertex that is farthest from all samples so far.
 
         :param count: how many; fewer where every vertex is a sample before.
         :param first: vertices to begin with; the lowest vertex that is in a face if none are given.
-        :param method, tolerance, max_distance, progress: as for :meth:`distance`.
+        :param method, tolerance, radius, progress: as for :meth:`distance`.
         :raises BrushfireError: for a first vertex that is in no face or repeats, and for more of them than ``count``.
 
         Runs are limited to what still matters: all together they cost about log(count) whole fields.
@@ -188,9 +190,9 @@ class Regions(OnMesh):
                 raise BrushfireError("first: vertices are needed, not points of faces")
             index = arrays.index
         taken = whole(count, "count", np.iinfo(np.int32).max)
-        chosen = options(method, tolerance, max_distance)
+        chosen = options(method, tolerance, radius)
         with shown(progress, "farthest points") as report:
-            return Samples(*_core.farthest_points(self._mesh, taken, index, chosen, report))
+            return Samples(*_core.farthest_points(self._space, taken, index, chosen, report))
 
     def cut(self, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), edges: npt.ArrayLike = ()) -> Cut:
         """The mesh with barriers cut out, through which no distance and no path goes.
@@ -207,17 +209,19 @@ class Regions(OnMesh):
         >>> mesh.cut(edges=[(0, 2)]).mesh, mesh.cut(faces=[0]).mesh
         (Mesh(6 vertices, 2 faces), Mesh(4 vertices, 1 faces))
         """
+        made = _core.cut(self._mesh, *self._barriers(vertices, faces, edges))
+        return Cut(
+            self._of(made.mesh), made.original_vertex(), made.original_face(), made.cut_face(), self._whole(), made
+        )
+
+    def _barriers(self, vertices: Any, faces: Any, edges: Any) -> tuple[Ints, Ints, Ints]:
         ends = _arrays.integers(edges, "edges")
         if ends.size and (ends.ndim != 2 or ends.shape[1] != 2):
             raise BrushfireError(f"edges: shape (k, 2) is needed, not {ends.shape}")
-        made = _core.cut(
-            self._mesh,
+        return (
             _numbers(vertices, self._mesh.vertex_count, "vertices"),
             _numbers(faces, self._mesh.face_count, "faces"),
             ends.reshape(-1),
-        )
-        return Cut(
-            self._of(made.mesh), made.original_vertex(), made.original_face(), made.cut_face(), self._whole(), made
         )
 
     @classmethod

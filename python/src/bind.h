@@ -1,6 +1,7 @@
 // What the binding files share: array types, places and sources from arrays, results that own their memory.
 #pragma once
 
+#include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/queries/distance_matrix.h>
@@ -30,6 +31,7 @@ void bind_matrix(nb::module_& m);
 void bind_curves(nb::module_& m);
 void bind_fields(nb::module_& m);
 void bind_certify(nb::module_& m);
+void bind_cells(nb::module_& m);
 void bind_regions(nb::module_& m);
 void bind_figure(nb::module_& m);
 void bind_files(nb::module_& m);

@@ -5,6 +5,7 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/nearest_point.h>
+#include <brushfire/queries/log_coordinates.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/shorten.h>
 #include <brushfire/queries/straightest.h>
@@ -34,21 +35,24 @@ using OptionalWeights = std::optional<Triples<double>>;
 
 // No points and +inf where there is no path. `tighten`: pulled straight where it bends at waypoints.
 nb::tuple path(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed,
-               bool tighten) {
+               bool tighten, double max_distance) {
   const Mesh& mesh = solver.mesh();
   Computation computation{nb::none()};
   return path_to_numpy(computation.run(false, [&] {
     const std::vector<SurfacePoint> places = targets_from(mesh, {index, weights});
-    SurfacePath found =
-        solver.with([&](DistanceSolver& s) { return path_through(s, places, closed, computation.cancel()); });
-    if (tighten && !found.points.empty()) found = shorten(mesh, found.points, closed);
+    DistanceOptions how;
+    how.max_distance = max_distance;
+    how.cancel = computation.cancel();
+    SurfacePath found = solver.with([&](DistanceSolver& s) { return path_through(s, places, closed, how); });
+    if (tighten && !found.points.empty()) found = shorten(solver.domain(), found.points, closed);
     return found;
   }));
 }
 
-nb::tuple shortened(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed) {
-  const std::vector<SurfacePoint> points = points_from(mesh, {index, weights});
-  return path_to_numpy(listening(false, [&] { return shorten(mesh, points, closed); }));
+nb::tuple shortened(const Domain& domain, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+                    bool closed) {
+  const std::vector<SurfacePoint> points = points_from(domain.mesh(), {index, weights});
+  return path_to_numpy(listening(false, [&] { return shorten(domain, points, closed); }));
 }
 
 double length(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed) {
@@ -58,25 +62,24 @@ double length(const Mesh& mesh, const Vector<std::int64_t>& index, const Optiona
 // From the nearest source to every target, off one field: (source, paths).
 nb::tuple paths(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
                 const Vector<double>& offsets, const Vector<std::int64_t>& target_index,
-                const OptionalWeights& target_weights) {
+                const OptionalWeights& target_weights, double max_distance) {
   const Mesh& mesh = solver.mesh();
   Computation computation{nb::none()};
-  SparseField field;
-  const std::vector<SurfacePath> found = computation.run(false, [&] {
-    DistanceOptions options;
-    options.method = Method::Exact;
-    options.keep_paths = true;
-    options.targets = targets_from(mesh, {target_index, target_weights});
-    options.cancel = computation.cancel();
+  const std::vector<SourcePath> found = computation.run(false, [&] {
+    DistanceOptions how;
+    how.max_distance = max_distance;
+    how.cancel = computation.cancel();
+    const std::vector<SurfacePoint> targets = targets_from(mesh, {target_index, target_weights});
     const std::vector<Source> sources = sources_from(mesh, {index, weights}, offsets);
-    solver.with([&](DistanceSolver& s) { s.distance_sparse(sources, options, field); });
-    std::vector<SurfacePath> all;
-    for (const SurfacePoint& target : options.targets) all.push_back(path_to(*field.windows, target));
-    return all;
+    return solver.with([&](DistanceSolver& s) { return paths_to(s, sources, targets, how); });
   });
   nb::list list;
-  for (const SurfacePath& p : found) list.append(path_to_numpy(p));
-  return nb::make_tuple(to_numpy_signed(std::move(field.target_source)), list);
+  std::vector<Index> nearest;
+  for (const SourcePath& p : found) {
+    list.append(path_to_numpy(p));
+    nearest.push_back(p.source);
+  }
+  return nb::make_tuple(to_numpy_signed(std::move(nearest)), list);
 }
 
 // Along edges, from the nearest source's vertex.
@@ -90,27 +93,28 @@ nb::tuple edge_path(Solver& solver, const Vector<std::int64_t>& index, const Opt
   Computation computation{nb::none()};
   return path_to_numpy(computation.run(false, [&] {
     DistanceOptions options;
-    options.method = Method::Dijkstra;
     options.cancel = computation.cancel();
     const std::vector<Source> sources = sources_from(mesh, {index, weights}, offsets);
-    const DistanceField field = solver.with([&](DistanceSolver& s) { return s.distance(sources, options); });
-    return edge_path_to(mesh, field, static_cast<Index>(target));
+    const SurfacePoint end = target_point(mesh, static_cast<Index>(target));
+    return edge_paths_to(solver.domain(), sources, std::span(&end, 1), options).front();
   }));
 }
 
 // (path, end); the direction is an angle, or a vector where it is given.
-nb::tuple trace(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights, double angle,
+nb::tuple trace(const Domain& domain, const Vector<std::int64_t>& index, const OptionalWeights& weights, double angle,
                 const std::optional<Vector<double>>& direction, double length) {
-  const SurfacePoint from = single_point_from(mesh, {index, weights});
+  const SurfacePoint from = single_point_from(domain.mesh(), {index, weights});
   if (direction) {
     if (direction->shape(0) != 3) throw Error(ErrorCode::InvalidArgument, "a direction has three components");
     const double* d = direction->data();
-    angle = angle_of(mesh, from, {d[0], d[1], d[2]});
+    // On a wall there is no one angle, which straightest() says.
+    const std::vector<SurfacePoint> sides = domain.on_open(from);
+    if (!sides.empty()) angle = angle_of(domain.open(), sides.front(), {d[0], d[1], d[2]});
   }
   Trace walked;
   {
     const nb::gil_scoped_release release;
-    walked = straightest(mesh, from, angle, length);
+    walked = straightest(domain, from, angle, length);
   }
   const char* end = walked.end == TraceEnd::Length     ? "length"
                     : walked.end == TraceEnd::Boundary ? "boundary"
@@ -119,24 +123,45 @@ nb::tuple trace(const Mesh& mesh, const Vector<std::int64_t>& index, const Optio
 }
 
 // (angle, full turn) of a direction at a point.
-nb::tuple angle_at(const Mesh& mesh, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+nb::tuple angle_at(const Domain& domain, const Vector<std::int64_t>& index, const OptionalWeights& weights,
                    const Triples<double>& direction) {
-  const SurfacePoint at = single_point_from(mesh, {index, weights});
+  const Mesh& mesh = domain.open();
+  SurfacePoint at = single_point_from(domain.mesh(), {index, weights});
+  if (const std::vector<SurfacePoint> sides = domain.on_open(at); sides.size() == 1) {
+    at = sides.front();
+  } else {
+    throw Error(ErrorCode::InvalidArgument, "the place lies on a wall, or behind one: it has no angles");
+  }
   if (direction.shape(0) != 1) throw Error(ErrorCode::InvalidArgument, "a direction has three components");
   const double* d = direction.data();
   return nb::make_tuple(angle_of(mesh, at, {d[0], d[1], d[2]}), total_angle(mesh, at));
 }
 
-// Of the vertices that are reached: (vertex, radius, angle, total angle).
+// Of the vertices that are reached: (vertex, radius, angle, total angle, uv). With a direction angles count from there.
 nb::tuple logarithmic(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
-                      double max_radius) {
+                      double max_radius, const std::optional<Triples<double>>& direction) {
   const SurfacePoint source = single_point_from(solver.mesh(), {index, weights});
+  std::optional<Vec3> first;
+  if (direction) {
+    if (direction->shape(0) != 1) throw Error(ErrorCode::InvalidArgument, "a direction has three components");
+    first = {direction->data()[0], direction->data()[1], direction->data()[2]};
+  }
   Computation computation{nb::none()};
+  std::vector<double> flat;
   SparseLogMap map = computation.run(false, [&] {
-    return solver.with([&](DistanceSolver& s) { return log_map(s, source, max_radius, computation.cancel()); });
+    SparseLogMap found =
+        solver.with([&](DistanceSolver& s) { return log_map(s, source, max_radius, computation.cancel()); });
+    // Directions are those in what is open; a source that has several sides was refused.
+    const Mesh& open = solver.domain().open();
+    const SurfacePoint side = solver.domain().on_open(source).front();
+    SparseLogMap turned = found;
+    turn(open, side, first, turned);
+    for (const auto& [u, v] : flat_coordinates(open, side, turned)) flat.insert(flat.end(), {u, v});
+    return first ? turned : found;
   });
+  const std::size_t count = map.vertex.size();
   return nb::make_tuple(to_numpy_signed(std::move(map.vertex)), to_numpy(std::move(map.radius)),
-                        to_numpy(std::move(map.angle)), map.total_angle);
+                        to_numpy(std::move(map.angle)), map.total_angle, to_numpy(std::move(flat), {count, 2}));
 }
 
 }  // namespace
@@ -146,22 +171,22 @@ void bind_curves(nb::module_& m) {
       .def(nb::init<const Mesh&>(), nb::arg("mesh"), nb::call_guard<nb::gil_scoped_release>())
       .def("nearest", nearest, nb::arg("xyz").noconvert());
   m.def("path", path, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-        nb::arg("closed"), nb::arg("tighten"));
-  m.def("shorten", shortened, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+        nb::arg("closed"), nb::arg("tighten"), nb::arg("max_distance"));
+  m.def("shorten", shortened, nb::arg("domain"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"));
   m.def("length_of", length, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"));
   m.def("paths", paths, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert(),
-        nb::arg("target_weights").noconvert().none());
+        nb::arg("target_weights").noconvert().none(), nb::arg("max_distance"));
   m.def("edge_path", edge_path, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("offsets").noconvert(), nb::arg("target"));
-  m.def("angle_of", angle_at, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+  m.def("angle_of", angle_at, nb::arg("domain"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("direction").noconvert());
-  m.def("trace", trace, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+  m.def("trace", trace, nb::arg("domain"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("angle"), nb::arg("direction").noconvert().none(), nb::arg("length"));
   m.def("log_map", logarithmic, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-        nb::arg("max_radius"));
+        nb::arg("max_radius"), nb::arg("direction").noconvert().none());
 }
 
 }  // namespace brushfire::python

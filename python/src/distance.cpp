@@ -78,7 +78,7 @@ DistanceOptions options_from(const nb::dict& given, Computation& computation) {
 
 void bind_distance(nb::module_& m) {
   nb::class_<Solver>(m, "Solver")
-      .def(nb::init<const Mesh&>(), nb::arg("mesh"))
+      .def(nb::init<const Domain&>(), nb::arg("domain"))
       .def("set_up", set_up, nb::arg("options"))
       .def("solve", solve, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
            nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert().none(),

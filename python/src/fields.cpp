@@ -7,6 +7,7 @@
 #include <brushfire/queries/curved_isolines.h>
 #include <brushfire/queries/gradient.h>
 #include <brushfire/queries/isolines.h>
+#include <brushfire/queries/vertex_measures.h>
 
 #include <span>
 
@@ -22,11 +23,11 @@ nb::list to_list(std::span<const Isoline> lines) {
   return list;
 }
 
-nb::list linear(const Mesh& mesh, const Vector<double>& values, const Vector<double>& levels) {
+nb::list linear(const Domain& domain, const Vector<double>& values, const Vector<double>& levels) {
   // Copies: nobody may change them while they are looked at twice.
   const std::vector<double> field(values.data(), values.data() + values.shape(0));
   const std::vector<double> wanted(levels.data(), levels.data() + levels.shape(0));
-  return to_list(listening(false, [&] { return isolines(mesh, field, wanted); }));
+  return to_list(listening(false, [&] { return isolines(domain, field, wanted); }));
 }
 
 // Levels that follow from the field, which is known only here: every `every` units, or `count` of them, or those given.
@@ -48,12 +49,16 @@ nb::list curved(Solver& solver, const Vector<std::int64_t>& index, const std::op
     } else {
       chosen = every ? levels_every(field.distance, *every) : levels_between(field.distance, count);
     }
-    return curved_isolines(*field.windows, chosen, chord_error);
+    std::vector<Isoline> lines = curved_isolines(*field.windows, chosen, chord_error);
+    for (Isoline& l : lines) solver.domain().to_mesh(l.line.points);
+    return lines;
   }));
 }
 
-Result<double> gradients(const Mesh& mesh, const Vector<double>& values) {
-  const std::vector<Vec3> found = listening(false, [&] { return face_gradients(mesh, span_of(values)); });
+Result<double> gradients(const Mesh& mesh, const Vector<double>& values, bool on_vertices) {
+  const std::vector<Vec3> found = listening(false, [&] {
+    return on_vertices ? vertex_gradients(mesh, span_of(values)) : face_gradients(mesh, span_of(values));
+  });
   std::vector<double> flat;
   flat.reserve(3 * found.size());
   for (const Vec3& g : found) flat.insert(flat.end(), {g.x, g.y, g.z});
@@ -61,9 +66,10 @@ Result<double> gradients(const Mesh& mesh, const Vector<double>& values) {
 }
 
 // (face, weight rates, slope, vector), or None where nothing falls; the vector is None without positions.
-nb::object descent(const Mesh& mesh, const Vector<double>& values, const Vector<std::int64_t>& index,
+nb::object descent(const Domain& domain, const Vector<double>& values, const Vector<std::int64_t>& index,
                    const std::optional<Triples<double>>& weights) {
-  const SurfaceDirection d = steepest_descent(mesh, span_of(values), single_point_from(mesh, {index, weights}));
+  const Mesh& mesh = domain.mesh();
+  const SurfaceDirection d = steepest_descent(domain, span_of(values), single_point_from(mesh, {index, weights}));
   if (d.face == kNoIndex) return nb::none();
   nb::object vector = nb::none();
   if (mesh.has_positions()) {
@@ -105,7 +111,7 @@ nb::dict compare(const Vector<double>& field, const Vector<double>& reference,
 }  // namespace
 
 void bind_fields(nb::module_& m) {
-  m.def("isolines", linear, nb::arg("mesh"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());
+  m.def("isolines", linear, nb::arg("domain"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());
   m.def("curved_isolines", curved, nb::arg("solver"), nb::arg("index").noconvert(),
         nb::arg("weights").noconvert().none(), nb::arg("offsets").noconvert(), nb::arg("options"),
         nb::arg("levels").noconvert().none(), nb::arg("every").none(), nb::arg("count"), nb::arg("chord_error"),
@@ -118,12 +124,12 @@ void bind_fields(nb::module_& m) {
       "levels_between",
       [](const Vector<double>& values, Index count) { return to_numpy(levels_between(span_of(values), count)); },
       nb::arg("values").noconvert(), nb::arg("count"));
-  m.def("face_gradients", gradients, nb::arg("mesh"), nb::arg("values").noconvert());
-  m.def("steepest_descent", descent, nb::arg("mesh"), nb::arg("values").noconvert(), nb::arg("index").noconvert(),
+  m.def("gradients", gradients, nb::arg("mesh"), nb::arg("values").noconvert(), nb::arg("on_vertices"));
+  m.def("steepest_descent", descent, nb::arg("domain"), nb::arg("values").noconvert(), nb::arg("index").noconvert(),
         nb::arg("weights").noconvert().none());
   m.def("compare_fields", compare, nb::arg("field").noconvert(), nb::arg("reference").noconvert(),
         nb::arg("weights").noconvert().none());
-  m.def("vertex_areas", [](const Mesh& mesh) { return to_numpy(vertex_areas(mesh)); }, nb::arg("mesh"));
+  m.def("vertex_areas", [](const Domain& domain) { return to_numpy(vertex_areas(domain)); }, nb::arg("domain"));
 }
 
 }  // namespace brushfire::python

@@ -43,23 +43,24 @@ struct Call {
 };
 
 template <class T>
-void fill_matrix(const Mesh& mesh, const nb::ndarray<T, nb::ndim<2>, nb::c_contig, nb::device::cpu>& out,
+void fill_matrix(const Domain& domain, const nb::ndarray<T, nb::ndim<2>, nb::c_contig, nb::device::cpu>& out,
                  const OptionalIndex& row_index, const OptionalWeights& row_weights, const OptionalIndex& column_index,
                  const OptionalWeights& column_weights, const nb::dict& given, unsigned threads, nb::object progress) {
   Call call(row_index, row_weights, column_index, column_weights, given, threads, std::move(progress));
   call.computation.run(false, [&] {
-    distance_matrix<T>(mesh, view(call.rows), view(call.columns), std::span<T>(out.data(), out.size()), call.options);
+    distance_matrix<T>(domain, view(call.rows), view(call.columns), std::span<T>(out.data(), out.size()), call.options);
     return true;
   });
 }
 
 template <class T>
-nb::tuple sparse(const Mesh& mesh, double radius, const OptionalIndex& row_index, const OptionalWeights& row_weights,
-                 const nb::dict& given, unsigned threads, std::uint64_t memory_limit, nb::object progress) {
+nb::tuple sparse(const Domain& domain, double radius, const OptionalIndex& row_index,
+                 const OptionalWeights& row_weights, const nb::dict& given, unsigned threads,
+                 std::uint64_t memory_limit, nb::object progress) {
   Call call(row_index, row_weights, {}, {}, given, threads, std::move(progress));
   call.options.memory_limit = memory_limit;
   SparseMatrix<T> matrix =
-      call.computation.run(false, [&] { return distances_within<T>(mesh, radius, view(call.rows), call.options); });
+      call.computation.run(false, [&] { return distances_within<T>(domain, radius, view(call.rows), call.options); });
   std::vector<std::int64_t> starts(matrix.row_start.begin(), matrix.row_start.end());
   return nb::make_tuple(to_numpy(std::move(matrix.value)), to_numpy_signed(std::move(matrix.column)),
                         to_numpy(std::move(starts)));
@@ -85,7 +86,7 @@ nb::tuple sparse_rows(Solver& solver, double radius, const Vector<std::int64_t>&
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Index* vertex = std::get_if<Index>(&rows[i]);
       // A vertex in no face is a legal place, from which nothing is reached.
-      if (!vertex || *vertex >= mesh.vertex_count() || !mesh.corners(*vertex).empty()) {
+      if (!vertex || *vertex >= mesh.vertex_count() || solver.domain().is_open(*vertex)) {
         const Source source{vertex ? vertex_point(mesh, *vertex) : std::get<SurfacePoint>(rows[i])};
         solver.with([&](DistanceSolver& s) { s.distance_sparse(std::span(&source, 1), options, field); });
         values.insert(values.end(), field.distance.begin(), field.distance.end());
@@ -100,12 +101,12 @@ nb::tuple sparse_rows(Solver& solver, double radius, const Vector<std::int64_t>&
   return nb::make_tuple(to_numpy(std::move(values)), to_numpy_signed(std::move(vertices)), to_numpy(std::move(starts)));
 }
 
-void write(const Mesh& mesh, const std::string& path, bool float32, const OptionalIndex& row_index,
+void write(const Domain& domain, const std::string& path, bool float32, const OptionalIndex& row_index,
            const OptionalWeights& row_weights, const OptionalIndex& column_index, const OptionalWeights& column_weights,
            const nb::dict& given, unsigned threads, nb::object progress) {
   Call call(row_index, row_weights, column_index, column_weights, given, threads, std::move(progress));
   call.computation.run(false, [&] {
-    write_distance_matrix(path, mesh, view(call.rows), view(call.columns),
+    write_distance_matrix(path, domain, view(call.rows), view(call.columns),
                           float32 ? ValueType::Float32 : ValueType::Float64, call.options);
     return true;
   });
@@ -117,7 +118,7 @@ void require_dense(std::size_t rows, std::size_t columns, bool float32, std::uin
 
 template <class T>
 void bind_typed(nb::module_& m) {
-  m.def("fill_matrix", fill_matrix<T>, nb::arg("mesh"), nb::arg("out").noconvert(), nb::arg("row_index").none(),
+  m.def("fill_matrix", fill_matrix<T>, nb::arg("domain"), nb::arg("out").noconvert(), nb::arg("row_index").none(),
         nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
         nb::arg("options"), nb::arg("threads"), nb::arg("progress").none());
 }
@@ -128,13 +129,13 @@ void bind_matrix(nb::module_& m) {
   bind_typed<float>(m);
   bind_typed<double>(m);
   for (const bool is_float : {true, false}) {
-    m.def(is_float ? "sparse_float32" : "sparse_float64", is_float ? sparse<float> : sparse<double>, nb::arg("mesh"),
+    m.def(is_float ? "sparse_float32" : "sparse_float64", is_float ? sparse<float> : sparse<double>, nb::arg("domain"),
           nb::arg("radius"), nb::arg("row_index").none(), nb::arg("row_weights").none(), nb::arg("options"),
           nb::arg("threads"), nb::arg("memory_limit"), nb::arg("progress").none());
   }
   m.def("sparse_rows", sparse_rows, nb::arg("solver"), nb::arg("radius"), nb::arg("index").noconvert(),
         nb::arg("weights").noconvert().none(), nb::arg("options"), nb::arg("progress").none());
-  m.def("write_matrix", write, nb::arg("mesh"), nb::arg("path"), nb::arg("float32"), nb::arg("row_index").none(),
+  m.def("write_matrix", write, nb::arg("domain"), nb::arg("path"), nb::arg("float32"), nb::arg("row_index").none(),
         nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
         nb::arg("options"), nb::arg("threads"), nb::arg("progress").none());
   m.def("require_dense_memory", require_dense, nb::arg("rows"), nb::arg("columns"), nb::arg("float32"),

@@ -10,8 +10,9 @@ namespace brushfire::python {
 // Calls from several threads wait for each other.
 class Solver {
  public:
-  explicit Solver(const Mesh& mesh) : solver_(mesh) {}
+  explicit Solver(const Domain& domain) : solver_(domain) {}
 
+  const Domain& domain() const { return solver_.domain(); }
   const Mesh& mesh() const { return solver_.mesh(); }
 
   // use(DistanceSolver&), while nobody else does. Without the GIL: who waits for the solver must not hold it.

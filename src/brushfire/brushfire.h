@@ -7,8 +7,10 @@
 #include <brushfire/core/parallel.h>
 #include <brushfire/core/progress.h>
 #include <brushfire/core/types.h>
+#include <brushfire/mesh/boundaries.h>
 #include <brushfire/mesh/cut.h>
 #include <brushfire/mesh/delaunay.h>
+#include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/nearest_point.h>
 #include <brushfire/mesh/polygons.h>
@@ -22,17 +24,25 @@
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>
 #if BRUSHFIRE_QUERIES
+#include <brushfire/queries/centroidal.h>
 #include <brushfire/queries/certify.h>
 #include <brushfire/queries/compare.h>
 #include <brushfire/queries/curved_isolines.h>
 #include <brushfire/queries/distance_matrix.h>
+#include <brushfire/queries/extent.h>
 #include <brushfire/queries/gradient.h>
 #include <brushfire/queries/isolines.h>
+#include <brushfire/queries/karcher_mean.h>
+#include <brushfire/queries/log_coordinates.h>
+#include <brushfire/queries/nearest_sources.h>
+#include <brushfire/queries/parcels.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/sampling.h>
 #include <brushfire/queries/shorten.h>
+#include <brushfire/queries/smoothing.h>
 #include <brushfire/queries/straightest.h>
 #include <brushfire/queries/surface_path.h>
+#include <brushfire/queries/vertex_measures.h>
 #include <brushfire/queries/voronoi.h>
 #endif
 #if BRUSHFIRE_IO

@@ -99,7 +99,7 @@ DistanceOptions in_double() {
   return options;
 }
 
-// Parts learn of each other by letters, and late.
+// Parts learn of each other by messages, and late.
 TEST(PlanarExactness, PartsAreExactToo) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
@@ -120,7 +120,7 @@ TEST(PlanarExactness, PartsAreExactToo) {
   }
 }
 
-// Parts of one vertex and some: what a vertex learns of its neighbours it learns by letters, and the number of its
+// Parts of one vertex and some: what a vertex learns of its neighbours it learns by messages, and the number of its
 // turns is limited.
 TEST(PlanarExactness, TinyPartsAreHardlyEverInexact) {
   int inexact = 0, runs = 0;

@@ -112,7 +112,7 @@ TEST(ReuseOfMarching, ShortRunsCostWhatTheyReach) {
   EXPECT_LT(updates[0], 200u);
 }
 
-// In parts that write letters to each other, by several threads.
+// In parts that send messages to each other, by several threads.
 TEST(ReuseOfMarching, AllocatesNothingInParts) {
   const Mesh mesh = shapes::folded_sphere(4).mesh();
   const std::vector<Source> sources = some_sources(mesh);

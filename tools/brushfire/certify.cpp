@@ -210,7 +210,12 @@ int certify_verb(const Arguments& a, const Talk& talk) {
   const Surface surface(a.mesh, a.shared);
   stop_if_interrupted();
   const Index count = surface.file().mesh.vertex_count();
-  const std::vector<double> field = values_of(read_field(a.field, a.shared.array_name), a.field, count, a.mesh);
+  std::vector<double> field = values_of(read_field(a.field, a.shared.array_name), a.field, count, a.mesh);
+  // What lies behind walls may be no number, as it is in GIFTI.
+  const std::vector<std::uint8_t> open = surface.open_vertices();
+  for (std::size_t v = 0; v < open.size(); ++v) {
+    if (!open[v] && std::isnan(field[v])) field[v] = kInfinity;
+  }
   PlaceFinder finder(surface.mesh(), a.shared.snap_within);
   const std::vector<Source> sources = sources_on(surface, finder, places);
   finder.tell(talk);
@@ -218,7 +223,7 @@ int certify_verb(const Arguments& a, const Talk& talk) {
   options.cancel = &cancel_token();
   options.progress = talk.progress("certify");
   const Certificate certificate =
-      on_file(surface, certify(surface.mesh(), surface.on_mesh(field, a.field), sources, options));
+      on_file(surface, certify(surface.domain(), surface.on_mesh(field, a.field), sources, options));
   talk.end_progress();
 
   if (!a.output.empty()) write(a.output, surface.file().mesh, field, certificate);

@@ -1,5 +1,6 @@
 // brushfire distance: the distance of every vertex from the nearest source.
 #include "computing.h"
+#include "fields.h"
 #include "interrupt.h"
 #include "output.h"
 #include "reached.h"
@@ -7,7 +8,6 @@
 #include "surface.h"
 #include "where.h"
 
-#include <brushfire/io/write_field.h>
 #include <brushfire/solvers/distance.h>
 
 #include <chrono>
@@ -114,7 +114,7 @@ std::string json(const Arguments& arguments, const Run& run, const PlaceFinder& 
     Record& target = targets.emplace_back();
     target.add("where", run.target_places[i].text)
         .add("reached", reached)
-        .add("unreachable", !reached && run.reached.is_unreachable(run.mesh, run.options.targets[i]))
+        .add("unreachable", !reached && run.reached.is_unreachable(run.options.targets[i]))
         .add("distance", field.target_distance[i])
         .add("source", reached ? count(field.target_source[i]) : -1);
   }
@@ -147,9 +147,7 @@ void write(const Arguments& arguments, const Run& run, const Surface& surface) {
   const std::vector<double> values = surface.on_file<double>(run.field.distance);
   std::vector<Index> labels;
   if (arguments.labels || !arguments.output.ends_with(".gii")) labels = surface.on_file<Index>(run.field.source);
-  write_field(arguments.output, surface.file().mesh,
-              {.values = values, .labels = labels, .structure = surface.file().structure},
-              arguments.output == "-" ? "csv" : "");
+  write_values(surface, arguments.output, {.values = values, .labels = labels});
 }
 
 int distance_verb(const Arguments& arguments, const Talk& talk) {
@@ -174,7 +172,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   places.tell(talk);
 
   const Stopwatch setting_up;
-  DistanceSolver solver(run.mesh);
+  DistanceSolver solver(surface.domain());
   solver.set_up(options);
   run.set_up_s = setting_up.seconds();
 
@@ -182,7 +180,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   run.field = solver.distance(run.sources, options);
   run.solve_s = solving.seconds();
   talk.end_progress();
-  run.reached = Reached(run.mesh, run.sources, options, run.field);
+  run.reached = Reached(surface.domain(), run.sources, options, run.field);
 
   if (!arguments.output.empty()) write(arguments, run, surface);
   if (talk.json) {
@@ -198,7 +196,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   }
   for (std::size_t i = 0; i < run.target_places.size(); ++i) {
     if (run.field.target_distance[i] != kInfinity) continue;
-    throw Unreachable(run.target_places[i].text, !run.reached.is_unreachable(run.mesh, options.targets[i]));
+    throw Unreachable(run.target_places[i].text, !run.reached.is_unreachable(options.targets[i]));
   }
   return kOk;
 }

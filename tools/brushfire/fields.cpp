@@ -1,6 +1,8 @@
 // Fields that have to fit.
 #include "fields.h"
 
+#include <brushfire/io/write_field.h>
+
 namespace brushfire::tool {
 
 std::vector<double> values_of(const LoadedField& loaded, const std::string& path, std::size_t count,
@@ -27,6 +29,19 @@ void check_scalar_or_source(const SharedArguments& a) {
   if (source) refuse("--scalar and " + std::string(source) + " both say what to show: give one");
   const char* const computing = given(a, kComputing);
   if (computing) refuse("--scalar has the values: there is nothing for " + std::string(computing) + " to compute");
+}
+
+void write_values(const Surface& surface, const std::string& output, const Values& v) {
+  const std::vector<std::uint8_t> open =
+      output.ends_with(".gii") ? surface.open_vertices() : std::vector<std::uint8_t>{};
+  write_field(output, surface.file().mesh,
+              {.values = v.values,
+               .labels = v.labels,
+               .name = v.name,
+               .label_name = v.label_name,
+               .mask = open,
+               .structure = surface.file().structure},
+              output == "-" ? "csv" : "");
 }
 
 }  // namespace brushfire::tool

@@ -1,4 +1,4 @@
-// Fields from files: those that are judged, and those of --scalar.
+// Fields from files: those that are judged, and those of --scalar. And to files.
 #pragma once
 
 #include "surface.h"
@@ -23,5 +23,17 @@ std::vector<double> values_on(const Surface& surface, const std::string& path, c
 // What a verb shows: the values of --scalar, or distances. Throws Error(InvalidArgument) where both are asked for, or
 // neither is.
 void check_scalar_or_source(const SharedArguments& arguments);
+
+// What is written beside the file's mesh, on its vertices.
+struct Values {
+  std::vector<double> values{};
+  std::vector<Index> labels{};
+  std::string name = "distance";
+  std::string label_name = "source";
+};
+
+// In the format that the extension names, "-" is CSV on standard output. What lies behind walls is no number in GIFTI,
+// and out of reach elsewhere.
+void write_values(const Surface& surface, const std::string& output, const Values& values);
 
 }  // namespace brushfire::tool

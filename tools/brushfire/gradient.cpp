@@ -42,36 +42,54 @@ void check(const Arguments& a, const Talk& talk) {
   if (a.output == "-" && talk.json) refuse("only one of -o - and --json can have the standard output");
 }
 
+// One value per vertex of surface.domain().open(): at walls, on every side of them.
 std::vector<double> field_of(const Arguments& a, const Surface& surface, PlaceFinder& finder, const Talk& talk) {
-  if (!a.shared.scalar_file.empty()) return values_on(surface, a.shared.scalar_file, a.shared.array_name);
+  const Domain& domain = surface.domain();
+  if (!a.shared.scalar_file.empty()) {
+    return domain.spread(values_on(surface, a.shared.scalar_file, a.shared.array_name));
+  }
   const std::vector<Source> sources = sources_on(surface, finder, parse_sources(a.shared));
   finder.tell(talk);
   DistanceOptions options = computation(a.shared, Method::Exact);
   options.progress = talk.progress("distance");
-  DistanceField field = distance(surface.mesh(), sources, options);
+  DistanceField field = distance(domain, sources, options);
   talk.end_progress();
-  return std::move(field.distance);
+  return domain.has_walls() ? std::move(field.side_distance) : std::move(field.distance);
+}
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// At a wall, on the side where the value is least.
+std::vector<Vec3> on_vertices(const Domain& domain, const std::vector<double>& field) {
+  const std::vector<Vec3> found = vertex_gradients(domain.open(), field);
+  std::vector<Vec3> vectors(domain.mesh().vertex_count(), Vec3{kNone, kNone, kNone});
+  std::vector<double> least(domain.mesh().vertex_count(), kInfinity);
+  for (Index v = 0; v < found.size(); ++v) {
+    const Index original = domain.vertex(v);
+    if (!std::isfinite(field[v]) || !(field[v] < least[original])) continue;
+    least[original] = field[v];
+    vectors[original] = found[v];
+  }
+  return vectors;
+}
+
+std::vector<Vec3> on_faces(const Domain& domain, const std::vector<double>& field) {
+  const std::vector<Vec3> found = face_gradients(domain.open(), field);
+  std::vector<Vec3> vectors(domain.mesh().face_count(), Vec3{kNone, kNone, kNone});
+  for (Index f = 0; f < found.size(); ++f) {
+    const Face& face = domain.open().faces()[f];
+    if (std::all_of(face.begin(), face.end(), [&](Index v) { return std::isfinite(field[v]); })) {
+      vectors[domain.face(f)] = found[f];
+    }
+  }
+  return vectors;
 }
 
 // Three numbers for each face of the file, or for each of its vertices; nan where the field has no value.
 std::vector<double> rows_of(const Arguments& a, const Surface& surface, const std::vector<double>& field) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  const Mesh& mesh = surface.mesh();
-  const auto has_value = [&](Index v) { return std::isfinite(field[v]); };
-  std::vector<Vec3> vectors;
-  if (a.on == "vertices") {
-    vectors = vertex_gradients(mesh, field);
-    for (Index v = 0; v < vectors.size(); ++v) {
-      if (!has_value(v)) vectors[v] = {kNone, kNone, kNone};
-    }
-    vectors = surface.on_file<Vec3>(vectors);
-  } else {
-    vectors = face_gradients(mesh, field);
-    for (Index f = 0; f < vectors.size(); ++f) {
-      const Face& face = mesh.faces()[f];
-      if (!std::all_of(face.begin(), face.end(), has_value)) vectors[f] = {kNone, kNone, kNone};
-    }
-  }
+  const Domain& domain = surface.domain();
+  const std::vector<Vec3> vectors =
+      a.on == "vertices" ? surface.on_file<Vec3>(on_vertices(domain, field)) : on_faces(domain, field);
   std::vector<double> rows;
   rows.reserve(3 * vectors.size());
   for (const Vec3& g : vectors) rows.insert(rows.end(), {g.x, g.y, g.z});

@@ -2,6 +2,7 @@
 #include "command_line.h"
 #include "surface.h"
 
+#include <brushfire/mesh/boundaries.h>
 #include <brushfire/mesh/report.h>
 
 #include <cstdio>
@@ -48,6 +49,8 @@ void add_counts(Record& record, const MeshReport& r) {
   record.add("area", r.area);
 }
 
+constexpr std::size_t kBoundariesShown = 8;
+
 // The counts that say something about any mesh; the unusual ones stand in the remarks.
 std::string in_words(const Arguments& a, const Surface& surface, const std::vector<std::string>& remarks) {
   const MeshReport& r = surface.mesh().report();
@@ -66,6 +69,32 @@ std::string in_words(const Arguments& a, const Surface& surface, const std::vect
   line("edge length", readable(r.min_edge_length) + " .. " + readable(r.max_edge_length) + ", mean " +
                           readable(r.mean_edge_length) + unit);
   line("area", readable(r.area) + (unit.empty() ? "" : unit + "^2"));
+  std::size_t number = 0;
+  for (const Boundary& b : boundaries(surface.mesh())) {
+    if (number == kBoundariesShown) {
+      line("...", "--json lists all of them");
+      break;
+    }
+    line(("boundary:" + std::to_string(number++)).c_str(), (b.closed ? "closed, " : "open, ") + readable(b.length) +
+                                                               unit + " long, from vertex " +
+                                                               std::to_string(b.vertices.front()));
+  }
+  if (surface.domain().has_walls()) {
+    const OpenPart open = open_part(surface.domain());
+    const std::string square = unit.empty() ? "" : unit + "^2";
+    line("behind walls",
+         counted(open.closed_faces, "face", "faces") + ", " + counted(open.closed_vertices, "vertex", "vertices"));
+    line("open", readable(open.area) + square + " in " + counted(open.components, "component", "components") +
+                     ", the largest " + readable(open.largest_area) + square);
+    if (open.islanders > 0) {
+      text += "  - " + counted(open.islanders, "open vertex is", "open vertices are") +
+              " outside of the largest open component: no way leads there from it\n";
+    }
+    if (const Index left = surface.left_alone(); left > 0) {
+      text += "  - " + counted(left, "vertex is", "vertices are") +
+              " open by the mask, but in no face whose three vertices are: nothing reaches them\n";
+    }
+  }
   for (const std::string& remark : remarks) text += "  - " + remark + "\n";
   return text;
 }
@@ -81,6 +110,25 @@ int info(const Arguments& arguments, const Talk& talk) {
   Record record;
   record.add("file", arguments.file).add("format", surface.file().format).add("unit", unit_of(arguments.shared));
   add_counts(record, surface.mesh().report());
+  std::vector<Record> curves;
+  for (const Boundary& b : boundaries(surface.mesh())) {
+    curves.emplace_back()
+        .add("length", b.length)
+        .add("closed", b.closed)
+        .add("vertices", static_cast<std::int64_t>(b.vertices.size()))
+        .add("first_vertex", std::int64_t{b.vertices.front()});
+  }
+  record.add("boundaries", std::move(curves));
+  if (surface.domain().has_walls()) {
+    const OpenPart open = open_part(surface.domain());
+    record.add("closed_faces", std::int64_t{open.closed_faces})
+        .add("closed_vertices", std::int64_t{open.closed_vertices})
+        .add("open_components", std::int64_t{open.components})
+        .add("open_area", open.area)
+        .add("largest_open_area", open.largest_area)
+        .add("outside_largest", std::int64_t{open.islanders})
+        .add("open_in_no_face", std::int64_t{surface.left_alone()});
+  }
   record.add("remarks", remarks);
   write_stdout(record.json());
   return kOk;

@@ -98,9 +98,17 @@ DistanceField solve(const Arguments& a, const Surface& surface, PlaceFinder& pla
   DistanceOptions options = computation(a.shared, Method::Exact);
   options.keep_windows = a.curved.has_value();
   options.progress = talk.progress("distance");
-  DistanceField field = distance(surface.mesh(), sources, options);
+  DistanceField field = distance(surface.domain(), sources, options);
   talk.end_progress();
   return field;
+}
+
+std::vector<Isoline> curves_of(const Arguments& a, const Domain& domain, const DistanceField& field,
+                               const std::vector<double>& levels) {
+  if (!a.curved) return isolines(domain, field.side_distance.empty() ? field.distance : field.side_distance, levels);
+  std::vector<Isoline> found = curved_isolines(*field.windows, levels, *a.curved);
+  for (Isoline& line : found) domain.to_mesh(line.line.points);
+  return found;
 }
 
 int isolines_verb(const Arguments& a, const Talk& talk) {
@@ -119,8 +127,7 @@ int isolines_verb(const Arguments& a, const Talk& talk) {
   const std::vector<double> levels = levels_of(a, field.distance);
   const std::pair<double, double> range = range_of(field.distance);
   const std::size_t outside = tell_outside(a, levels, range, talk);
-  const std::vector<Isoline> found =
-      a.curved ? curved_isolines(*field.windows, levels, *a.curved) : isolines(mesh, field.distance, levels);
+  const std::vector<Isoline> found = curves_of(a, surface.domain(), field, levels);
   std::vector<SurfaceLine> lines;
   double length = 0;
   std::int64_t closed = 0;

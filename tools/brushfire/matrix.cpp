@@ -102,8 +102,9 @@ void check(const Arguments& a) {
 }
 
 template <class T>
-std::uint64_t write_sparse(const Arguments& arguments, const Mesh& mesh, Places rows, const MatrixOptions& options) {
-  const SparseMatrix<T> matrix = distances_within<T>(mesh, *arguments.shared.radius, rows, options);
+std::uint64_t write_sparse(const Arguments& arguments, const Domain& domain, Places rows,
+                           const MatrixOptions& options) {
+  const SparseMatrix<T> matrix = distances_within<T>(domain, *arguments.shared.radius, rows, options);
   write_sparse_matrix(arguments.output, matrix);
   return matrix.value.size();
 }
@@ -132,11 +133,11 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
   const bool is_float = arguments.type == "float32";
   std::uint64_t entries = row_count * column_count;
   if (is_sparse(arguments.output)) {
-    entries = is_float ? write_sparse<float>(arguments, mesh, rows, options)
-                       : write_sparse<double>(arguments, mesh, rows, options);
+    entries = is_float ? write_sparse<float>(arguments, surface.domain(), rows, options)
+                       : write_sparse<double>(arguments, surface.domain(), rows, options);
   } else {
-    write_distance_matrix(arguments.output, mesh, rows, columns, is_float ? ValueType::Float32 : ValueType::Float64,
-                          options);
+    write_distance_matrix(arguments.output, surface.domain(), rows, columns,
+                          is_float ? ValueType::Float32 : ValueType::Float64, options);
   }
   const double solve_s = seconds_since(start);
   talk.end_progress();
@@ -171,7 +172,7 @@ void add_matrix(CommandLine& command_line) {
   command_line.add("matrix", "Distances from many places to many places", [&](Verb& verb) {
     add_surface(verb, arguments->file);
     verb.option("--rows", arguments->rows, "PLACES", "all, a list of vertices, or a file with one place per line");
-    verb.option("--cols", arguments->columns, "PLACES", "The same for the columns");
+    verb.option("--cols,--columns", arguments->columns, "PLACES", "The same for the columns");
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
     verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy, with --radius also .npz .mtx");
     verb.talks();

@@ -10,6 +10,7 @@
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/shorten.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace brushfire::tool {
@@ -62,30 +63,25 @@ void check(const Arguments& a) {
   if (method_of(a) != Method::Exact && is_tour(a)) refuse("--via, --closed and --tighten need --method exact");
 }
 
-Index vertex_of(const Mesh& mesh, const SurfacePoint& point) {
-  const PointLocation at = locate(mesh, point);
-  if (at.on != PointLocation::On::Vertex) refuse("paths along edges (--method dijkstra) run between vertices");
-  return at.vertex;
-}
-
-std::vector<Found> along_edges(const Mesh& mesh, const std::vector<Source>& sources,
-                               const std::vector<SurfacePoint>& targets, DistanceOptions options) {
-  for (const Source& s : sources) vertex_of(mesh, s.point);
-  options.targets = targets;
-  const DistanceField field = distance(mesh, sources, options);
+std::vector<Found> along_edges(const Domain& domain, const std::vector<Source>& sources,
+                               const std::vector<SurfacePoint>& targets, const DistanceOptions& options) {
+  const auto check_vertex = [&](const SurfacePoint& p) {
+    if (p.is_nowhere() || locate(domain.mesh(), p).on == PointLocation::On::Vertex) return;
+    refuse("paths along edges (--method dijkstra) run between vertices");
+  };
+  for (const Source& s : sources) check_vertex(s.point);
+  for (const SurfacePoint& t : targets) check_vertex(t);
   std::vector<Found> found;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    Found& f = found.emplace_back();
-    if (targets[i].is_nowhere() || field.target_distance[i] == kInfinity) continue;
-    f.path = edge_path_to(mesh, field, vertex_of(mesh, targets[i]));
-    f.source = field.target_source[i];
+  for (SourcePath& path : edge_paths_to(domain, sources, targets, options)) {
+    const Index source = path.source;
+    found.push_back({std::move(path), source, ""});
   }
   return found;
 }
 
-std::vector<Found> across_faces(const Mesh& mesh, const std::vector<Source>& sources,
+std::vector<Found> across_faces(const Domain& domain, const std::vector<Source>& sources,
                                 const std::vector<SurfacePoint>& targets, const DistanceOptions& options) {
-  DistanceSolver solver(mesh);
+  DistanceSolver solver(domain);
   std::vector<Found> found;
   for (SourcePath& path : paths_to(solver, sources, targets, options)) {
     const Index source = path.source;
@@ -94,11 +90,11 @@ std::vector<Found> across_faces(const Mesh& mesh, const std::vector<Source>& sou
   return found;
 }
 
-std::vector<Found> tour(const Arguments& a, const Mesh& mesh, const std::vector<SurfacePoint>& waypoints,
+std::vector<Found> tour(const Arguments& a, const Domain& domain, const std::vector<SurfacePoint>& waypoints,
                         const DistanceOptions& options) {
-  DistanceSolver solver(mesh);
+  DistanceSolver solver(domain);
   SurfacePath path = path_through(solver, waypoints, a.closed, options);
-  if (a.tighten && !path.points.empty()) path = shorten(mesh, path.points, a.closed);
+  if (a.tighten && !path.points.empty()) path = shorten(domain, path.points, a.closed);
   return {{std::move(path), 0, ""}};
 }
 
@@ -136,11 +132,16 @@ void write(const Arguments& a, const Mesh& mesh, const std::vector<Found>& all, 
   if (!lines.empty()) write_lines(a.output, mesh, lines, "length", "", drawing);
 }
 
-bool is_connected(const Mesh& mesh, const std::vector<Source>& sources, const SurfacePoint& target) {
-  if (target.is_nowhere()) return false;
+bool is_connected(const Domain& domain, const std::vector<Source>& sources, const SurfacePoint& target) {
   std::vector<SurfacePoint> points;
-  for (const Source& s : sources) points.push_back(s.point);
-  return reachable(mesh, points)[mesh.faces()[target.face][0]] != 0;
+  for (const Source& s : sources) {
+    const std::vector<SurfacePoint> sides = domain.on_open(s.point);
+    points.insert(points.end(), sides.begin(), sides.end());
+  }
+  const std::vector<std::uint8_t> is_reachable = reachable(domain.open(), points);
+  const std::vector<SurfacePoint> ends = domain.on_open(target);
+  return std::any_of(ends.begin(), ends.end(),
+                     [&](const SurfacePoint& p) { return is_reachable[domain.open().faces()[p.face][0]] != 0; });
 }
 
 int path_verb(const Arguments& a, const Talk& talk) {
@@ -163,9 +164,10 @@ int path_verb(const Arguments& a, const Talk& talk) {
   waypoints.insert(waypoints.end(), targets.begin(), targets.end());
   finder.tell(talk);
 
-  std::vector<Found> found = is_tour(a)                        ? tour(a, mesh, waypoints, options)
-                             : options.method == Method::Exact ? across_faces(mesh, sources, targets, options)
-                                                               : along_edges(mesh, sources, targets, options);
+  std::vector<Found> found = is_tour(a) ? tour(a, surface.domain(), waypoints, options)
+                             : options.method == Method::Exact
+                                 ? across_faces(surface.domain(), sources, targets, options)
+                                 : along_edges(surface.domain(), sources, targets, options);
   for (std::size_t i = 0; i < found.size(); ++i) found[i].to = a.closed ? source_places[0].text : to[i].text;
   if (!a.output.empty()) write(a, mesh, found, drawing);
   if (talk.json) {
@@ -177,7 +179,8 @@ int path_verb(const Arguments& a, const Talk& talk) {
   }
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (!found[i].path.points.empty()) continue;
-    throw Unreachable(found[i].to, is_connected(mesh, sources, targets.empty() ? waypoints.back() : targets[i]));
+    throw Unreachable(found[i].to,
+                      is_connected(surface.domain(), sources, targets.empty() ? waypoints.back() : targets[i]));
   }
   return kOk;
 }

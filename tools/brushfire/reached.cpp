@@ -7,22 +7,33 @@
 
 namespace brushfire::tool {
 
-Reached::Reached(const Mesh& mesh, std::span<const Source> sources, const DistanceOptions& options,
+Reached::Reached(const Domain& domain, std::span<const Source> sources, const DistanceOptions& options,
                  const DistanceField& field)
     : reached_(field.reached),
       unreachable_(field.unreachable),
       beyond_radius_(field.beyond_radius),
-      has_radius_(options.max_distance < kInfinity) {
+      has_radius_(options.max_distance < kInfinity),
+      domain_(domain) {
   if (!has_radius_ && options.targets.empty()) return;
   std::vector<SurfacePoint> points;
-  for (const Source& s : sources) points.push_back(s.point);
-  is_reachable_ = reachable(mesh, points);
-  unreachable_ = static_cast<Index>(std::count(is_reachable_.begin(), is_reachable_.end(), 0));
-  not_visited_ = field.unreachable - unreachable_;
+  for (const Source& s : sources) {
+    const std::vector<SurfacePoint> sides = domain.on_open(s.point);
+    points.insert(points.end(), sides.begin(), sides.end());
+  }
+  is_reachable_ = reachable(domain.open(), points);
+  std::vector<std::uint8_t> on_any_side(domain.mesh().vertex_count(), 0);
+  for (Index v = 0; v < is_reachable_.size(); ++v) {
+    if (is_reachable_[v]) on_any_side[domain.vertex(v)] = 1;
+  }
+  unreachable_ = static_cast<Index>(std::count(on_any_side.begin(), on_any_side.end(), 0));
+  not_visited_ = field.unreachable > unreachable_ ? field.unreachable - unreachable_ : 0;
 }
 
-bool Reached::is_unreachable(const Mesh& mesh, const SurfacePoint& point) const {
-  return point.is_nowhere() || is_reachable_.empty() || is_reachable_[mesh.faces()[point.face][0]] == 0;
+bool Reached::is_unreachable(const SurfacePoint& point) const {
+  if (is_reachable_.empty()) return true;
+  const std::vector<SurfacePoint> sides = domain_.on_open(point);
+  return std::none_of(sides.begin(), sides.end(),
+                      [&](const SurfacePoint& p) { return is_reachable_[domain_.open().faces()[p.face][0]] != 0; });
 }
 
 void Reached::add_to(Record& record) const {

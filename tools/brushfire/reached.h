@@ -3,7 +3,7 @@
 
 #include "talk.h"
 
-#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/domain.h>
 #include <brushfire/solvers/distance.h>
 
 #include <cstdint>
@@ -17,11 +17,11 @@ class Reached {
  public:
   Reached() = default;
   // O(faces) where a radius or targets may have stopped the run, and nothing otherwise.
-  Reached(const Mesh& mesh, std::span<const Source> sources, const DistanceOptions& options,
+  Reached(const Domain& domain, std::span<const Source> sources, const DistanceOptions& options,
           const DistanceField& field);
 
   // Whether no way leads there at all, whatever the radius. For targets that the run did not reach.
-  bool is_unreachable(const Mesh& mesh, const SurfacePoint& point) const;
+  bool is_unreachable(const SurfacePoint& point) const;
 
   // reached, unreachable (no way leads there), beyond_radius (seen by the front, but farther than the radius or not
   // final), not_visited (the run was over before): counts of vertices.
@@ -32,7 +32,8 @@ class Reached {
  private:
   Index reached_ = 0, unreachable_ = 0, beyond_radius_ = 0, not_visited_ = 0;
   bool has_radius_ = false;
-  std::vector<std::uint8_t> is_reachable_;  // [vertex_count]; empty: all that was reached is all that can be
+  Domain domain_{Mesh()};
+  std::vector<std::uint8_t> is_reachable_;  // of domain_.open(); empty: all that was reached is all that can be
 };
 
 }  // namespace brushfire::tool

@@ -69,6 +69,7 @@ void set_range(const std::string& text, const char* what, ColorScale& scale) {
 RenderOptions options_of(const Arguments& a) {
   RenderOptions options;
   const auto [width, height] = two_numbers(a.size, 'x', "a size is written as 1024x768");
+  if (width != std::floor(width) || height != std::floor(height)) refuse("a size is written as 1024x768");
   constexpr double kAnyInt = 1e6;  // render() itself says what it takes
   if (std::abs(width) > kAnyInt || std::abs(height) > kAnyInt) refuse("'" + a.size + "' is too large a picture");
   options.width = static_cast<int>(width);
@@ -163,7 +164,7 @@ void find_paths(const Surface& surface, PlaceFinder& places, const DistanceOptio
   const Mesh& mesh = surface.mesh();
   std::vector<SurfacePoint> targets;
   for (const Where& w : shown.ends) targets.push_back(places.target(surface.place(w)));
-  DistanceSolver solver(mesh);
+  DistanceSolver solver(surface.domain());
   const std::vector<SourcePath> found = paths_to(solver, shown.sources, targets, how);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i].points.empty()) throw Unreachable(shown.ends[i].text, how.max_distance < kInfinity);
@@ -173,13 +174,13 @@ void find_paths(const Surface& surface, PlaceFinder& places, const DistanceOptio
 }
 
 // Distances from the sources by one method, and what is drawn with them.
-Panel solved_panel(const Arguments& a, const Mesh& mesh, const Shown& shown, DistanceOptions options,
+Panel solved_panel(const Arguments& a, const Domain& domain, const Shown& shown, DistanceOptions options,
                    const Talk& talk) {
   Panel panel;
-  panel.mesh = mesh;
-  for (const Source& source : shown.sources) panel.dots.push_back(position(mesh, source.point));
+  panel.mesh = domain.mesh();
+  for (const Source& source : shown.sources) panel.dots.push_back(position(panel.mesh, source.point));
   options.progress = talk.progress("distance");
-  const DistanceField field = distance(mesh, shown.sources, options);
+  const DistanceField field = distance(domain, shown.sources, options);
   talk.end_progress();
   panel.scalar = field.distance;
   panel.paths = shown.paths;
@@ -254,7 +255,7 @@ std::vector<Panel> solved_panels(const Arguments& a, const Surface& surface, Pla
   find_paths(surface, places, methods.front(), shown);
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    panels.push_back(solved_panel(a, surface.mesh(), shown, methods[i], talk));
+    panels.push_back(solved_panel(a, surface.domain(), shown, methods[i], talk));
     if (methods.size() > 1) panels.back().title = a.shared.methods[i];
   }
   return panels;

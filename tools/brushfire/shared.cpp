@@ -105,6 +105,29 @@ const std::vector<Row>& table() {
          verb.option(names, a.weld, "T", kLength, "Join vertices within T of one another (0: equal ones)");
        },
        [](const SharedArguments& a) { return a.weld.has_value(); }},
+      {Shared::Mask, "--mask",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.mask_file, "FIELD",
+                     "Stay where these values are above 0: in faces whose three vertices are");
+       },
+       [](const SharedArguments& a) { return !a.mask_file.empty(); }},
+      {Shared::Region, "--region",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.region, "FILE:LABEL",
+                     "Stay where the file's values are these labels, by number or name, with commas");
+       },
+       [](const SharedArguments& a) { return !a.region.empty(); }},
+      {Shared::BlockFaces, "--block-faces",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.faces_file, "FILE", "Nothing enters these faces: their numbers, or a 0 or 1 for each");
+       },
+       [](const SharedArguments& a) { return !a.faces_file.empty(); }},
+      {Shared::BlockEdges, "--block-edges",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.edges_file, "FILE",
+                     "Nothing crosses these edges: pairs of vertices, one to a line, or .npy");
+       },
+       [](const SharedArguments& a) { return !a.edges_file.empty(); }},
       {Shared::Unit, "--unit",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.choice(names, a.unit, unit_names(), "What the mesh is measured in");

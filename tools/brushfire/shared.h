@@ -1,8 +1,8 @@
 // The options that verbs share: each stands once in one table, which parsing, help, completion and manual pages are
 // made from. A verb has all of them, under the same names and with the same meaning, but those that it refuses, by name
 // and with the reason. Whoever adds an option adds a row (shared.cpp), a variable (SharedArguments), and its meaning
-// where the others have theirs: on the mesh (surface.h), where distances start from (sources.h), how they are computed
-// (computing.h).
+// where the others have theirs: on the mesh (surface.h), in it (walls.h), where distances start from (sources.h), how
+// they are computed (computing.h).
 #pragma once
 
 #include "command_line.h"
@@ -30,6 +30,10 @@ enum class Shared : std::uint8_t {
   Radius,
   Threads,
   Weld,
+  Mask,
+  Region,
+  BlockFaces,
+  BlockEdges,
   Unit,
 };
 
@@ -45,6 +49,7 @@ struct SharedArguments {
   std::optional<double> radius;
   std::optional<int> threads;
   std::optional<double> weld;
+  std::string mask_file, region, faces_file, edges_file;
   std::string unit;
 };
 
@@ -67,6 +72,8 @@ inline const std::vector<Shared> kStarting{Shared::Source, Shared::Sources, Shar
 inline const std::vector<Shared> kAccuracy{Shared::Tolerance, Shared::Accuracy, Shared::Bound, Shared::Precision};
 inline const std::vector<Shared> kComputing{Shared::Method,    Shared::Tolerance, Shared::Accuracy, Shared::Bound,
                                             Shared::Precision, Shared::Radius,    Shared::Threads};
+
+inline const std::vector<Shared> kWalls{Shared::Mask, Shared::Region, Shared::BlockFaces, Shared::BlockEdges};
 
 // Binds the options, or refuses them. `arguments` must outlive the parsing.
 void add_shared(Verb& verb, SharedArguments& arguments, const SharedOptions& options = {});

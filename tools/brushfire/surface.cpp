@@ -2,6 +2,7 @@
 #include "surface.h"
 
 #include "output.h"
+#include "walls.h"
 
 #include <brushfire/io/formats.h>
 #include <brushfire/mesh/weld.h>
@@ -16,18 +17,32 @@ void add_surface(Verb& verb, std::string& file) {
 }
 
 Surface::Surface(const std::string& file, const SharedArguments& arguments)
-    : loaded_(read_mesh(file)), mesh_(loaded_.mesh) {
-  if (!arguments.weld) return;
-  Welded welded = weld(loaded_.mesh, *arguments.weld);
-  mesh_ = std::move(welded.mesh);
-  vertex_map_ = std::move(welded.vertex_map);
-  joined_ = welded.joined;
+    : loaded_(read_mesh(file)), domain_(loaded_.mesh) {
+  if (arguments.weld) {
+    Welded welded = weld(loaded_.mesh, *arguments.weld);
+    domain_ = std::move(welded.mesh);
+    vertex_map_ = std::move(welded.vertex_map);
+    joined_ = welded.joined;
+  }
+  if (!given(arguments, kWalls)) return;
+  const Walls walls = walls_of(arguments, loaded_.mesh, mesh(), vertex_map_);
+  domain_ = Domain(mesh(), walls.barriers);
+  for (Index v = 0; v < walls.mask.size(); ++v) {
+    left_alone_ += walls.mask[v] && !domain_.is_open(v) && !mesh().corners(v).empty();
+  }
 }
 
 std::vector<std::string> Surface::remarks() const {
   std::vector<std::string> remarks = loaded_.remarks;
   if (is_welded()) remarks.push_back(counted(joined_, "vertex", "vertices") + " joined to another");
   return remarks;
+}
+
+std::vector<std::uint8_t> Surface::open_vertices() const {
+  if (!domain_.has_walls()) return {};
+  std::vector<std::uint8_t> open;
+  for (Index v = 0; v < loaded_.mesh.vertex_count(); ++v) open.push_back(domain_.is_open(vertex(v)));
+  return open;
 }
 
 Where Surface::place(const Where& where) const {
@@ -44,8 +59,8 @@ Index Surface::file_vertex(Index v) const {
 
 std::vector<double> Surface::on_mesh(std::vector<double> values, const std::string& name) const {
   if (!is_welded()) return values;
-  std::vector<double> out(mesh_.vertex_count());
-  std::vector<Index> first(mesh_.vertex_count(), kNoIndex);
+  std::vector<double> out(mesh().vertex_count());
+  std::vector<Index> first(mesh().vertex_count(), kNoIndex);
   for (Index v = 0; v < vertex_map_.size(); ++v) {
     const Index joined = vertex_map_[v];
     if (first[joined] == kNoIndex) {

@@ -1,5 +1,5 @@
-// The mesh that a verb works on: read from a file, welded where that was asked for, and the way back to the file's
-// numbers.
+// The mesh that a verb works on: read from a file, welded where that was asked for, with the walls in it, and the way
+// back to the file's numbers.
 #pragma once
 
 #include "shared.h"
@@ -7,6 +7,7 @@
 
 #include <brushfire/io/read_field.h>
 #include <brushfire/io/read_mesh.h>
+#include <brushfire/mesh/domain.h>
 
 #include <optional>
 #include <span>
@@ -20,11 +21,12 @@ void add_surface(Verb& verb, std::string& file);
 
 class Surface {
  public:
-  // Throws what read_mesh() and weld() throw.
+  // Throws what read_mesh(), weld() and walls_of() throw.
   Surface(const std::string& file, const SharedArguments& arguments);
 
-  const Mesh& mesh() const { return mesh_; }          // to compute on
-  const LoadedMesh& file() const { return loaded_; }  // as it was read
+  const Domain& domain() const { return domain_; }     // to compute in
+  const Mesh& mesh() const { return domain_.mesh(); }  // all of it, whose numbers are used
+  const LoadedMesh& file() const { return loaded_; }   // as it was read
   bool is_welded() const { return !vertex_map_.empty(); }
   std::vector<std::string> remarks() const;
 
@@ -44,15 +46,21 @@ class Surface {
     for (const Index v : vertex_map_) out.push_back(values[v]);
     return out;
   }
+  // Vertices that a mask leaves open, and none of their faces.
+  Index left_alone() const { return left_alone_; }
+
+  // [file's vertices] 1 where a vertex is in a face that is open; empty where there are no walls.
+  std::vector<std::uint8_t> open_vertices() const;
+
   // Values on the vertices of the file, on those of mesh(). Throws Error(InvalidArgument) where vertices that were
   // joined have different ones; `name` is the values' file.
   std::vector<double> on_mesh(std::vector<double> values, const std::string& name) const;
 
  private:
   LoadedMesh loaded_;
-  Mesh mesh_;
+  Domain domain_;
   std::vector<Index> vertex_map_;
-  Index joined_ = 0;
+  Index joined_ = 0, left_alone_ = 0;
 };
 
 }  // namespace brushfire::tool

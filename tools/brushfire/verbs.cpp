@@ -11,6 +11,11 @@ void add_verbs(CommandLine& command_line) {
   add_log_map(command_line);
   add_gradient(command_line);
   add_matrix(command_line);
+  add_voronoi(command_line);
+  add_sample(command_line);
+  add_measure(command_line);
+  add_parcels(command_line);
+  add_smooth(command_line);
   add_compare(command_line);
   add_certify(command_line);
   add_render(command_line);

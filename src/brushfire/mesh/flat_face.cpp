@@ -31,6 +31,15 @@ std::array<Vec2, 3> flat_corners(const Mesh& mesh, Index f) {
   return corners;
 }
 
+Vec2 apex_over(const Mesh& mesh, Index h, Index g) {
+  const auto from = [&](Index e) { return mesh.faces()[Mesh::face_of(e)][e % 3]; };
+  const bool same_way = g == h || from(g) == from(h);
+  const Mesh::FaceGeometry face = mesh.face_geometry(Mesh::face_of(g));
+  const double from_first = face.lengths[(same_way ? Mesh::previous(g) : Mesh::next(g)) % 3];
+  const double from_second = face.lengths[(same_way ? Mesh::next(g) : Mesh::previous(g)) % 3];
+  return apex_over_edge(face.lengths[g % 3], from_first, from_second, face.double_area);
+}
+
 std::array<double, 3> weight_difference(const std::array<double, 3>& from, const std::array<double, 3>& to) {
   const auto k = static_cast<std::size_t>(std::max_element(from.begin(), from.end()) - from.begin());
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
@@ -72,6 +81,7 @@ std::vector<Index> faces_at(const Mesh& mesh, const PointLocation& point) {
 
 std::optional<std::array<double, 3>> weights_in(const Mesh& mesh, const PointLocation& point, Index f) {
   if (f == point.face) return point.weights;
+  if (point.on == PointLocation::On::Interior) return std::nullopt;
   const Face& t = mesh.faces()[f];
   std::array<double, 3> weights{0, 0, 0};
   const Face& own = mesh.faces()[point.face];

@@ -1,4 +1,12 @@
 // Mesh: an immutable triangle complex, described for solvers by edge lengths, areas and which edges meet.
+//
+// Example:
+//     const std::vector<brushfire::Vec3> positions{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+//     const std::vector<brushfire::Face> faces{{0, 1, 2}, {0, 2, 3}};
+//     const brushfire::Mesh mesh(positions, faces);
+//     for (const brushfire::Index h : mesh.corners(0)) {  // the halfedges that leave vertex 0
+//       std::printf("to vertex %u: %g\n", mesh.to(h), mesh.length(h) * mesh.unit());
+//     }
 #pragma once
 
 #include <brushfire/core/types.h>
@@ -21,6 +29,11 @@ enum class Link : std::uint8_t {
   Other,   // several fans (a bow-tie), or a fan with an edge of three and more faces
 };
 
+// The smallest box along the axes that holds some points; inside out (+inf, -inf) where there are none.
+struct Box {
+  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+};
+
 // Any set of triangles over a set of vertices: closed or not, manifold or not, consistently oriented or not, with
 // degenerate, duplicate and unreferenced parts. Nothing is repaired: distances are those of the given complex, and
 // report() says what is in it.
@@ -34,11 +47,6 @@ enum class Link : std::uint8_t {
 //
 // Lengths and areas are in units of unit(), a power of two near the mean edge length, so that solvers see numbers near
 // one whatever the scale of the coordinates; multiplying by unit() is exact.
-// The smallest box along the axes that holds some points; inside out (+inf, -inf) where there are none.
-struct Box {
-  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
-};
-
 class Mesh {
  public:
   // No vertices, no faces.
@@ -93,8 +101,8 @@ class Mesh {
   // faces lie the same way round where their halfedges run in opposite directions; where from(h) == from(opposite[h])
   // the neighbour is mirrored. Halfedges of a face with a repeated vertex are not in any ring (their own opposite).
   std::span<const Index> opposite() const;
-  // One of them. Where the array has not been built it is found among the faces at the edge's ends, so that who asks
-  // for few does not pay for all. O(faces at a vertex).
+  // A single entry. If the array has not been built, the entry is found among the faces at the edge's ends, so that a
+  // few look-ups do not cost the whole array. O(faces at a vertex).
   Index opposite(Index h) const;
   // The halfedge of the other face of an edge of two faces; h itself at any other edge.
   Index neighbour(Index h) const;

@@ -61,14 +61,14 @@ void check(const Mesh& mesh, std::span<const double> field, const CertifyOptions
   }
 }
 
-DistanceField run(const Mesh& mesh, std::span<const Source> sources, const CertifyOptions& options) {
+DistanceField run(const Domain& domain, std::span<const Source> sources, const CertifyOptions& options) {
   DistanceOptions how;
   how.method = options.tolerance == 0 ? Method::Exact : Method::Windows;
   how.tolerance = options.tolerance;
   how.threads = options.threads;
   how.progress = options.progress;
   how.cancel = options.cancel;
-  return distance(mesh, sources, how);
+  return distance(domain, sources, how);
 }
 
 // The bounds of vertex v, rounded outwards; no distance is less than the least offset.
@@ -124,10 +124,10 @@ std::string_view name_of(Finding finding) {
   return "";
 }
 
-Certificate certify(const Mesh& mesh, std::span<const double> field, std::span<const Source> sources,
+Certificate certify(const Domain& domain, std::span<const double> field, std::span<const Source> sources,
                     const CertifyOptions& options) {
-  check(mesh, field, options);
-  const DistanceField truth = run(mesh, sources, options);
+  check(domain.mesh(), field, options);
+  const DistanceField truth = run(domain, sources, options);
   double least_offset = kInfinity;
   for (const Source& s : sources) least_offset = std::min(least_offset, s.offset);
   Certificate c;

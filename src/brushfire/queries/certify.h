@@ -60,7 +60,7 @@ struct Certificate {
 // right: the proofs are those of `exact` and `windows` (docs/tolerance.md), with bounds rounded outwards. Where a
 // vertex is possible, its value is within upper - lower of the distance, plus `within`. Throws Error(InvalidArgument)
 // where the field has another size or an option is out of range, and what distance() throws. Costs one run.
-Certificate certify(const Mesh& mesh, std::span<const double> field, std::span<const Source> sources,
+Certificate certify(const Domain& domain, std::span<const double> field, std::span<const Source> sources,
                     const CertifyOptions& options = {});
 
 }  // namespace brushfire

@@ -47,11 +47,12 @@ std::vector<std::size_t> numbers_below(std::size_t count) {
   return numbers;
 }
 
-Rows::Rows(const Mesh& mesh, Places rows, Places columns, const MatrixOptions& options)
-    : mesh_(mesh),
+Rows::Rows(const Domain& domain, Places rows, Places columns, const MatrixOptions& options)
+    : domain_(domain),
+      mesh_(domain.mesh()),
       rows_(rows),
-      row_count_(size_of(mesh, rows)),
-      column_count_(size_of(mesh, columns)),
+      row_count_(size_of(mesh_, rows)),
+      column_count_(size_of(mesh_, columns)),
       all_columns_(!columns),
       options_(options.distance),
       team_(static_cast<unsigned>(std::clamp<std::size_t>(row_count_, 1, thread_count(options.threads)))),
@@ -71,9 +72,9 @@ Rows::Rows(const Mesh& mesh, Places rows, Places columns, const MatrixOptions& o
   }
   // So many rows ask about every face: the mesh's arrays once, instead of single answers again and again.
   constexpr std::size_t kAskedOften = 16;
-  if (row_count_ >= mesh.vertex_count() / kAskedOften && options_.method != Method::Dijkstra) {
-    mesh.lengths();
-    mesh.opposite();
+  if (row_count_ >= mesh_.vertex_count() / kAskedOften && options_.method != Method::Dijkstra) {
+    domain.open().lengths();
+    domain.open().opposite();
   }
 }
 
@@ -83,12 +84,12 @@ std::optional<SurfacePoint> Rows::place(std::size_t i) const {
 
 void Rows::compute_row(Worker& worker, std::size_t i) {
   const std::optional<SurfacePoint> p = place(i);
-  if (!p || (!all_columns_ && options_.targets.empty())) {
+  if (!p || (!all_columns_ && options_.targets.empty()) || (domain_.has_walls() && domain_.on_open(*p).empty())) {
     worker.field = {};
     worker.field.target_distance.assign(options_.targets.size(), kInfinity);
     return;
   }
-  if (!worker.solver) worker.solver = std::make_unique<DistanceSolver>(mesh_);
+  if (!worker.solver) worker.solver = std::make_unique<DistanceSolver>(domain_);
   const Source source{*p, 0};
   worker.solver->distance_sparse(std::span(&source, 1), options_, worker.field);
 }
@@ -178,8 +179,9 @@ void require_dense_memory(std::size_t rows, std::size_t columns, ValueType type,
 }
 
 template <class T>
-void distance_matrix(const Mesh& mesh, Places rows, Places columns, std::span<T> result, const MatrixOptions& options) {
-  detail::Rows all(mesh, rows, columns, options);
+void distance_matrix(const Domain& domain, Places rows, Places columns, std::span<T> result,
+                     const MatrixOptions& options) {
+  detail::Rows all(domain, rows, columns, options);
   if (result.size() != all.count() * all.columns()) {
     throw Error(ErrorCode::InvalidArgument, "memory for " + std::to_string(result.size()) + " values was given for " +
                                                 size_text(all.count(), all.columns(), kValueType<T>));
@@ -188,8 +190,8 @@ void distance_matrix(const Mesh& mesh, Places rows, Places columns, std::span<T>
 }
 
 template <class T>
-std::vector<T> distance_matrix(const Mesh& mesh, Places rows, Places columns, const MatrixOptions& options) {
-  detail::Rows all(mesh, rows, columns, options);
+std::vector<T> distance_matrix(const Domain& domain, Places rows, Places columns, const MatrixOptions& options) {
+  detail::Rows all(domain, rows, columns, options);
   require_dense_memory(all.count(), all.columns(), kValueType<T>, options.memory_limit);
   std::vector<T> result(all.count() * all.columns());
   compute(all, std::span<T>(result), options.distance.progress);
@@ -276,13 +278,13 @@ SparseMatrix<T> join(std::vector<SparseBlock<T>>& blocks, std::span<const std::s
 }  // namespace
 
 template <class T>
-SparseMatrix<T> distances_within(const Mesh& mesh, double radius, Places rows, const MatrixOptions& options) {
+SparseMatrix<T> distances_within(const Domain& domain, double radius, Places rows, const MatrixOptions& options) {
   if (!std::isfinite(radius) || radius < 0) {
     throw Error(ErrorCode::InvalidArgument, "radius " + std::to_string(radius) + " is not a finite number >= 0");
   }
   MatrixOptions limited = options;
   limited.distance.max_distance = std::min(radius, options.distance.max_distance);
-  detail::Rows all(mesh, rows, std::nullopt, limited);
+  detail::Rows all(domain, rows, std::nullopt, limited);
   const SparseBudget<T> budget(all.count(), options.memory_limit);
   check_expected_size(all, budget);
 
@@ -300,11 +302,11 @@ SparseMatrix<T> distances_within(const Mesh& mesh, double radius, Places rows, c
   return join(blocks, numbers, row_size, all.columns());
 }
 
-template void distance_matrix(const Mesh&, Places, Places, std::span<float>, const MatrixOptions&);
-template void distance_matrix(const Mesh&, Places, Places, std::span<double>, const MatrixOptions&);
-template std::vector<float> distance_matrix(const Mesh&, Places, Places, const MatrixOptions&);
-template std::vector<double> distance_matrix(const Mesh&, Places, Places, const MatrixOptions&);
-template SparseMatrix<float> distances_within(const Mesh&, double, Places, const MatrixOptions&);
-template SparseMatrix<double> distances_within(const Mesh&, double, Places, const MatrixOptions&);
+template void distance_matrix(const Domain&, Places, Places, std::span<float>, const MatrixOptions&);
+template void distance_matrix(const Domain&, Places, Places, std::span<double>, const MatrixOptions&);
+template std::vector<float> distance_matrix(const Domain&, Places, Places, const MatrixOptions&);
+template std::vector<double> distance_matrix(const Domain&, Places, Places, const MatrixOptions&);
+template SparseMatrix<float> distances_within(const Domain&, double, Places, const MatrixOptions&);
+template SparseMatrix<double> distances_within(const Domain&, double, Places, const MatrixOptions&);
 
 }  // namespace brushfire

@@ -3,8 +3,15 @@
 // Every row is one run of a solver; rows are shared out to threads, each with a solver of its own, and a row depends on
 // nothing but itself: the numbers are bit-identical for any number of threads and for any selection of rows and
 // columns.
+//
+// Example:
+//     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;
+//     const std::vector<brushfire::Place> rows{brushfire::Index{0}, brushfire::Index{2}};
+//     const std::vector<float> matrix = brushfire::distance_matrix<float>(mesh, rows, std::nullopt);
+//     std::printf("from vertex 2 to vertex 1: %g\n", matrix[mesh.vertex_count() + 1]);
 #pragma once
 
+#include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/distance.h>
@@ -40,12 +47,12 @@ struct MatrixOptions {
 // values of type float or double (floats are rounded doubles). Throws Error(InvalidArgument) for memory of another
 // size, Error(IndexOutOfRange) for a place that does not exist, and what distance() throws.
 template <class T>
-void distance_matrix(const Mesh& mesh, Places rows, Places columns, std::span<T> result,
+void distance_matrix(const Domain& domain, Places rows, Places columns, std::span<T> result,
                      const MatrixOptions& options = {});
 
 // The same in memory of its own. Throws Error(TooLarge), before anything is computed, where it does not fit.
 template <class T>
-std::vector<T> distance_matrix(const Mesh& mesh, Places rows, Places columns, const MatrixOptions& options = {});
+std::vector<T> distance_matrix(const Domain& domain, Places rows, Places columns, const MatrixOptions& options = {});
 
 // Throws Error(TooLarge) that says what to do, where a dense matrix takes more than `limit` bytes (0: what is
 // available).
@@ -64,7 +71,8 @@ struct SparseMatrix {
 // Throws Error(TooLarge) where the rows are expected not to fit (from an evenly spread sample of them, if it could be
 // close), and during the run should the expectation have been too low.
 template <class T>
-SparseMatrix<T> distances_within(const Mesh& mesh, double radius, Places rows = {}, const MatrixOptions& options = {});
+SparseMatrix<T> distances_within(const Domain& domain, double radius, Places rows = {},
+                                 const MatrixOptions& options = {});
 
 // The matrix as .npz (what scipy.sparse.load_npz() reads: CSR, uncompressed) or .mtx (MatrixMarket), by extension. The
 // file appears complete or not at all. Throws Error(UnknownFormat) for another extension, Error(FileNotWritable).
@@ -75,7 +83,7 @@ void write_sparse_matrix(const std::string& path, const SparseMatrix<T>& matrix)
 // thread. The rows go into PATH.part, and which are there into PATH.part.rows; when all are, PATH.part becomes PATH.
 // Calling it again after an interruption goes on where it stopped; what was begun with another mesh, other places or
 // other options is begun anew. Throws Error(FileNotWritable), and what distance_matrix() throws.
-void write_distance_matrix(const std::filesystem::path& path, const Mesh& mesh, Places rows, Places columns,
+void write_distance_matrix(const std::filesystem::path& path, const Domain& domain, Places rows, Places columns,
                            ValueType type = ValueType::Float32, const MatrixOptions& options = {});
 
 }  // namespace brushfire

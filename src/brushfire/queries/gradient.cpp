@@ -157,6 +157,24 @@ SurfaceDirection steepest_descent(const Mesh& mesh, std::span<const double> valu
   return best;
 }
 
+SurfaceDirection steepest_descent(const Domain& domain, std::span<const double> values, const SurfacePoint& point) {
+  const std::vector<double> on_open = domain.spread(values);
+  const Mesh& open = domain.open();
+  double least = kInfinity;
+  SurfaceDirection steepest;
+  for (const SurfacePoint& side : domain.on_open(point)) {
+    double value = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (side.weights[k] > 0) value += side.weights[k] * on_open[open.faces()[side.face][k]];
+    }
+    if (value >= least) continue;
+    least = value;
+    steepest = steepest_descent(open, on_open, side);
+  }
+  if (steepest.face != kNoIndex) steepest.face = domain.face(steepest.face);
+  return steepest;
+}
+
 Vec3 in_space(const Mesh& mesh, const SurfaceDirection& direction) {
   if (!mesh.has_positions() || direction.face >= mesh.face_count()) {
     throw Error(ErrorCode::InvalidArgument,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/core/types.h>
+#include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 
@@ -36,6 +37,9 @@ struct SurfaceDirection {
 // Throws Error(InvalidArgument) where there is not one value per vertex, for a value there that is NaN or -inf, and as
 // locate() does. O(faces at the point) after a check of the values' number.
 SurfaceDirection steepest_descent(const Mesh& mesh, std::span<const double> values, const SurfacePoint& point);
+
+// The same within walls: at a point of a wall, on the side where the value is least. `values` as for isolines().
+SurfaceDirection steepest_descent(const Domain& domain, std::span<const double> values, const SurfacePoint& point);
 
 // The direction as a unit vector in space. The mesh must have positions.
 Vec3 in_space(const Mesh& mesh, const SurfaceDirection& direction);

@@ -264,6 +264,12 @@ std::vector<Isoline> isolines(const Mesh& mesh, std::span<const double> values, 
   return result;
 }
 
+std::vector<Isoline> isolines(const Domain& domain, std::span<const double> values, std::span<const double> levels) {
+  std::vector<Isoline> lines = isolines(domain.open(), domain.spread(values), levels);
+  for (Isoline& line : lines) domain.to_mesh(line.line.points);
+  return lines;
+}
+
 std::vector<double> levels_every(std::span<const double> values, double step) {
   if (!(step > 0) || !std::isfinite(step)) {
     throw Error(ErrorCode::InvalidArgument, "step " + number_as_text(step) + " between levels is not a number > 0");

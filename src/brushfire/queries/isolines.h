@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/core/types.h>
+#include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/queries/surface_path.h>
 
@@ -31,6 +32,10 @@ struct Isoline {
 // where there is not one value per vertex, for a value that is NaN or -inf, and for a level that is not finite. O(faces
 // + vertices log(levels) + points).
 std::vector<Isoline> isolines(const Mesh& mesh, std::span<const double> values, std::span<const double> levels);
+
+// The same within walls: curves end at them, and none enters what is blocked. `values`: one per vertex of domain.open()
+// (DistanceField::side_distance), or one per vertex, which then counts on both sides of a wall.
+std::vector<Isoline> isolines(const Domain& domain, std::span<const double> values, std::span<const double> levels);
 
 // The multiples of `step` in the range of the finite values, the smallest value left out: step, 2 step, ... for a
 // distance field. Throws Error(InvalidArgument) where step is not a finite number > 0, Error(TooLarge) for more than a

@@ -53,13 +53,18 @@ class Fingerprint {
   std::uint64_t hash_ = 0xcbf29ce484222325;
 };
 
-std::uint64_t fingerprint_of(const Mesh& mesh, const Places& rows, const Places& columns, ValueType type,
+std::uint64_t fingerprint_of(const Domain& domain, const Places& rows, const Places& columns, ValueType type,
                              const DistanceOptions& options) {
+  const Mesh& mesh = domain.open();
   Fingerprint f;
   f.add(std::uint64_t{mesh.vertex_count()});
   f.add(mesh.faces().data(), mesh.faces().size_bytes());
   f.add(mesh.lengths().data(), mesh.lengths().size_bytes());
   f.add(mesh.unit());
+  if (const CutMesh* cut = domain.cut()) {
+    f.add(cut->original_vertex.data(), cut->original_vertex.size() * sizeof(Index));
+    f.add(cut->original_face.data(), cut->original_face.size() * sizeof(Index));
+  }
   f.add(rows);
   f.add(columns);
   f.add(static_cast<std::uint64_t>(type));
@@ -191,13 +196,13 @@ class MatrixFile {
 
 }  // namespace
 
-void write_distance_matrix(const std::filesystem::path& path, const Mesh& mesh, Places rows, Places columns,
+void write_distance_matrix(const std::filesystem::path& path, const Domain& domain, Places rows, Places columns,
                            ValueType type, const MatrixOptions& options) {
-  detail::Rows all(mesh, rows, columns, options);
+  detail::Rows all(domain, rows, columns, options);
   const bool is_float = type == ValueType::Float32;
   MatrixFile file(path, npy_header(all.count(), all.columns(), type), all.count(),
                   all.columns() * (is_float ? sizeof(float) : sizeof(double)),
-                  fingerprint_of(mesh, rows, columns, type, options.distance));
+                  fingerprint_of(domain, rows, columns, type, options.distance));
   all.run_dense(file.missing(), options.distance.progress,
                 [&](unsigned, std::size_t i, std::span<const double> values) {
                   std::vector<char> bytes;

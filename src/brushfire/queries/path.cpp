@@ -7,6 +7,7 @@
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/sleeve.h>
 #include <brushfire/queries/shorten.h>
+#include <brushfire/solvers/detail/walls.h>
 
 #include <algorithm>
 #include <cmath>
@@ -143,6 +144,22 @@ SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index tar
   return path;
 }
 
+namespace {
+
+// To the nearest side of a target on a wall; the path has the numbers of the whole mesh.
+SurfacePath path_in(const Domain& domain, const WindowField& field, const SurfacePoint& target) {
+  const std::vector<SurfacePoint> sides = domain.on_open(target);
+  if (sides.empty()) return {};
+  const auto nearest = std::min_element(sides.begin(), sides.end(), [&](const SurfacePoint& a, const SurfacePoint& b) {
+    return field.value(a).distance < field.value(b).distance;
+  });
+  SurfacePath path = path_to(field, *nearest);
+  domain.to_mesh(path.points);
+  return path;
+}
+
+}  // namespace
+
 std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source> sources,
                                  std::span<const SurfacePoint> targets, const DistanceOptions& how) {
   DistanceOptions options;
@@ -157,15 +174,45 @@ std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source>
   for (std::size_t i = 0; i < targets.size(); ++i) {
     SourcePath& path = paths.emplace_back();
     if (field.target_distance[i] == kInfinity) continue;
-    static_cast<SurfacePath&>(path) = path_to(*field.windows, targets[i]);
+    static_cast<SurfacePath&>(path) = path_in(solver.domain(), *field.windows, targets[i]);
     path.source = field.target_source[i];
+  }
+  return paths;
+}
+
+std::vector<SourcePath> edge_paths_to(const Domain& domain, std::span<const Source> sources,
+                                      std::span<const SurfacePoint> targets, const DistanceOptions& how) {
+  const Mesh& open = domain.open();
+  const auto check_vertex = [&](const SurfacePoint& p) {
+    if (p.is_nowhere() || locate(domain.mesh(), p).on == On::Vertex) return;
+    throw Error(ErrorCode::InvalidArgument, "paths along edges run between vertices");
+  };
+  for (const Source& s : sources) check_vertex(s.point);
+  for (const SurfacePoint& t : targets) check_vertex(t);
+  DistanceOptions options = how;
+  options.method = Method::Dijkstra;
+  options.targets.assign(targets.begin(), targets.end());
+  const detail::WalledRun walled(domain, sources, options);
+  const DistanceField field = distance(open, walled.sources(), walled.options());
+  std::vector<SourcePath> paths;
+  for (const SurfacePoint& t : targets) {
+    SourcePath& path = paths.emplace_back();
+    Index nearest = kNoIndex;
+    for (const SurfacePoint& side : domain.on_open(t)) {
+      const Index v = locate(open, side).vertex;
+      if (nearest == kNoIndex || field.distance[v] < field.distance[nearest]) nearest = v;
+    }
+    if (nearest == kNoIndex || field.distance[nearest] == kInfinity) continue;
+    static_cast<SurfacePath&>(path) = edge_path_to(open, field, nearest);
+    domain.to_mesh(path.points);
+    path.source = walled.origin(field.source[nearest]);
   }
   return paths;
 }
 
 SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
                          const DistanceOptions& how) {
-  if (from.is_nowhere() || to.is_nowhere()) return {};
+  if (to.is_nowhere() || solver.domain().on_open(from).empty()) return {};
   const Source source{from};
   return paths_to(solver, std::span(&source, 1), std::span(&to, 1), how).front();
 }
@@ -208,7 +255,7 @@ SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> w
   return path_through(solver, waypoints, closed, how);
 }
 
-PathFinder::PathFinder(Mesh mesh) : solver_(std::make_unique<DistanceSolver>(std::move(mesh))) {}
+PathFinder::PathFinder(Domain domain) : solver_(std::make_unique<DistanceSolver>(std::move(domain))) {}
 PathFinder::~PathFinder() = default;
 PathFinder::PathFinder(PathFinder&&) noexcept = default;
 PathFinder& PathFinder::operator=(PathFinder&&) noexcept = default;

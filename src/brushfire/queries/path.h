@@ -1,4 +1,14 @@
 // Shortest paths.
+//
+// Example:
+//     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;
+//     brushfire::PathFinder paths(mesh);
+//     const brushfire::SurfacePath path =
+//         paths.between(brushfire::vertex_point(mesh, 0), brushfire::vertex_point(mesh, 2));
+//     for (const brushfire::SurfacePoint& p : path.points) {
+//       const brushfire::Vec3 at = brushfire::position(mesh, p);
+//       std::printf("%g %g %g\n", at.x, at.y, at.z);
+//     }
 #pragma once
 
 #include <brushfire/queries/surface_path.h>
@@ -48,10 +58,15 @@ struct SourcePath : SurfacePath {
 std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source> sources,
                                  std::span<const SurfacePoint> targets, const DistanceOptions& how = {});
 
+// The same along edges, with the paths of edge_path_to(): sources and targets are vertices. Throws
+// Error(InvalidArgument) for others.
+std::vector<SourcePath> edge_paths_to(const Domain& domain, std::span<const Source> sources,
+                                      std::span<const SurfacePoint> targets, const DistanceOptions& how = {});
+
 // The two with a solver of its own.
 class PathFinder {
  public:
-  explicit PathFinder(Mesh mesh);
+  explicit PathFinder(Domain domain);
   ~PathFinder();
   PathFinder(PathFinder&&) noexcept;
   PathFinder& operator=(PathFinder&&) noexcept;

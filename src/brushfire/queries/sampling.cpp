@@ -16,10 +16,10 @@ namespace {
 // right when it comes up.
 class FarthestQueue {
  public:
-  FarthestQueue(const Mesh& mesh, std::span<const double> distance) : distance_(distance) {
+  FarthestQueue(const Domain& domain, std::span<const double> distance) : distance_(distance) {
     std::vector<Entry> entries;
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      if (!mesh.corners(v).empty()) entries.push_back({kInfinity, v});
+    for (Index v = 0; v < domain.mesh().vertex_count(); ++v) {
+      if (domain.is_open(v)) entries.push_back({kInfinity, v});
     }
     queue_ = Queue(Nearer(), std::move(entries));
   }
@@ -53,7 +53,9 @@ class FarthestQueue {
 
 }  // namespace
 
-Samples farthest_points(const Mesh& mesh, Index count, std::span<const Index> first, const DistanceOptions& options) {
+Samples farthest_points(const Domain& domain, Index count, std::span<const Index> first,
+                        const DistanceOptions& options) {
+  const Mesh& mesh = domain.mesh();
   if (first.size() > count) {
     throw Error(ErrorCode::InvalidArgument,
                 std::to_string(first.size()) + " first samples, but only " + std::to_string(count) + " are wanted");
@@ -62,8 +64,8 @@ Samples farthest_points(const Mesh& mesh, Index count, std::span<const Index> fi
   samples.distance.assign(mesh.vertex_count(), kInfinity);
   samples.nearest.assign(mesh.vertex_count(), kNoIndex);
   const CancelScope listen(options.cancel);
-  DistanceSolver solver(mesh);
-  FarthestQueue farthest(mesh, samples.distance);
+  DistanceSolver solver(domain);
+  FarthestQueue farthest(domain, samples.distance);
   DistanceOptions run = options;
   run.targets.clear();
   while (samples.vertices.size() < count && !farthest.empty()) {

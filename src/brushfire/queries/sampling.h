@@ -17,7 +17,7 @@ struct Samples {
   std::vector<double> separation;
   std::vector<double> distance;  // [vertex_count] from the nearest sample; +inf where none reaches
   std::vector<Index> nearest;    // [vertex_count] its place in `vertices`; kNoIndex where none reaches
-  double covering_radius = 0;    // the greatest finite or infinite distance of a vertex that is in a face
+  double covering_radius = 0;    // the greatest finite or infinite distance of a vertex that is in an open face
 };
 
 // Takes `first` (or, where it is empty, the lowest vertex that is in a face) and then again and again the vertex
@@ -30,7 +30,7 @@ struct Samples {
 // reached); targets are ignored. Throws Error(IndexOutOfRange) and Error(InvalidArgument) for a first vertex that does
 // not exist, is in no face or repeats, Error(InvalidArgument) for more first vertices than `count`.
 // Based on: Eldar, Lindenbaum, Porat, Zeevi, "The Farthest Point Strategy for Progressive Image Sampling", 1997.
-Samples farthest_points(const Mesh& mesh, Index count, std::span<const Index> first = {},
+Samples farthest_points(const Domain& domain, Index count, std::span<const Index> first = {},
                         const DistanceOptions& options = {});
 
 }  // namespace brushfire

@@ -304,4 +304,54 @@ SurfacePath shorten(const Mesh& mesh, std::span<const SurfacePoint> points, bool
   return path;
 }
 
+namespace {
+
+// One side of every point, so that consecutive ones share a face of the open mesh; empty where there are none such.
+// `start`: the side of the first.
+std::vector<SurfacePoint> sides_from(const Mesh& open, const std::vector<std::vector<SurfacePoint>>& sides,
+                                     std::size_t start, bool closed) {
+  constexpr std::size_t kNone = ~std::size_t{0};
+  const auto share_face = [&](const SurfacePoint& a, const SurfacePoint& b) {
+    return common_face(open, locate(open, a, 0), locate(open, b, 0)) != kNoIndex;
+  };
+  // before[i][s]: from which side of point i - 1 side s of point i is reached.
+  std::vector<std::vector<std::size_t>> before{std::vector<std::size_t>(sides[0].size(), kNone)};
+  before[0][start] = start;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    std::vector<std::size_t>& here = before.emplace_back(sides[i].size(), kNone);
+    for (std::size_t s = 0; s < here.size(); ++s) {
+      for (std::size_t p = 0; p < before[i - 1].size() && here[s] == kNone; ++p) {
+        if (before[i - 1][p] != kNone && share_face(sides[i - 1][p], sides[i][s])) here[s] = p;
+      }
+    }
+  }
+  for (std::size_t s = 0; s < before.back().size(); ++s) {
+    if (before.back()[s] == kNone || (closed && !share_face(sides.back()[s], sides[0][start]))) continue;
+    std::vector<SurfacePoint> line(sides.size());
+    for (std::size_t i = sides.size(), at = s; i-- > 0; at = before[i][at]) line[i] = sides[i][at];
+    return line;
+  }
+  return {};
+}
+
+std::vector<SurfacePoint> on_open(const Domain& domain, std::span<const SurfacePoint> points, bool closed) {
+  std::vector<std::vector<SurfacePoint>> sides;
+  for (const SurfacePoint& p : points) sides.push_back(domain.on_open(p));
+  for (std::size_t start = 0; !sides.empty() && start < sides[0].size(); ++start) {
+    std::vector<SurfacePoint> line = sides_from(domain.open(), sides, start, closed);
+    if (!line.empty()) return line;
+  }
+  throw Error(ErrorCode::InvalidArgument, "the polyline goes through a wall");
+}
+
+}  // namespace
+
+SurfacePath shorten(const Domain& domain, std::span<const SurfacePoint> points, bool closed) {
+  if (!domain.has_walls()) return shorten(domain.mesh(), points, closed);
+  length_of(domain.mesh(), points, closed);  // throws where it is no polyline at all
+  SurfacePath path = shorten(domain.open(), on_open(domain, points, closed), closed);
+  domain.to_mesh(path.points);
+  return path;
+}
+
 }  // namespace brushfire

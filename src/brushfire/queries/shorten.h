@@ -1,6 +1,7 @@
 // Shortening a given polyline until it is locally shortest, within its homotopy class.
 #pragma once
 
+#include <brushfire/mesh/domain.h>
 #include <brushfire/queries/surface_path.h>
 
 namespace brushfire {
@@ -17,5 +18,8 @@ namespace brushfire {
 // Xin, Wang, "Efficiently determining a locally exact shortest path on polyhedral surfaces", 2007 (going round a vertex
 // on its other side); the same for arbitrary triangle complexes, where "side" is a way through the vertex's link.
 SurfacePath shorten(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed = false);
+
+// The same within walls, which hold it up. Throws Error(InvalidArgument) for a polyline that goes through one.
+SurfacePath shorten(const Domain& domain, std::span<const SurfacePoint> points, bool closed = false);
 
 }  // namespace brushfire

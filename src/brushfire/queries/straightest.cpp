@@ -4,6 +4,7 @@
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/queries/detail/leaving_angles.h>
 #include <brushfire/queries/detail/tangent_fan.h>
 #include <brushfire/solvers/windows/paths/departures.h>
 
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 
 namespace brushfire {
 namespace {
@@ -222,17 +224,19 @@ double angle_in_face(const Mesh& mesh, Index f, Index k, const Vec3& direction, 
 
 }  // namespace
 
-double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& direction) {
+double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& given) {
   if (!mesh.has_positions()) throw Error(ErrorCode::InvalidArgument, "a mesh from lengths has no directions in space");
-  const double size = norm(direction);
-  if (!(size > 0) || !std::isfinite(size)) {
+  // Divided by its largest component, so that no square is out of range.
+  const double largest = std::max({std::abs(given.x), std::abs(given.y), std::abs(given.z)});
+  if (!(largest > 0) || !std::isfinite(largest)) {
     throw Error(ErrorCode::InvalidArgument, "a direction must have a finite length > 0");
   }
+  const Vec3 direction{given.x / largest, given.y / largest, given.z / largest};
   const PointLocation at = locate(mesh, point);
   // A shadow on the surface that is shorter than this share of the direction is made of rounding.
   constexpr double kShortest = 1e-12;
   const auto check_shadow = [&](double length) {
-    if (length <= kShortest * size) {
+    if (length <= kShortest) {
       throw Error(ErrorCode::InvalidArgument, "the direction is at right angles to the surface there");
     }
   };
@@ -277,83 +281,25 @@ Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, doub
 
 namespace {
 
-// The directions in which paths leave one point.
-class LeavingAngles {
- public:
-  LeavingAngles(const Mesh& mesh, const SurfacePoint& source) : mesh_(mesh), source_(locate(mesh, source)) {
-    if (source_.on == On::Vertex) fan_ = detail::tangent_fan(mesh, source_.vertex);
-  }
+SurfacePoint only_side(const Domain& domain, const SurfacePoint& point) {
+  const std::vector<SurfacePoint> sides = domain.on_open(point);
+  if (sides.size() == 1) return sides.front();
+  throw Error(ErrorCode::InvalidArgument, sides.empty() ? "the point lies behind a wall"
+                                                        : "the point lies on a wall that parts the surface there: its "
+                                                          "directions have no common angles");
+}
 
-  double total() const { return source_.on == On::Vertex ? fan_.total : 2 * kPi; }
-  bool is_source(Index vertex) const { return source_.on == On::Vertex && vertex == source_.vertex; }
+}  // namespace
 
-  // Of a leg; of one that does not start at the source, nothing.
-  windows::TracedRays::Angle of(const WindowField::Leg& leg) const {
-    if (leg.points.size() < 2 || (leg.vertex != kNoIndex && !is_source(leg.vertex))) return {};
-    return {towards(leg.points[leg.points.size() - 2]), sense_in(leg.points.back().face)};
-  }
+Trace straightest(const Domain& domain, const SurfacePoint& from, double angle, double length) {
+  Trace trace = straightest(domain.open(), only_side(domain, from), angle, length);
+  domain.to_mesh(trace.path.points);
+  return trace;
+}
 
-  // An angle within the full turn.
-  double within_turn(double angle) const {
-    constexpr double kNoTurn = 1e-14;  // what rounding takes an angle below 0 by: not a full turn
-    if (source_.on == On::Vertex && !fan_.closed) return std::clamp(angle, 0.0, fan_.total);
-    return angle < 0 && angle > -kNoTurn ? 0 : wrapped(angle, total());
-  }
+namespace {
 
-  // Of a path whose second point this is.
-  double towards(const SurfacePoint& point) const {
-    const PointLocation next = locate(mesh_, point);
-    const Index f = common_face(mesh_, source_, next, source_.face);
-    const std::array<Vec2, 3> c = flat_corners(mesh_, f);
-    const std::array<double, 3> own = *weights_in(mesh_, source_, f);
-    const Vec2 d = flat_difference(c, own, *weights_in(mesh_, next, f));
-    if (source_.on == On::Vertex) {
-      const auto k = static_cast<Index>(std::max_element(own.begin(), own.end()) - own.begin());
-      const Vec2 edge = c[(k + 1) % 3] - c[k];
-      const double inside = std::clamp(std::atan2(cross(edge, d), dot(edge, d)), 0.0, mesh_.corner_angle(3 * f + k));
-      return fan_.around(3 * f + k, inside);
-    }
-    return f == source_.face ? wrapped(direction_of(d) - base_direction(), 2 * kPi) : over_own_edge(f, c, d);
-  }
-
- private:
-  // 1 where angles grow counter-clockwise in the face, which holds the source; -1 where clockwise.
-  double sense_in(Index face) const {
-    if (source_.on != On::Vertex) return face == source_.face || !runs_as_own(halfedge_in(face)) ? 1 : -1;
-    const auto at = std::find_if(fan_.corners.begin(), fan_.corners.end(),
-                                 [&](const detail::FanCorner& c) { return Mesh::face_of(c.corner) == face; });
-    return at == fan_.corners.end() || !at->reversed ? 1 : -1;
-  }
-
-  // The halfedge along the source's edge in another face.
-  Index halfedge_in(Index face) const {
-    Index in = mesh_.opposite()[source_.halfedge];
-    while (Mesh::face_of(in) != face) in = mesh_.opposite()[in];
-    return in;
-  }
-  bool runs_as_own(Index halfedge) const { return mesh_.from(halfedge) == mesh_.from(source_.halfedge); }
-
-  double base_direction() const {
-    const std::array<Vec2, 3> corners = flat_corners(mesh_, source_.face);
-    return direction_of(corners[1] - corners[0]);
-  }
-
-  // Over the source's own edge into face f: measured from the edge, which both faces have.
-  double over_own_edge(Index f, const std::array<Vec2, 3>& c, Vec2 d) const {
-    const Index in = halfedge_in(f);
-    const Vec2 in_edge = c[Mesh::next(in) % 3] - c[in % 3];
-    const double above = std::atan2(cross(in_edge, d), dot(in_edge, d));  // into f, in [0, pi]
-    const std::array<Vec2, 3> own_corners = flat_corners(mesh_, source_.face);
-    const Vec2 own_edge = own_corners[Mesh::next(source_.halfedge) % 3] - own_corners[source_.halfedge % 3];
-    // Below the edge in the source's face's plane, whichever way round the other face lies.
-    const double from_edge = runs_as_own(in) ? -above : above - kPi;
-    return wrapped(direction_of(own_edge) + from_edge - base_direction(), 2 * kPi);
-  }
-
-  const Mesh& mesh_;
-  PointLocation source_;
-  detail::TangentFan fan_;
-};
+using detail::LeavingAngles;
 
 constexpr double kUnknownAngle = std::numeric_limits<double>::quiet_NaN();
 
@@ -382,6 +328,29 @@ void find_angle(windows::Departures& departures, const LeavingAngles& leaving, S
 
 }  // namespace
 
+namespace {
+
+// Of the copies of a vertex the nearest.
+SparseLogMap brought_back(const Domain& domain, const SparseLogMap& map) {
+  std::vector<std::size_t> order(map.vertex.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(domain.vertex(map.vertex[a]), map.radius[a], a) <
+           std::tuple(domain.vertex(map.vertex[b]), map.radius[b], b);
+  });
+  SparseLogMap result{{}, {}, {}, map.total_angle};
+  for (const std::size_t i : order) {
+    const Index v = domain.vertex(map.vertex[i]);
+    if (!result.vertex.empty() && result.vertex.back() == v) continue;
+    result.vertex.push_back(v);
+    result.radius.push_back(map.radius[i]);
+    result.angle.push_back(map.angle[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
   DistanceOptions how;
   how.max_distance = max_radius;
@@ -390,6 +359,10 @@ SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double 
 }
 
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const DistanceOptions& how) {
+  if (const Domain& domain = solver.domain(); domain.has_walls()) {
+    DistanceSolver on_open(domain.open());
+    return brought_back(domain, log_map(on_open, only_side(domain, source), how));
+  }
   const LeavingAngles leaving(solver.mesh(), source);
   DistanceOptions options;
   options.method = Method::Exact;
@@ -415,8 +388,9 @@ SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const D
   return map;
 }
 
-LogMap log_map(const Mesh& mesh, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
-  DistanceSolver solver(mesh);
+LogMap log_map(const Domain& domain, const SurfacePoint& source, double max_radius, const CancelToken* cancel) {
+  const Mesh& mesh = domain.mesh();
+  DistanceSolver solver(domain);
   const SparseLogMap reached = log_map(solver, source, max_radius, cancel);
   LogMap map{std::vector<double>(mesh.vertex_count(), kInfinity),
              std::vector<double>(mesh.vertex_count(), kUnknownAngle), reached.total_angle};

@@ -44,6 +44,9 @@ struct Trace {
 //
 // Based on: Polthier, Schmies, "Straightest geodesics on polyhedral surfaces", 1998.
 Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, double length);
+// The same within walls, which are boundary. Throws Error(InvalidArgument) for a point behind a wall, and for one on a
+// wall that parts the surface there: directions at it have no common angles.
+Trace straightest(const Domain& domain, const SurfacePoint& from, double angle, double length);
 
 // Polar coordinates of every vertex around a source.
 struct LogMap {
@@ -56,7 +59,10 @@ struct LogMap {
 // Inside the injectivity radius of a point, straightest(source, angle[v], radius[v]) ends at v; behind a saddle or a
 // boundary, angles are those of the vertex that the path bends at. Throws as distance() and straightest() do.
 // The cost of the exact field, and O(edges crossed) for every vertex.
-LogMap log_map(const Mesh& mesh, const SurfacePoint& source, double max_radius = kInfinity,
+//
+// In a domain with walls the source must not lie on one that parts the surface there: Error(InvalidArgument). A vertex
+// on a wall has the polar coordinates of its nearer side.
+LogMap log_map(const Domain& domain, const SurfacePoint& source, double max_radius = kInfinity,
                const CancelToken* cancel = nullptr);
 
 // The same of the reached vertices only, which ascend: after the solver's first call a small disc costs little however

@@ -2,6 +2,7 @@
 #include <brushfire/queries/voronoi.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/solvers/detail/walls.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +32,9 @@ std::vector<BorderFace> border_faces(const Mesh& mesh, const VoronoiDiagram& dia
 }
 
 // Fills in the distances: every source runs once, as far as the border faces of its cell need it.
-void measure(const Mesh& mesh, std::span<const Source> sources, const DistanceOptions& options,
+void measure(const Mesh& mesh, const detail::WalledRun& sources, const DistanceOptions& options,
              const VoronoiDiagram& diagram, std::vector<BorderFace>& faces) {
-  std::vector<std::vector<std::pair<Index, std::size_t>>> of_source(sources.size());  // (border face, corner)
+  std::vector<std::vector<std::pair<Index, std::size_t>>> of_source(diagram.area.size());  // (border face, corner)
   for (Index i = 0; i < faces.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) of_source[faces[i].label[k]].emplace_back(i, k);
   }
@@ -41,7 +42,7 @@ void measure(const Mesh& mesh, std::span<const Source> sources, const DistanceOp
   DistanceSolver solver(mesh);
   DistanceOptions run = options;
   run.targets.clear();
-  for (std::size_t s = 0; s < sources.size(); ++s) {
+  for (std::size_t s = 0; s < of_source.size(); ++s) {
     if (of_source[s].empty()) continue;
     // No corner is farther than the source's own corner of the face and the way along the edge.
     double reach = 0;
@@ -55,7 +56,7 @@ void measure(const Mesh& mesh, std::span<const Source> sources, const DistanceOp
       for (std::size_t to = 0; to < 3; ++to) reach = std::max(reach, bound(faces[i], k, to));
     }
     run.max_distance = std::max(0.0, reach);
-    const SparseField field = solver.distance_sparse(sources.subspan(s, 1), run);
+    const SparseField field = solver.distance_sparse(sources.sides_of(s), run);
     for (std::size_t i = 0; i < field.vertex.size(); ++i) distance[field.vertex[i]] = field.distance[i];
     for (const auto& [i, k] : of_source[s]) {
       for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -230,17 +231,38 @@ class Joiner {
 
 }  // namespace
 
-VoronoiDiagram voronoi(const Mesh& mesh, std::span<const Source> sources, const DistanceOptions& options) {
+namespace {
+
+std::vector<Face> dual_of(std::span<const BorderFace> faces) {
+  std::vector<Face> dual;
+  for (const BorderFace& face : faces) {
+    Face t = face.label;
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    dual.push_back(t);
+  }
+  std::sort(dual.begin(), dual.end());
+  dual.erase(std::unique(dual.begin(), dual.end()), dual.end());
+  return dual;
+}
+
+}  // namespace
+
+VoronoiDiagram voronoi(const Domain& domain, std::span<const Source> sources, const DistanceOptions& options) {
   DistanceOptions run = options;
   run.targets.clear();
-  DistanceField field = distance(mesh, sources, run);
+  // All of it on the open mesh, where what lies at walls is there once for every side.
+  const Mesh& mesh = domain.open();
+  const detail::WalledRun walled(domain, sources, run);
+  DistanceField field = distance(mesh, walled.sources(), run);
   VoronoiDiagram diagram;
-  diagram.distance = std::move(field.distance);
-  diagram.source = std::move(field.source);
+  diagram.distance = field.distance;
+  for (const Index s : field.source) diagram.source.push_back(walled.origin(s));
   diagram.area.assign(sources.size(), 0);
   std::vector<BorderFace> faces = border_faces(mesh, diagram);
-  measure(mesh, sources, run, diagram, faces);
+  measure(mesh, walled, run, diagram, faces);
 
+  diagram.dual = dual_of(faces);
   FaceDivider divider(mesh, diagram.area);
   Poll poll(256);
   for (const BorderFace& face : faces) {
@@ -259,6 +281,12 @@ VoronoiDiagram voronoi(const Mesh& mesh, std::span<const Source> sources, const 
   for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
     while (end < pieces.size() && pieces[end].sources == pieces[begin].sources) ++end;
     Joiner(mesh, std::span(pieces).subspan(begin, end - begin)).join(diagram.borders);
+  }
+  for (VoronoiBorder& border : diagram.borders) domain.to_mesh(border.line.points);
+  if (domain.has_walls()) {
+    walled.bring_back(field);
+    diagram.distance = std::move(field.distance);
+    diagram.source = std::move(field.source);
   }
   return diagram;
 }

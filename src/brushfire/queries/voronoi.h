@@ -23,13 +23,17 @@ struct VoronoiDiagram {
   std::vector<Index> source;     // [vertex_count] its place in the caller's list, the lowest of equals; kNoIndex: none
   std::vector<double> area;      // [sources] of each cell, in units of the mesh squared; 0 for a dominated source
   std::vector<VoronoiBorder> borders;  // ascending by sources
+  // The dual: three cells that meet in a face, the lowest source first, then the way round in which the face runs;
+  // ascending, each once. Its edges are the pairs of `borders`. For sources that lie densely enough it triangulates the
+  // surface (an intrinsic Delaunay triangulation of the sources).
+  std::vector<Face> dual;
 };
 
 // Labels are those of distance(); borders and areas are finer than faces: in a face whose corners have different
 // sources the distance from each of them is taken as linear between its own values at the corners, so a border is met
 // to second order in the edge length. A cell that lies between vertices only is not seen. Faces with an unreached
-// corner belong to no cell. Costs one field, and for every source one more, limited to its cell's reach. `options` and
-// errors are those of distance(); targets are ignored.
-VoronoiDiagram voronoi(const Mesh& mesh, std::span<const Source> sources, const DistanceOptions& options = {});
+// corner belong to no cell; cells do not reach through walls. Costs one field, and for every source one more, limited
+// to its cell's reach. `options` and errors are those of distance(); targets are ignored.
+VoronoiDiagram voronoi(const Domain& domain, std::span<const Source> sources, const DistanceOptions& options = {});
 
 }  // namespace brushfire

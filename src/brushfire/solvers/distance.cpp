@@ -8,6 +8,7 @@
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/offsets.h>
+#include <brushfire/solvers/detail/walls.h>
 #include <brushfire/solvers/fast_marching/detail/fast_marching.h>
 #include <brushfire/solvers/windows/engine.h>
 
@@ -204,7 +205,10 @@ Method method_named(std::string_view name) {
 std::span<const Method> all_methods() { return kMethods; }
 
 struct DistanceSolver::Workspace {
-  Mesh mesh;
+  explicit Workspace(Domain given) : domain(std::move(given)), mesh(domain.open()) {}
+
+  Domain domain;
+  Mesh mesh;  // what is open of it
   std::map<Method, std::unique_ptr<detail::Engine>> engines;
   DistanceField scratch;                       // of distance_sparse(): +inf and kNoIndex everywhere between calls
   std::vector<Index> touched;                  // what a run has changed in it
@@ -223,6 +227,10 @@ struct DistanceSolver::Workspace {
             current_cancel_token()};
   }
   void clean(bool everything);
+
+  // On the open mesh.
+  void run(std::span<const Source> from, const DistanceOptions& options, DistanceField& field);
+  void run_sparse(std::span<const Source> from, const DistanceOptions& options, SparseField& field);
 };
 
 detail::Engine& DistanceSolver::Workspace::engine(Method method) {
@@ -243,13 +251,12 @@ void DistanceSolver::Workspace::clean(bool everything) {
   touched.clear();
 }
 
-DistanceSolver::DistanceSolver(Mesh mesh) : workspace_(std::make_unique<Workspace>()) {
-  workspace_->mesh = std::move(mesh);
-}
+DistanceSolver::DistanceSolver(Domain domain) : workspace_(std::make_unique<Workspace>(std::move(domain))) {}
 DistanceSolver::~DistanceSolver() = default;
 DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
 DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
-const Mesh& DistanceSolver::mesh() const noexcept { return workspace_->mesh; }
+const Domain& DistanceSolver::domain() const noexcept { return workspace_->domain; }
+const Mesh& DistanceSolver::mesh() const noexcept { return workspace_->domain.mesh(); }
 
 void DistanceSolver::set_up(const DistanceOptions& options) {
   const CancelScope listen(options.cancel);
@@ -263,49 +270,64 @@ DistanceField DistanceSolver::distance(std::span<const Source> sources, const Di
 }
 
 void DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options, DistanceField& field) {
-  Workspace& w = *workspace_;
+  field.side_distance.clear();
+  if (!workspace_->domain.has_walls()) return workspace_->run(sources, options, field);
+  const detail::WalledRun walled(workspace_->domain, sources, options);
+  workspace_->run(walled.sources(), walled.options(), field);
+  walled.bring_back(field);
+}
+
+void DistanceSolver::Workspace::run(std::span<const Source> from, const DistanceOptions& options,
+                                    DistanceField& field) {
   const CancelScope listen(options.cancel);
   check(options);
-  detail::Engine& engine = w.engine(options.method);  // first: what it derives of the mesh is not found twice
-  locate_sources(w.mesh, sources, w.sources, w.offsets);
-  locate_targets(w.mesh, options, w.targets);
+  detail::Engine& chosen = engine(options.method);  // first: what it derives of the mesh is not found twice
+  locate_sources(mesh, from, sources, offsets);
+  locate_targets(mesh, options, targets);
   field.windows.reset();
   field.error_bound.clear();
   field.max_error_bound = kInfinity;
   field.beyond_radius = 0;
   field.updates = 0;
-  assign(field.distance, w.mesh.vertex_count(), kInfinity);
-  assign(field.source, w.mesh.vertex_count(), kNoIndex);
-  field.target_distance.assign(w.targets.size(), kInfinity);
-  field.target_source.assign(w.targets.size(), kNoIndex);
-  engine.solve(w.problem(options, nullptr), field);
-  finish(w.mesh, w.targets, w.offsets, options, field);
+  assign(field.distance, mesh.vertex_count(), kInfinity);
+  assign(field.source, mesh.vertex_count(), kNoIndex);
+  field.target_distance.assign(targets.size(), kInfinity);
+  field.target_source.assign(targets.size(), kNoIndex);
+  chosen.solve(problem(options, nullptr), field);
+  finish(mesh, targets, offsets, options, field);
 }
 
 void DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options,
                                      SparseField& field) {
-  Workspace& w = *workspace_;
+  if (!workspace_->domain.has_walls()) return workspace_->run_sparse(sources, options, field);
+  const detail::WalledRun walled(workspace_->domain, sources, options);
+  workspace_->run_sparse(walled.sources(), walled.options(), field);
+  walled.bring_back(field);
+}
+
+void DistanceSolver::Workspace::run_sparse(std::span<const Source> from, const DistanceOptions& options,
+                                           SparseField& field) {
   const CancelScope listen(options.cancel);
   check(options);
-  locate_sources(w.mesh, sources, w.sources, w.offsets);
-  locate_targets(w.mesh, options, w.targets);
-  detail::Engine& engine = w.engine(options.method);
-  const bool listed = engine.lists_touched();
+  locate_sources(mesh, from, sources, offsets);
+  locate_targets(mesh, options, targets);
+  detail::Engine& chosen = engine(options.method);
+  const bool listed = chosen.lists_touched();
 
-  w.clean(false);
-  w.scratch.target_distance.assign(w.targets.size(), kInfinity);
-  w.scratch.target_source.assign(w.targets.size(), kNoIndex);
-  w.scratch.error_bound.clear();
-  w.scratch.windows.reset();
+  clean(false);
+  scratch.target_distance.assign(targets.size(), kInfinity);
+  scratch.target_source.assign(targets.size(), kNoIndex);
+  scratch.error_bound.clear();
+  scratch.windows.reset();
   try {
-    engine.solve(w.problem(options, listed ? &w.touched : nullptr), w.scratch);
+    chosen.solve(problem(options, listed ? &touched : nullptr), scratch);
   } catch (...) {
-    w.clean(!listed);
+    clean(!listed);
     throw;
   }
-  if (!listed) w.touched.resize(w.mesh.vertex_count());  // any of them
-  collect(w.mesh.unit(), w.targets, w.offsets, options, w.scratch, w.touched, field);
-  w.clean(!listed);
+  if (!listed) touched.resize(mesh.vertex_count());  // any of them
+  collect(mesh.unit(), targets, offsets, options, scratch, touched, field);
+  clean(!listed);
 }
 
 SparseField DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options) {
@@ -314,8 +336,8 @@ SparseField DistanceSolver::distance_sparse(std::span<const Source> sources, con
   return field;
 }
 
-DistanceField distance(const Mesh& mesh, std::span<const Source> sources, const DistanceOptions& options) {
-  return DistanceSolver(mesh).distance(sources, options);
+DistanceField distance(const Domain& domain, std::span<const Source> sources, const DistanceOptions& options) {
+  return DistanceSolver(domain).distance(sources, options);
 }
 
 }  // namespace brushfire

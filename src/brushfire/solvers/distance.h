@@ -1,8 +1,15 @@
 // distance(): from a mesh and sources to a distance field. The front door of all solvers.
+//
+// Example:
+//     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;
+//     const std::vector<brushfire::Source> sources{{brushfire::vertex_point(mesh, 0)}};
+//     const brushfire::DistanceField field = brushfire::distance(mesh, sources, {.tolerance = 1e-4});
+//     std::printf("vertex 2 is %g away, to within %g\n", field.distance[2], field.error_bound[2]);
 #pragma once
 
 #include <brushfire/core/progress.h>
 #include <brushfire/core/types.h>
+#include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/window_field.h>
@@ -49,8 +56,8 @@ inline constexpr double kMaxTolerance = 0.1;
 struct DistanceOptions {
   Method method = Method::Windows;
   // Method::Windows: |value - distance| <= tolerance * distance at every vertex (of the path's length, where sources
-  // have offsets); in [0, kMaxTolerance]. 0 is exact, and so is what is asked for so nearly
-  // that an exact run is quicker (on scans: 1e-3 at some thousand vertices, 1e-4 at some hundred thousand).
+  // have offsets); in [0, kMaxTolerance]. 0 is exact. A tolerance so small that an exact run is quicker gets the exact
+  // run (on scans: 1e-3 at some thousand vertices, 1e-4 at some hundred thousand).
   double tolerance = 1e-3;
   Bound bound = Bound::Estimate;           // Method::Windows only
   Precision precision = Precision::Float;  // methods that have only one ignore it
@@ -68,11 +75,14 @@ struct DistanceField {
   std::vector<double>
       distance;               // [vertex_count]; +inf: unreachable, beyond max_distance, or not final at an early stop
   std::vector<Index> source;  // [vertex_count] position of the nearest source in the caller's list; kNoIndex: none
-  std::vector<double> target_distance;         // [targets]
-  std::vector<Index> target_source;            // [targets]
-  std::vector<double> error_bound;             // [vertex_count] absolute and proven; empty for methods without a bound
-  double max_error_bound = kInfinity;          // relative, over all reached vertices; +inf for methods without a bound
-  std::shared_ptr<const WindowField> windows;  // where keep_paths or keep_windows was set and the method has windows
+  std::vector<double> target_distance;  // [targets]
+  std::vector<Index> target_source;     // [targets]
+  // In a domain with walls only: [domain.open().vertex_count()] the distance on every side of them, for isolines.
+  std::vector<double> side_distance;
+  std::vector<double> error_bound;     // [vertex_count] absolute and proven; empty for methods without a bound
+  double max_error_bound = kInfinity;  // relative, over all reached vertices; +inf for methods without a bound
+  // Where keep_paths or keep_windows was set and the method has windows; of domain.open(), in its numbers.
+  std::shared_ptr<const WindowField> windows;
   Method method = Method::Windows;
   Index reached = 0;          // vertices with a finite distance
   Index beyond_radius = 0;    // vertices that the front saw but that are farther than max_distance or not final
@@ -93,19 +103,20 @@ struct SparseField {
 // Distances from the nearest of the sources (least distance plus offset; equal: the lowest position) to every vertex.
 // A source that another one dominates reads less than its own offset. Throws Error(InvalidArgument) for an empty source
 // list, an offset that is not finite or a negative max_distance; Error(IndexOutOfRange) and Error(InvalidArgument) for
-// points that are not on the mesh; Error(Cancelled).
-DistanceField distance(const Mesh& mesh, std::span<const Source> sources, const DistanceOptions& options = {});
+// points that are not on the mesh; Error(InvalidArgument) for a source behind a wall; Error(Cancelled).
+DistanceField distance(const Domain& domain, std::span<const Source> sources, const DistanceOptions& options = {});
 
 // The same with its workspace kept between calls, for many sources on one mesh. Not for use from several threads at
 // once; solvers on the same mesh are independent of each other.
 class DistanceSolver {
  public:
-  explicit DistanceSolver(Mesh mesh);
+  explicit DistanceSolver(Domain domain);
   ~DistanceSolver();
   DistanceSolver(DistanceSolver&&) noexcept;
   DistanceSolver& operator=(DistanceSolver&&) noexcept;
 
-  const Mesh& mesh() const noexcept;
+  const Domain& domain() const noexcept;
+  const Mesh& mesh() const noexcept;  // the whole: domain().mesh()
   // Builds what the first call with this method and precision would build otherwise: tells set-up from solving.
   // O(faces).
   void set_up(const DistanceOptions& options = {});

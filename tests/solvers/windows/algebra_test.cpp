@@ -2,8 +2,8 @@
 // environment variable BRUSHFIRE_RANDOM_WINDOWS says.
 #include <brushfire/solvers/windows/algebra/envelope.h>
 #include <brushfire/solvers/windows/algebra/merge.h>
-#include <brushfire/solvers/windows/algebra/ridge.h>
 #include <brushfire/solvers/windows/algebra/sweep.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
 #include <brushfire/solvers/windows/propagation/fan.h>
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ class Random {
     w.b1 = below(3) ? uniform(w.b0, length) : length;
     w.d0 = value_at(w, w.b0);
     w.d1 = value_at(w, w.b1);
-    w.root = static_cast<Index>(below(1000));
+    w.pseudo_source = static_cast<Index>(below(1000));
     return w;
   }
 
@@ -122,7 +122,7 @@ TEST(Algebra, ChildrenTileTheParentsIntervalAndKeepItsValues) {
       }
       ASSERT_NEAR(child->d0, value_at(*child, child->b0), 16 * kEpsilon * (scale + w.sigma)) << i;
       ASSERT_NEAR(child->d1, value_at(*child, child->b1), 16 * kEpsilon * (scale + w.sigma)) << i;
-      ASSERT_EQ(child->root, w.root);
+      ASSERT_EQ(child->pseudo_source, w.pseudo_source);
     }
   }
 }
@@ -176,7 +176,7 @@ TEST(Algebra, TheRidgeIsWhereBothValuesAgree) {
     const double fp = value_at(a, p) - value_at(b, p), fq = value_at(a, q) - value_at(b, q);
     if (!(p < q) || !(fp * fq < 0)) continue;
     ++found;
-    const double x = ridge(a, b, p, q, fp, fq);
+    const double x = tie_point(a, b, p, q, fp, fq);
     ASSERT_GE(x, p);
     ASSERT_LE(x, q);
     // The place itself is a double: the difference of two values changes by up to twice as much as it is rounded.

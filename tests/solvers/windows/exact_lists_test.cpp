@@ -1,6 +1,6 @@
 // Lists of exact runs on random windows: crossing a face, choosing sides, trimming, waiting.
 #include <brushfire/solvers/windows/algebra/exact_cross.h>
-#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
 #include <brushfire/solvers/windows/propagation/exact_trim.h>
 #include <brushfire/solvers/windows/store/exact_lists.h>
 
@@ -34,7 +34,7 @@ struct Random : std::mt19937 {
     w.b1 = uniform(0, 1) < 0.3 ? length : uniform(w.b0, length);
     w.d0 = value_at(w, w.b0);
     w.d1 = value_at(w, w.b1);
-    w.root = static_cast<Index>((*this)() % 1000);
+    w.pseudo_source = static_cast<Index>((*this)() % 1000);
     return w;
   }
   // Sorted by where they begin.
@@ -118,7 +118,7 @@ TEST(ExactLists, CrossingAFaceEqualsPropagatingEachWindow) {
         ASSERT_NEAR(got[i].b1, expected[i].b1, scale) << "run " << run;
         ASSERT_NEAR(got[i].d0, expected[i].d0, scale) << "run " << run;
         ASSERT_NEAR(got[i].d1, expected[i].d1, scale) << "run " << run;
-        ASSERT_EQ(got[i].root, expected[i].root) << "run " << run;
+        ASSERT_EQ(got[i].pseudo_source, expected[i].pseudo_source) << "run " << run;
       }
     }
     pool.release(block);
@@ -270,9 +270,9 @@ TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
   ExactLists lists;
   BlockPool blocks;
   Index face = kNoIndex;
-  const auto one = [&](Index root) {
+  const auto one = [&](Index pseudo_source) {
     Window w = random.window(1);
-    w.root = root;
+    w.pseudo_source = pseudo_source;
     return list_of({w}, blocks);
   };
   lists.put(face, 7, Origin::End, one(3));
@@ -280,14 +280,14 @@ TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
   lists.key(face, 7) = 0.25;
   lists.put(face, 7, Origin::Start, one(1));
   Window apex = random.window(1);
-  apex.root = 2;
+  apex.pseudo_source = 2;
   lists.put(face, 7, Origin::Apex, apex, blocks);
   EXPECT_EQ(lists.key(face, 7), 0.25) << "the key stays with the halfedge";
   EXPECT_TRUE(lists.empty(face, 8));
   const WindowList list = lists.take(face, 7, blocks);
   ASSERT_EQ(list.size, 3u);
   EXPECT_TRUE(list.ordered);
-  for (Index i = 0; i < 3; ++i) EXPECT_EQ(list.block.columns().root[i], i + 1);
+  for (Index i = 0; i < 3; ++i) EXPECT_EQ(list.block.columns().pseudo_source[i], i + 1);
   EXPECT_TRUE(lists.empty(face, 7));
   EXPECT_FALSE(lists.empty(face, 6));
   lists.put(face, 6, Origin::Start, one(10));

@@ -284,7 +284,7 @@ TEST(LinkShadow, IsAllOfTheOtherFanAndNothingOfAFlatOne) {
   }
   const d::WindowStructure structure(Mesh(positions, faces), 15);
   const Index v = structure.inner_vertex(0), h = structure.inner_halfedge(1);
-  EXPECT_EQ(structure.bend[v], d::Bend::Fans);
+  EXPECT_EQ(structure.vertex_type[v], d::VertexType::Fans);
   std::vector<Index> room;
   d::LinkShadow shadow;
   const double middle = 0.5 * structure.faces[h / 3].length[h % 3];

@@ -187,7 +187,7 @@ TEST(LeastTolerance, BelowItFieldsAreThoseOfAnExactRun) {
   for (const auto& [name, mesh] : meshes()) {
     const windows::WindowStructure structure(mesh, windows::kPartBits);
     const double least =
-        windows::least_tolerance({static_cast<double>(mesh.vertex_count()), 1, structure.typical_defect});
+        windows::least_tolerance({static_cast<double>(mesh.vertex_count()), 1, structure.typical_deficit});
     DistanceSolver solver(mesh);
     const Source source{vertex_point(mesh, mesh.faces()[0][0])};
     DistanceOptions exact;
@@ -223,14 +223,14 @@ TEST(LeastTolerance, BelowItFieldsAreThoseOfAnExactRun) {
 }
 
 TEST(LeastTolerance, IsReadOffTheMesh) {
-  const auto defect = [](const Mesh& mesh) {
-    return windows::WindowStructure(mesh, windows::kPartBits).typical_defect;
+  const auto deficit = [](const Mesh& mesh) {
+    return windows::WindowStructure(mesh, windows::kPartBits).typical_deficit;
   };
-  EXPECT_NEAR(defect(shapes::plane(30, 20).mesh()), 0, 1e-12);
-  EXPECT_NEAR(defect(shapes::cube(8).mesh()), 0, 1e-12);  // but for eight corners
+  EXPECT_NEAR(deficit(shapes::plane(30, 20).mesh()), 0, 1e-12);
+  EXPECT_NEAR(deficit(shapes::cube(8).mesh()), 0, 1e-12);  // but for eight corners
   const Mesh sphere = shapes::icosphere(3).mesh();
-  EXPECT_NEAR(defect(sphere), 4 * 3.14159265 / sphere.vertex_count(), 2e-3);  // Gauss and Bonnet
-  EXPECT_EQ(defect(Mesh(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Face>{{0, 1, 2}})), 0);
+  EXPECT_NEAR(deficit(sphere), 4 * 3.14159265 / sphere.vertex_count(), 2e-3);  // Gauss and Bonnet
+  EXPECT_EQ(deficit(Mesh(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Face>{{0, 1, 2}})), 0);
 }
 
 }  // namespace

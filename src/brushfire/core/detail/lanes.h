@@ -33,6 +33,7 @@
 #pragma once
 
 #include <brushfire/core/detail/inline.h>
+#include <brushfire/core/detail/loop_vector.h>
 #include <brushfire/core/detail/targets.h>
 
 #include <array>
@@ -43,7 +44,9 @@
 #include <type_traits>
 #include <utility>
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if !defined(BRUSHFIRE_HAS_VECTORS)
+// Without intrinsics, too.
+#elif defined(__x86_64__)
 #include <immintrin.h>
 #elif defined(__ARM_NEON) && defined(__aarch64__)
 #include <arm_neon.h>

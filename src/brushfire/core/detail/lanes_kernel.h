@@ -189,19 +189,15 @@ BRUSHFIRE_INLINE bool all(Mask<kBytes, N> mask) {
   return bits(mask) == (1u << N) - 1;
 }
 
-// Lanes from kFirst on, and the lanes of two one after the other.
-template <int kFirst, class T, int N, std::size_t... kLane>
-BRUSHFIRE_INLINE Lanes<T, N / 2> part_of(Lanes<T, N> a, std::index_sequence<kLane...>) {
-  return Lanes<T, N / 2>(__builtin_shufflevector(a.v, a.v, (kFirst + kLane)...));
-}
-template <class T, int N, std::size_t... kLane>
-BRUSHFIRE_INLINE Lanes<T, 2 * N> joined(Lanes<T, N> low, Lanes<T, N> high, std::index_sequence<kLane...>) {
-  return Lanes<T, 2 * N>(__builtin_shufflevector(low.v, high.v, kLane...));
+// The lanes with these numbers, counted over both from kFirst on.
+template <int kFirst, class T, int N, int... kLane>
+BRUSHFIRE_INLINE auto lanes_from(Lanes<T, N> a, Lanes<T, N> b, std::integer_sequence<int, kLane...>) {
+  return Lanes<T, static_cast<int>(sizeof...(kLane))>(shuffled<(kFirst + kLane)...>(a.v, b.v));
 }
 template <class T, int N>
 BRUSHFIRE_INLINE Lanes<T, N / 2> low_half(Lanes<T, N> a) {
   if constexpr (kFits<T, N>) {
-    return part_of<0>(a, std::make_index_sequence<N / 2>());
+    return lanes_from<0>(a, a, std::make_integer_sequence<int, N / 2>());
   } else {
     return a.low;
   }
@@ -209,7 +205,7 @@ BRUSHFIRE_INLINE Lanes<T, N / 2> low_half(Lanes<T, N> a) {
 template <class T, int N>
 BRUSHFIRE_INLINE Lanes<T, N / 2> high_half(Lanes<T, N> a) {
   if constexpr (kFits<T, N>) {
-    return part_of<N / 2>(a, std::make_index_sequence<N / 2>());
+    return lanes_from<N / 2>(a, a, std::make_integer_sequence<int, N / 2>());
   } else {
     return a.high;
   }
@@ -217,7 +213,7 @@ BRUSHFIRE_INLINE Lanes<T, N / 2> high_half(Lanes<T, N> a) {
 template <class T, int N>
 BRUSHFIRE_INLINE Lanes<T, 2 * N> joined(Lanes<T, N> low, Lanes<T, N> high) {
   if constexpr (kFits<T, 2 * N>) {
-    return joined(low, high, std::make_index_sequence<2 * N>());
+    return lanes_from<0>(low, high, std::make_integer_sequence<int, 2 * N>());
   } else {
     return {low, high};
   }

@@ -2,11 +2,19 @@
 // does not know, for any machine, and better for some.
 namespace brushfire::lanes::BRUSHFIRE_TARGET {
 
+#ifdef BRUSHFIRE_HAS_VECTORS
 template <class T, int N>
 struct RegisterOf {
   typedef T Type __attribute__((vector_size(N * sizeof(T))));
   typedef T InMemory __attribute__((vector_size(N * sizeof(T)), aligned(alignof(T)), may_alias));  // anywhere
 };
+#else
+template <class T, int N>
+struct RegisterOf {
+  using Type = LoopVector<T, N>;
+  using InMemory = Type;
+};
+#endif
 template <class T, int N>
 using Register = typename RegisterOf<T, N>::Type;
 
@@ -49,12 +57,34 @@ BRUSHFIRE_INLINE std::uint32_t bits_of(M mask) {
   for (int k = 0; k < kCountOf<M>; ++k) bits |= (mask[k] != 0 ? 1u : 0u) << k;
   return bits;
 }
+
+// The numbers as those of another type; the lanes with these numbers of two registers.
+#ifdef BRUSHFIRE_HAS_VECTORS
 template <class To, class R>
 BRUSHFIRE_INLINE Register<To, kCountOf<R>> converted_of(R a) {
   return __builtin_convertvector(a, Register<To, kCountOf<R>>);
 }
+template <int... kLane, class R>
+BRUSHFIRE_INLINE Register<NumberOf<R>, static_cast<int>(sizeof...(kLane))> shuffled(R a, R b) {
+  return __builtin_shufflevector(a, b, kLane...);
+}
+#else
+template <class To, class R>
+BRUSHFIRE_INLINE Register<To, kCountOf<R>> converted_of(R a) {
+  Register<To, kCountOf<R>> result{};
+  for (int k = 0; k < kCountOf<R>; ++k) result[k] = static_cast<To>(a[k]);
+  return result;
+}
+template <int... kLane, class R>
+BRUSHFIRE_INLINE Register<NumberOf<R>, static_cast<int>(sizeof...(kLane))> shuffled(R a, R b) {
+  return {{(kLane < kCountOf<R> ? a[kLane % kCountOf<R>] : b[kLane % kCountOf<R>])...}};
+}
+#endif
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if !defined(BRUSHFIRE_HAS_VECTORS)
+// All in loops.
+
+#elif defined(__x86_64__)
 
 using Float4 = Register<float, 4>;
 using Double2 = Register<double, 2>;

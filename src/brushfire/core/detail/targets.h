@@ -11,8 +11,11 @@
 // AVX2 is a target of its own on x86, entered after the processor has said that it has it. Everywhere else, and for
 // compilers that know no targets within a file, there is one: what the file is compiled for (SSE2, NEON, WebAssembly
 // SIMD, or no vectors at all).
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__GNUC__) && !defined(BRUSHFIRE_WITHOUT_VECTORS)
+#define BRUSHFIRE_HAS_VECTORS 1
+#if defined(__x86_64__)
 #define BRUSHFIRE_HAS_AVX2_TARGET 1
+#endif
 #endif
 
 namespace brushfire {

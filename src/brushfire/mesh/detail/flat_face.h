@@ -15,6 +15,10 @@ namespace brushfire {
 // needles and caps keep their digits. All zero where the corners coincide.
 std::array<Vec2, 3> flat_corners(const Mesh& mesh, Index f);
 
+// Position of the third corner of the face of halfedge g over edge h of the same ring, in the frame of h: from(h) at
+// (0,0), to(h) on the x axis, the corner above; mesh.unit(). The edge must not have length 0. Looks up two faces only.
+Vec2 apex_over(const Mesh& mesh, Index h, Index g);
+
 // By how much the weights of one point of a face differ from those of another. They sum to zero, and the two that are
 // not the heaviest keep their digits.
 std::array<double, 3> weight_difference(const std::array<double, 3>& from, const std::array<double, 3>& to);
@@ -26,7 +30,8 @@ Vec2 flat_difference(const std::array<Vec2, 3>& corners, const std::array<double
 // The faces that hold the point: its own; all around its edge; all around its vertex. Ascending.
 std::vector<Index> faces_at(const Mesh& mesh, const PointLocation& point);
 
-// The point's weights in face f, where f holds it.
+// The point's weights in face f, where f holds it: a point inside a face lies in that one only, and not in another one
+// over the same vertices.
 std::optional<std::array<double, 3>> weights_in(const Mesh& mesh, const PointLocation& point, Index f);
 
 // A face that holds both points: `preferred` where it does, else the lowest; kNoIndex where there is none.

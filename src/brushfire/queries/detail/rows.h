@@ -14,7 +14,7 @@ namespace brushfire::detail {
 class Rows {
  public:
   // Checks all places and options. Throws as distance_matrix() does.
-  Rows(const Mesh& mesh, Places rows, Places columns, const MatrixOptions& options);
+  Rows(const Domain& domain, Places rows, Places columns, const MatrixOptions& options);
 
   std::size_t count() const noexcept { return row_count_; }
   std::size_t columns() const noexcept { return column_count_; }
@@ -46,7 +46,8 @@ class Rows {
   void compute_row(Worker& worker, std::size_t i);
   void fill(const SparseField& field, std::span<double> values) const;
 
-  Mesh mesh_;
+  Domain domain_;
+  Mesh mesh_;  // the whole
   Places rows_;
   std::size_t row_count_ = 0, column_count_ = 0;
   bool all_columns_ = true;

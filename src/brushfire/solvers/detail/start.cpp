@@ -1,7 +1,7 @@
 // Straight lines inside one face and across one edge.
 #include <brushfire/solvers/detail/start.h>
 
-#include <brushfire/core/detail/planar.h>
+#include <brushfire/mesh/detail/flat_face.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +16,6 @@ struct Net {
   Index from(Index h) const { return faces[h / 3][h % 3]; }
   Index opposite(Index h) const { return mesh.opposite(h); }
   double length(Index h) const { return mesh.length(h); }
-  Vec2 apex_over(Index h, Index g) const {
-    const bool same_way = g == h || from(g) == from(h);
-    const Mesh::FaceGeometry face = mesh.face_geometry(Mesh::face_of(g));
-    const double from_first = face.lengths[(same_way ? Mesh::previous(g) : Mesh::next(g)) % 3];
-    const double from_second = face.lengths[(same_way ? Mesh::next(g) : Mesh::previous(g)) % 3];
-    return apex_over_edge(face.lengths[g % 3], from_first, from_second, face.double_area);
-  }
 
   const Mesh& mesh;
   std::span<const Face> faces;
@@ -61,14 +54,14 @@ void first_sights(const Mesh& mesh, const Net& net, const PointLocation& at, std
     for (const Index corner : mesh.corners(at.vertex)) {
       const Index h = Mesh::next(corner);
       if (!mesh.is_face_usable(Mesh::face_of(h)) || net.length(h) == 0) continue;
-      const Vec2 own = net.apex_over(h, h);
+      const Vec2 own = apex_over(mesh, h, h);
       sights.push_back(whole_edge(net, h, {own.x, -own.y}));
     }
     return;
   }
   const auto add = [&](Index h, double ahead, double third) {
     if (net.length(h) == 0) return;
-    const Vec2 own = net.apex_over(h, h);
+    const Vec2 own = apex_over(mesh, h, h);
     sights.push_back(whole_edge(net, h, {ahead * net.length(h) + third * own.x, -third * own.y}));
   };
   if (at.on == PointLocation::On::Interior) {
@@ -86,25 +79,6 @@ void first_sights(const Mesh& mesh, const Net& net, const PointLocation& at, std
     add(Mesh::previous(g), at_from, at_to);
     g = net.opposite(g);
   } while (g != at.halfedge);
-}
-
-// The point's weights at the corners of face f; false where the point is not in that face.
-bool weights_in(const Mesh& mesh, const PointLocation& at, Index f, std::array<double, 3>& weights) {
-  if (f == at.face) {
-    weights = at.weights;
-    return true;
-  }
-  weights = {0, 0, 0};
-  const Face& own = mesh.faces()[at.face];
-  const Face& other = mesh.faces()[f];
-  for (Index k = 0; k < 3; ++k) {
-    if (at.weights[k] == 0) continue;
-    Index j = 0;
-    while (j < 3 && other[j] != own[k]) ++j;
-    if (j == 3 || at.on == PointLocation::On::Interior) return false;
-    weights[j] += at.weights[k];
-  }
-  return true;
 }
 
 double distance_in_face(const Mesh& mesh, Index f, const std::array<double, 3>& a, const std::array<double, 3>& b) {
@@ -129,7 +103,6 @@ double distance_in_face(const Mesh& mesh, Index f, const std::array<double, 3>& 
 // From inside a face, across one of its edges; +inf where b is not to be seen there.
 double distance_across_edge(const Mesh& mesh, const PointLocation& a, const PointLocation& b) {
   double shortest = kInfinity;
-  std::array<double, 3> wb;
   for (Index h = 3 * a.face; h < 3 * a.face + 3; ++h) {
     const double length = mesh.length(h);
     if (length == 0 || !mesh.is_face_usable(a.face)) continue;
@@ -137,10 +110,11 @@ double distance_across_edge(const Mesh& mesh, const PointLocation& a, const Poin
     const double ahead = a.weights[Mesh::next(h) % 3], third = a.weights[Mesh::previous(h) % 3];
     const Vec2 below{ahead * length + third * own.x, third * own.y};  // a lies at (x,-y)
     for (Index g = mesh.opposite(h); g != h; g = mesh.opposite(g)) {
-      if (!weights_in(mesh, b, Mesh::face_of(g), wb)) continue;
+      const auto wb = weights_in(mesh, b, Mesh::face_of(g));
+      if (!wb) continue;
       const Index to = mesh.from(g) == mesh.from(h) ? Mesh::next(g) : g;  // the corner of g's face at to(h)
       const Vec2 apex = apex_over(mesh, h, g);
-      const double w_to = wb[to % 3], w_apex = wb[Mesh::previous(g) % 3];
+      const double w_to = (*wb)[to % 3], w_apex = (*wb)[Mesh::previous(g) % 3];
       const Vec2 above{w_to * length + w_apex * apex.x, w_apex * apex.y};
       const double height = above.y + below.y, crossing = below.x * above.y + above.x * below.y;
       if (crossing < 0 || crossing > length * height) continue;
@@ -151,8 +125,6 @@ double distance_across_edge(const Mesh& mesh, const PointLocation& a, const Poin
 }
 
 }  // namespace
-
-Vec2 apex_over(const Mesh& mesh, Index h, Index g) { return Net(mesh).apex_over(h, g); }
 
 std::span<const Seed> SeedSearch::in_own_faces(const Mesh& mesh, const PointLocation& at) {
   seeds_.clear();
@@ -183,7 +155,7 @@ std::span<const Seed> SeedSearch::in_sight(const Mesh& mesh, const PointLocation
     if (s.crossed >= crossings) break;
     const double length = net.length(s.edge);
     for (Index g = net.opposite(s.edge); g != s.edge; g = net.opposite(g)) {
-      Vec2 apex = net.apex_over(s.edge, g);
+      Vec2 apex = apex_over(mesh, s.edge, g);
       if (net.from(s.edge) != s.first) apex.x = length - apex.x;
       const Vec2 to_apex = apex - s.start;
       const double distance = norm(to_apex);  // in mesh.unit(): squares neither vanish nor overflow
@@ -199,11 +171,9 @@ std::span<const Seed> SeedSearch::in_sight(const Mesh& mesh, const PointLocation
 
 double straight_distance(const Mesh& mesh, const PointLocation& a, const PointLocation& b) {
   double shortest = kInfinity;
-  std::array<double, 3> wa, wb;
   const auto try_face = [&](Index f) {
-    if (weights_in(mesh, a, f, wa) && weights_in(mesh, b, f, wb)) {
-      shortest = std::min(shortest, distance_in_face(mesh, f, wa, wb));
-    }
+    const auto wa = weights_in(mesh, a, f), wb = weights_in(mesh, b, f);
+    if (wa && wb) shortest = std::min(shortest, distance_in_face(mesh, f, *wa, *wb));
   };
   try_face(a.face);
   try_face(b.face);

@@ -46,8 +46,4 @@ inline constexpr std::size_t kMaxSights = 1024;
 // edge, in mesh.unit(); +inf for all others.
 double straight_distance(const Mesh& mesh, const PointLocation& a, const PointLocation& b);
 
-// Position of the third corner of the face of halfedge g over edge h of the same ring, in the frame of h: from(h) at
-// (0,0), to(h) on the x axis, the corner above. The edge must not have length 0.
-Vec2 apex_over(const Mesh& mesh, Index h, Index g);
-
 }  // namespace brushfire::detail

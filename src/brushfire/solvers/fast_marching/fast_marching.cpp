@@ -5,6 +5,7 @@
 #include <brushfire/core/detail/prefetch.h>
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/error.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
@@ -162,12 +163,10 @@ class Marcher {
   void work(const CancelToken* cancel) {
     constexpr std::size_t kWorthSharing = 64;
     if (!workers_.team() || state_.load < kWorthSharing) {
-      for (const Index part : state_.work) march_part_(rings_, state_, part);
+      for (const partition::Due& d : state_.due) march_part_(rings_, state_, d.part);
       return;
     }
-    due_.clear();
-    for (const Index part : state_.work) due_.push_back({part, state_.outlook[part].load});
-    workers_.work(due_, [this, cancel](unsigned, Index part) {
+    workers_.work(state_.due, [this, cancel](unsigned, Index part) {
       if (!(cancel && cancel->cancelled())) march_part_(rings_, state_, part);
     });
   }
@@ -221,33 +220,33 @@ class Marcher {
     const PointLocation& at = problem.targets[i];
     double best = kInfinity;
     Index source = kNoIndex;
-    const auto offer = [&](double d, Index l) {
+    const auto consider = [&](double d, Index l) {
       if (d < kInfinity && std::pair(d, l) < std::pair(best, source)) best = d, source = l;
     };
     if (at.on == PointLocation::On::Vertex) {
-      offer(base_ + value(at.vertex), label(at.vertex));
+      consider(base_ + value(at.vertex), label(at.vertex));
     } else {
       for (const detail::Seed& seed : seeds_.in_own_faces(mesh_, at)) {
-        offer(base_ + value(seed.vertex) + seed.distance, label(seed.vertex));
+        consider(base_ + value(seed.vertex) + seed.distance, label(seed.vertex));
       }
-      if (mesh_.is_face_usable(at.face)) through_faces(problem, at, offer);
+      if (mesh_.is_face_usable(at.face)) through_faces(problem, at, consider);
       for (const detail::LocatedSource& s : problem.sources) {
         const double d = detail::straight_distance(mesh_, s.at, at);
-        offer(s.offset + d, s.label);
+        consider(s.offset + d, s.label);
       }
     }
     field.target_distance[i] = best;
     field.target_source[i] = source;
   }
 
-  template <class Offer>
-  void through_faces(const detail::Problem& problem, const PointLocation& at, const Offer& offer) const {
+  template <class Consider>
+  void through_faces(const detail::Problem& problem, const PointLocation& at, const Consider& consider) const {
     if (at.on == PointLocation::On::Interior) {
       for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
         const double third = at.weights[Mesh::previous(h) % 3], ahead = at.weights[Mesh::next(h) % 3];
         if (mesh_.length(h) == 0) continue;
-        const Vec2 apex = detail::apex_over(mesh_, h, h);
-        through_edge(problem, h, {ahead * mesh_.length(h) + third * apex.x, third * apex.y}, offer);
+        const Vec2 apex = apex_over(mesh_, h, h);
+        through_edge(problem, h, {ahead * mesh_.length(h) + third * apex.x, third * apex.y}, consider);
       }
       return;
     }
@@ -259,25 +258,25 @@ class Marcher {
         const double length = mesh_.length(h);
         if (length == 0) continue;
         // The third corner over h is an end of g; the target lies between it and the end that h shares with g.
-        const Vec2 apex = detail::apex_over(mesh_, h, h);
+        const Vec2 apex = apex_over(mesh_, h, h);
         const Vec2 shared = h == Mesh::next(g) ? Vec2{0, 0} : Vec2{length, 0};
         const double share = h == Mesh::next(g) ? 1 - t : t;
-        through_edge(problem, h, shared + share * (apex - shared), offer);
+        through_edge(problem, h, shared + share * (apex - shared), consider);
       }
       g = mesh_.opposite(g);
     } while (g != at.halfedge);
   }
 
   // `at`: the target in the frame of halfedge h.
-  template <class Offer>
-  void through_edge(const detail::Problem& problem, Index h, Vec2 at, const Offer& offer) const {
+  template <class Consider>
+  void through_edge(const detail::Problem& problem, Index h, Vec2 at, const Consider& consider) const {
     const Index v1 = mesh_.from(h), v2 = mesh_.to(h);
     const Index l = label(v1);
     if (l == kNoIndex || l != label(v2)) return;
     const double started = state_.labelled ? static_cast<double>(state_.start[l]) : 0.0;
     const FrontModel model = front_model(problem.options->method);
     const double d = update(model, mesh_.length(h), at, value(v1) - started, value(v2) - started);
-    offer(base_ + started + d, l);
+    consider(base_ + started + d, l);
   }
 
   void write(const detail::Problem& problem, DistanceField& field) {
@@ -332,9 +331,8 @@ class Marcher {
   MarchState<T> state_;
   MarchPart<T> march_part_ = nullptr;  // of this run
   partition::WorkerTeam workers_{kPatience};
-  std::vector<partition::Due> due_;  // the parts that work in this round
-  double base_ = 0;                  // the lowest offset: values are kept relative to it
-  double final_ = kInfinity;         // where the front stopped
+  double base_ = 0;           // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;  // where the front stopped
 };
 
 class FastMarching final : public detail::Engine {

@@ -7,7 +7,7 @@
 #include "algebra/face_shape.cpp"
 #include "algebra/merge.cpp"
 #include "algebra/rays.cpp"
-#include "algebra/ridge.cpp"
+#include "algebra/tie_point.cpp"
 
 #include "store/exact_lists.cpp"
 

@@ -1,6 +1,7 @@
 // Puts the sides and triangles around vertices into blocks.
 #pragma once
 
+#include <brushfire/core/detail/lanes.h>
 #include <brushfire/core/detail/prefault.h>
 #include <brushfire/core/detail/prefetch.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
@@ -13,10 +14,6 @@
 #include <unordered_map>
 #include <utility>
 #include <vector>
-
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
 
 namespace brushfire::fast_marching {
 
@@ -79,7 +76,7 @@ class LaneWriter {
     set_edge(at, a, length);
   }
 
-  // An unfolded triangle, whose second side may be one of those that are there. It offers values to its first end.
+  // An unfolded triangle, whose second side may be one of those that are there. It is for updates of its first end.
   void add_unfolded(Index v, const Corner& c) {
     Lane at{v, free_lane_of(v)};
     Index second = second_side(at, c);
@@ -143,18 +140,8 @@ class LaneWriter {
 
   // The sides that end in w: a bit for each.
   static std::uint32_t lanes_with(const RingBlock<T>& block, Index w) {
-#ifdef __SSE2__
-    const __m128i wanted = _mm_set1_epi32(static_cast<int>(w));
-    const auto* const ends = reinterpret_cast<const __m128i*>(block.end);
-    const __m128i four = _mm_cmpeq_epi32(_mm_load_si128(ends), wanted);
-    const __m128i others = _mm_cmpeq_epi32(_mm_load_si128(ends + 1), wanted);
-    const __m128i words = _mm_packs_epi32(four, others);
-    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(words, _mm_setzero_si128())));
-#else
-    std::uint32_t lanes = 0;
-    for (Index k = 0; k < kLanes; ++k) lanes |= (block.end[k] == w ? 1u : 0u) << k;
-    return lanes;
-#endif
+    using namespace lanes::portable;
+    return bits(load<Numbers8>(block.end) == w);
   }
 
   Lane next_block(Index v, Lane after) {

@@ -10,10 +10,10 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 // The columns of a list of circular windows without slack. The values at the ends are not kept: they are needed when a
 // list is trimmed, and a list crosses several faces between two trimmings.
 struct WindowColumns {
-  Real *b0, *b1;  // the lit interval
-  Real *x, *y;    // the virtual source
-  Real* sigma;    // value there
-  Index* root;    // see Window::root
+  Real *b0, *b1;         // the visible interval
+  Real *x, *y;           // the virtual source
+  Real* sigma;           // value there
+  Index* pseudo_source;  // see Window
 
   Window window(Index i) const {
     Window w;
@@ -23,7 +23,7 @@ struct WindowColumns {
     w.sigma = sigma[i];
     w.d0 = value_at(w, w.b0);
     w.d1 = value_at(w, w.b1);
-    w.root = root[i];
+    w.pseudo_source = pseudo_source[i];
     return w;
   }
   void set(Index i, const Window& w) const {
@@ -32,7 +32,7 @@ struct WindowColumns {
     x[i] = w.source.x;
     y[i] = w.source.y;
     sigma[i] = w.sigma;
-    root[i] = w.root;
+    pseudo_source[i] = w.pseudo_source;
   }
   void move(Index to, Index from) const { copy_from(to, *this, from); }
   void copy_from(Index to, const WindowColumns& other, Index from) const {
@@ -41,9 +41,9 @@ struct WindowColumns {
     x[to] = other.x[from];
     y[to] = other.y[from];
     sigma[to] = other.sigma[from];
-    root[to] = other.root[from];
+    pseudo_source[to] = other.pseudo_source[from];
   }
-  WindowColumns from(Index i) const { return {b0 + i, b1 + i, x + i, y + i, sigma + i, root + i}; }
+  WindowColumns from(Index i) const { return {b0 + i, b1 + i, x + i, y + i, sigma + i, pseudo_source + i}; }
 };
 inline void copy_windows(const WindowColumns& from, const WindowColumns& to, Index count) {
   std::memcpy(to.b0, from.b0, count * sizeof(Real));
@@ -51,7 +51,7 @@ inline void copy_windows(const WindowColumns& from, const WindowColumns& to, Ind
   std::memcpy(to.x, from.x, count * sizeof(Real));
   std::memcpy(to.y, from.y, count * sizeof(Real));
   std::memcpy(to.sigma, from.sigma, count * sizeof(Real));
-  std::memcpy(to.root, from.root, count * sizeof(Index));
+  std::memcpy(to.pseudo_source, from.pseudo_source, count * sizeof(Index));
 }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,7 +1,7 @@
 // The lower envelope by a bottom-up merge sort whose "merge" sweeps two envelopes from left to right.
 #include <brushfire/solvers/windows/algebra/envelope.h>
 
-#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
@@ -15,14 +15,14 @@ void Envelope::add(const Window& w, Real b0, Real b1, Real d0, Real d1) {
   merged_.push_back({&w, b0, b1, d0, d1});
 }
 
-// The lower of a and b on [p,q], where both are lit; xp, xq: their values at p and q.
+// The lower of a and b on [p,q], where both are visible; xp, xq: their values at p and q.
 void Envelope::decide(const Part& a, const Part& b, Real p, Real q, Real ap, Real bp, Real aq, Real bq) {
   const Window &wa = *a.window, &wb = *b.window;
   const Real within = tie(std::max(ap, aq));
   const auto settled = [&](Real f) { return abs(f) <= within ? 0.0 : f; };
   const Real fp = settled(ap - bp), fq = settled(aq - bq);
   if (fp * fq < 0) {
-    const Real z = ridge(wa, wb, p, q, fp, fq);
+    const Real z = tie_point(wa, wb, p, q, fp, fq);
     const Real az = value_at(wa, z), bz = value_at(wb, z);
     if (fp < 0) {
       add(wa, p, z, ap, az);
@@ -37,15 +37,16 @@ void Envelope::decide(const Part& a, const Part& b, Real p, Real q, Real ap, Rea
   const Real x = equal_slope(wa, wb);
   const Real ax = x > p && x < q ? value_at(wa, x) : 0, bx = x > p && x < q ? value_at(wb, x) : 0;
   const Real fx = settled(ax - bx);
-  const bool a_at_ends = fp < 0 || fq < 0 || (fp == 0 && fq == 0 && (fx < 0 || (fx == 0 && wa.root <= wb.root)));
+  const bool a_at_ends =
+      fp < 0 || fq < 0 || (fp == 0 && fq == 0 && (fx < 0 || (fx == 0 && wa.pseudo_source <= wb.pseudo_source)));
   const Window& outer = a_at_ends ? wa : wb;
   const Window& inner = a_at_ends ? wb : wa;
   const Real op = a_at_ends ? ap : bp, oq = a_at_ends ? aq : bq;
   const Real gain = a_at_ends ? fx : -fx;  // > 0: the inner one wins at x
   if (gain <= 0) return add(outer, p, q, op, oq);
   const Real gp = a_at_ends ? -fp : fp, gq = a_at_ends ? -fq : fq;  // inner - outer at the ends, >= 0
-  const Real z0 = gp > 0 ? ridge(inner, outer, p, x, gp, -gain) : p;
-  const Real z1 = gq > 0 ? ridge(inner, outer, x, q, -gain, gq) : q;
+  const Real z0 = gp > 0 ? tie_point(inner, outer, p, x, gp, -gain) : p;
+  const Real z1 = gq > 0 ? tie_point(inner, outer, x, q, -gain, gq) : q;
   add(outer, p, z0, op, value_at(outer, z0));
   add(inner, z0, z1, value_at(inner, z0), value_at(inner, z1));
   add(outer, z1, q, value_at(outer, z1), oq);

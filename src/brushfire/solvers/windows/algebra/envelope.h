@@ -13,7 +13,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 class Envelope {
  public:
   // The envelope, from left to right, disjoint; valid until the next call. Windows are equal only within rounding
-  // (tie()): the one with the lower root wins then. Parts narrower than a sliver are dropped.
+  // (tie()): the one with the lower pseudo-source wins then. Parts narrower than a sliver are dropped.
   std::span<Window> operator()(std::span<const Window> windows);
 
  private:

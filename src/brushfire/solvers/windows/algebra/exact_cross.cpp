@@ -18,8 +18,8 @@ Index without_slivers(const WindowColumns& w, Index count) {
   Index kept = 0;
   for (Index i = 0; i < count; ++i) {
     const Real width = w.b1[i] - w.b0[i];
-    const bool lit = w.y[i] < 0 || (w.y[i] == 0 && w.x[i] > w.b0[i] && w.x[i] < w.b1[i]);
-    if (!lit || !(width > 0) || !(width > kSliver * length_of(w.x[i] - w.b0[i], w.y[i]))) continue;
+    const bool visible = w.y[i] < 0 || (w.y[i] == 0 && w.x[i] > w.b0[i] && w.x[i] < w.b1[i]);
+    if (!visible || !(width > 0) || !(width > kSliver * length_of(w.x[i] - w.b0[i], w.y[i]))) continue;
     if (kept != i) w.move(kept, i);
     ++kept;
   }
@@ -62,8 +62,8 @@ BRUSHFIRE_WIDE std::int64_t to_left(const Real* __restrict b0, const Real* __res
     to_b1[i] = goes[i] > 0 ? end : begin;
     to_x[i] = sx;
     to_y[i] = sy;
-    const std::int64_t wide = end - begin > kSliver * (abs(sx) + length - sy), lit = sy < 0, asked = goes[i] > 0;
-    dim += 1 - (wide & lit & asked);
+    const std::int64_t wide = end - begin > kSliver * (abs(sx) + length - sy), visible = sy < 0, asked = goes[i] > 0;
+    dim += 1 - (wide & visible & asked);
   }
   return dim;
 }
@@ -88,8 +88,8 @@ BRUSHFIRE_WIDE std::int64_t to_right(const Real* __restrict b0, const Real* __re
     to_b1[i] = goes[i] > 0 ? end : begin;
     to_x[i] = sx;
     to_y[i] = sy;
-    const std::int64_t wide = end - begin > kSliver * (abs(sx) + length - sy), lit = sy < 0, asked = goes[i] > 0;
-    dim += 1 - (wide & lit & asked);
+    const std::int64_t wide = end - begin > kSliver * (abs(sx) + length - sy), visible = sy < 0, asked = goes[i] > 0;
+    dim += 1 - (wide & visible & asked);
   }
   return dim;
 }
@@ -225,7 +225,7 @@ Index cross_to_left(const WindowColumns& w, const Routes& routes, const Sight& s
   const bool dim = to_left(w.b0, w.b1, w.x, w.y, routes.goes_left, sight.right.data(), count, frame.apex, frame.left,
                            out.b0, out.b1, out.x, out.y) > 0;
   std::copy_n(w.sigma, count, out.sigma);
-  std::copy_n(w.root, count, out.root);
+  std::copy_n(w.pseudo_source, count, out.pseudo_source);
   return dim ? without_slivers(out, count) : count;
 }
 
@@ -238,7 +238,7 @@ Index cross_to_right(const WindowColumns& all, Index count, const Routes& routes
   const bool dim = to_right(w.b0, w.b1, w.x, w.y, routes.goes_right + begin, sight.left.data() + begin, count,
                             frame.apex, frame.length, frame.right, out.b0, out.b1, out.x, out.y) > 0;
   std::copy_n(w.sigma, count, out.sigma);
-  std::copy_n(w.root, count, out.root);
+  std::copy_n(w.pseudo_source, count, out.pseudo_source);
   return dim ? without_slivers(out, count) : count;
 }
 

@@ -31,15 +31,16 @@ struct Routes {
   std::vector<Real> some_left, some_right;
 };
 
-// One angle, two sides. Of the windows that see the apex, one is the best there: `best` (kNoIndex: none is known). A
-// window whose ray to the apex crosses the edge left of the best one's has nothing to give on the right where its limit
-// ray on the right crosses the best one's ray to the apex: there the path along the best one's is shorter. So each
-// window normally goes on to one side, the best one to both, and the windows' order says which.
+// One angle, one split (Chen and Han 1990): of the windows that see the apex only the best one there, `best` (kNoIndex:
+// none is known), has children on both sides. A window whose ray to the apex crosses the edge left of the best one's
+// has nothing to give on the right where its limit ray on the right crosses the best one's ray to the apex: there the
+// path along the best one's is shorter. So the others normally go on to one side each, and the windows' order says
+// which.
 void find_routes(const WindowColumns& windows, Index count, const Frame& frame, const Sight& sight, Index best,
                  Routes& routes);
 
 // The windows' parts left of the apex on the edge from the start to the apex, the parts right of it on the edge from
-// the apex to the end (as in propagate()). Return how many there are: what is not lit and slivers are left out.
+// the apex to the end (as in propagate()). Return how many there are: what is not visible and slivers are left out.
 Index cross_to_left(const WindowColumns& windows, const Routes& routes, const Sight& sight, const Frame& frame,
                     const WindowColumns& out);
 Index cross_to_right(const WindowColumns& windows, Index count, const Routes& routes, const Sight& sight,

@@ -12,7 +12,8 @@ Vec3 scaled(const brushfire::Vec3& p, double scale) {
   return {Real{p.x * scale}, Real{p.y * scale}, Real{p.z * scale}};
 }
 
-FaceShape shape_from_positions(const Mesh& mesh, const Face& t) {
+// (These two: of wider numbers.)
+[[maybe_unused]] FaceShape shape_from_positions(const Mesh& mesh, const Face& t) {
   const double scale = 1 / mesh.unit();  // a power of two: nothing is rounded
   const auto p = mesh.positions();
   const std::array<Vec3, 3> corner{scaled(p[t[0]], scale), scaled(p[t[1]], scale), scaled(p[t[2]], scale)};
@@ -31,7 +32,7 @@ FaceShape shape_from_positions(const Mesh& mesh, const Face& t) {
   return shape;
 }
 
-FaceShape shape_from_lengths(const Mesh& mesh, Index f) {
+[[maybe_unused]] FaceShape shape_from_lengths(const Mesh& mesh, Index f) {
   const auto l = mesh.lengths().subspan(3 * std::size_t{f}, 3);
   FaceShape shape;
   shape.length = {l[0], l[1], l[2]};

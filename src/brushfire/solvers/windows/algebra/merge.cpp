@@ -2,7 +2,7 @@
 #include <brushfire/solvers/windows/algebra/merge.h>
 
 #include <brushfire/core/detail/planar.h>
-#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
 
 #include <algorithm>
 #include <limits>
@@ -89,7 +89,7 @@ bool merge_into(const Window& a, Window& b, const Joint& joint, Real start, cons
   b.sigma = sigma;
   b.slack = paid;
   b.lift = static_cast<float>(expected);
-  b.root = a.root;
+  b.pseudo_source = a.pseudo_source;
   b.trail = kNoIndex;
   return true;
 }

@@ -15,21 +15,21 @@ struct Division {
   Real aside0 = 0, aside1 = 0;  // of the rays through b0 and b1
   Real depth = 0;
 
-  bool lit_left() const { return aside0 > 0; }
-  bool lit_right() const { return aside1 < 0; }
-  bool lit_apex() const { return aside0 >= 0 && aside1 <= 0; }
+  bool sees_left() const { return aside0 > 0; }
+  bool sees_right() const { return aside1 < 0; }
+  bool sees_apex() const { return aside0 >= 0 && aside1 <= 0; }
 };
 inline Division divide(const Window& w, Vec2 apex) {
   const Crossing at = crossing(w, apex);
   return {at.across - w.b0 * at.along, at.across - w.b1 * at.along, -w.source.y};
 }
 
-// Propagation (L3, L4): the children's pre-images tile the lit interval; slack, lift and root are inherited (the slack
-// stays valid because the value grows along a ray as fast as the path does). `apex_value`: straight_value at the apex.
-// Needs is_lit(w) and, where the source lies on the edge, an apex off it. What rounding decides about a ray through the
-// apex is worth nothing: both children meet there.
+// Propagation (L3, L4): the children's pre-images tile the visible interval; slack, lift and pseudo-source are
+// inherited (the slack stays valid because the value grows along a ray as fast as the path does). `apex_value`:
+// straight_value at the apex. Needs is_visible(w) and, where the source lies on the edge, an apex off it. What rounding
+// decides about a ray through the apex is worth nothing: both children meet there.
 //
-// On a-apex, in the frame with a at the origin; needs lit_left() and a side longer than 0.
+// On a-apex, in the frame with a at the origin; needs sees_left() and a side longer than 0.
 [[gnu::always_inline]] inline Window left_child(const Window& w, const Frame& frame, const Division& d,
                                                 Real apex_value) {
   const Real inverse = 1 / frame.left;
@@ -45,7 +45,7 @@ inline Division divide(const Window& w, Vec2 apex) {
     l.b0 = place(w.b0, d.aside0);
     l.d0 = value_at(l, l.b0);
   }
-  if (d.lit_right()) {
+  if (d.sees_right()) {
     l.b1 = frame.left;
     l.d1 = apex_value;
   } else {
@@ -54,7 +54,7 @@ inline Division divide(const Window& w, Vec2 apex) {
   }
   return l;
 }
-// On apex-b, with the apex at the origin; needs lit_right() and a side longer than 0.
+// On apex-b, with the apex at the origin; needs sees_right() and a side longer than 0.
 [[gnu::always_inline]] inline Window right_child(const Window& w, const Frame& frame, const Division& d,
                                                  Real apex_value) {
   const Real inverse = 1 / frame.right;
@@ -66,7 +66,7 @@ inline Division divide(const Window& w, Vec2 apex) {
   const auto place = [&](Real b, Real aside) {
     return std::max(Real{0}, frame.right * (-aside / ((frame.length - b) * d.depth - aside)));
   };
-  if (d.lit_left()) {
+  if (d.sees_left()) {
     r.b0 = 0;
     r.d0 = apex_value;
   } else {
@@ -82,19 +82,19 @@ inline Division divide(const Window& w, Vec2 apex) {
   return r;
 }
 
-// Calls left(child) and right(child) for those that are lit; they have the triangle below and their source in it or
+// Calls left(child) and right(child) for those that are visible; they have the triangle below and their source in it or
 // beyond. They may be slivers.
 template <class Left, class Right>
 [[gnu::always_inline]] inline void propagate(const Window& w, const Frame& frame, Left&& left, Right&& right) {
   const Division d = divide(w, frame.apex);
   const Real apex_value = straight_value(w, frame.apex);
-  if (d.lit_left() && frame.left > 0) {
+  if (d.sees_left() && frame.left > 0) {
     const Window child = left_child(w, frame, d, apex_value);
-    if (is_lit(child)) left(child);
+    if (is_visible(child)) left(child);
   }
-  if (d.lit_right() && frame.right > 0) {
+  if (d.sees_right() && frame.right > 0) {
     const Window child = right_child(w, frame, d, apex_value);
-    if (is_lit(child)) right(child);
+    if (is_visible(child)) right(child);
   }
 }
 

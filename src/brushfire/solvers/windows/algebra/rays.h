@@ -16,7 +16,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 struct Ray {
   Vec2 source;
   Index halfedge = kNoIndex;
-  Index root = kNoIndex;  // vertex, or vertex count + position of the source
+  Index pseudo_source = kNoIndex;  // vertex, or vertex count + position of the source
   WindowKind kind = WindowKind::Circular;
 };
 

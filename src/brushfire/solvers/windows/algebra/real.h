@@ -32,7 +32,7 @@ inline constexpr bool kWide = false;
 // Tolerances are given for doubles; those that stand for rounding shrink with it, those that balance rounding against
 // its effect with the root.
 inline constexpr double kFiner = kEpsilon / std::numeric_limits<double>::epsilon();
-inline constexpr double kRootFiner = kWide ? 0x1p-26 : 1;
+inline constexpr double kSqrtFiner = kWide ? 0x1p-26 : 1;
 
 using std::abs, std::copysign, std::hypot, std::isfinite, std::isnan, std::sqrt;  // DoubleDouble's are found by it
 

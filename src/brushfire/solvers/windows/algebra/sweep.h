@@ -2,7 +2,7 @@
 #pragma once
 
 #include <brushfire/solvers/windows/algebra/merge.h>
-#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
 #include <brushfire/solvers/windows/algebra/window.h>
 
 #include <span>
@@ -79,7 +79,7 @@ class Sweep {
     const Real fp = abs(ap - bp) <= within ? 0 : ap - bp, fq = abs(aq - bq) <= within ? 0 : aq - bq;
     if (fp < 0 && fq > 0 && q == a.b1) return cross(a, b, p, q, fp, fq);
     if (fp * fq < 0) return Step::Envelope;
-    const bool a_lower = fp < 0 || fq < 0 || (fp == 0 && fq == 0 && a.root <= b.root);
+    const bool a_lower = fp < 0 || fq < 0 || (fp == 0 && fq == 0 && a.pseudo_source <= b.pseudo_source);
     const Real x = equal_slope(a, b);
     if (x > p && x < q) {  // the other one may be lower between
       const Real fx = value_at(a, x) - value_at(b, x);
@@ -104,7 +104,7 @@ class Sweep {
       --count_;
       return Step::Again;
     }
-    const Real z = ridge(a, b, p, q, fp, fq);
+    const Real z = tie_point(a, b, p, q, fp, fq);
     a.b1 = b.b0 = z;
     a.d1 = value_at(a, z);
     b.d0 = value_at(b, z);

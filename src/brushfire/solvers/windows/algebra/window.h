@@ -1,4 +1,4 @@
-// Window: an interval of an edge that is lit by one virtual source, and what can be asked of it.
+// Window: an interval of an edge that one virtual source sees, and what can be asked of it.
 //
 // Based on: J. Mitchell, D. Mount, C. Papadimitriou, The Discrete Geodesic Problem, 1987; V. Surazhsky et al., Fast
 // Exact and Approximate Geodesics on Meshes, 2005.
@@ -22,13 +22,14 @@ enum class WindowKind : std::uint32_t { Circular, Linear };
 // bound of the distance where windows were merged, and the distance along the window's rays where not; `slack` more is
 // a proven upper bound (0 in exact runs).
 struct Window {
-  Real b0 = 0, b1 = 0;  // the lit interval, 0 <= b0 < b1 <= length
-  Vec2 source;          // circular: the virtual source; linear: the unit vector towards it. y < 0, or see is_lit()
+  Real b0 = 0, b1 = 0;  // the visible interval, 0 <= b0 < b1 <= length
+  Vec2 source;          // circular: the virtual source; linear: the unit vector towards it. y < 0, or see is_visible()
   Real sigma = 0;       // circular: value at the virtual source; linear: value at the frame's origin
   Real d0 = 0, d1 = 0;  // values at b0 and b1
   Real slack = 0;       // a real path of length <= value + slack leads to every point of the interval
   float lift = 0;       // by how much the distance is expected to exceed the value, in [0, slack]; no proof hangs on it
-  Index root = kNoIndex;  // where the light comes from: vertex, or vertex count + position in the list of sources
+  // Whose light it is: a vertex around which the path bends, or, from the number of vertices on, a source.
+  Index pseudo_source = kNoIndex;
   WindowKind kind = WindowKind::Circular;
   Index trail = kNoIndex;  // which faces it has crossed: see Trails
 };
@@ -52,7 +53,7 @@ inline Real value_at(const Window& w, Real x) { return straight_value(w, {x, 0})
 // A lower bound of the values on the interval: the value changes by at most 1 per unit of length.
 inline Real least_value(const Window& w) { return 0.5 * (w.d0 + w.d1 - (w.b1 - w.b0)); }
 
-// The least value on the interval: over the foot of the source where that is lit, at the nearer end otherwise.
+// The least value on the interval: over the foot of the source where that is visible, at the nearer end otherwise.
 inline Real minimum_of(const Window& w) {
   if (w.kind == WindowKind::Circular && w.source.x > w.b0 && w.source.x < w.b1) return w.sigma - w.source.y;
   return std::min(w.d0, w.d1);
@@ -96,7 +97,7 @@ inline Window mirrored(const Window& w, Real length) {
 
 // Whether light comes through the interval at all: from a source below the edge, or from one on it, within the interval
 // (that is how the middle vertex of a face without area, or a source in one, shines).
-[[gnu::always_inline]] inline bool is_lit(const Window& w) {
+[[gnu::always_inline]] inline bool is_visible(const Window& w) {
   return w.source.y < 0 ||
          (w.source.y == 0 && w.kind == WindowKind::Circular && w.source.x > w.b0 && w.source.x < w.b1);
 }
@@ -105,7 +106,7 @@ inline Window mirrored(const Window& w, Real length) {
 // parts of the interval do not stand for parts of the light. A cut beside a source that is kOnEdge of the interval away
 // turns the limit ray by up to epsilon / kOnEdge = 2e-8; who is missed by that is reached round the cut with a detour
 // of half its square, 2e-16. Nearer than that, cuts cannot be afforded.
-inline constexpr double kOnEdge = 1e-8 * kRootFiner;
+inline constexpr double kOnEdge = 1e-8 * kSqrtFiner;
 inline bool is_on_edge(const Window& w) {
   return -w.source.y <= kOnEdge * (w.b1 - w.b0) && w.kind == WindowKind::Circular && w.source.x > w.b0 &&
          w.source.x < w.b1;

@@ -11,18 +11,20 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
-// Two ways back that have no curvature between them see the root in one place but for rounding, a few epsilons of the
-// way for each face. Taken for such: a vertex between them that moves the root by less than this share of the way.
+// Two ways back that have no curvature between them see the pseudo-source in one place but for rounding, a few epsilons
+// of the way for each face. Taken for such: a vertex between them that moves the pseudo-source by less than this share
+// of the way.
 constexpr double kSamePlace = 1e-12;
 
 constexpr std::size_t kCrossings = 8;  // of a ray on scans, before it comes to where another one was
 
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
 
-// Whether the straight line from the root is as long as the value says.
+// Whether the straight line from the pseudo-source is as long as the value says.
 bool is_explained(const WindowFieldData& data, const PointRecord& record) {
-  const Index h = record.ray.halfedge, root = record.ray.root, n = data.mesh.vertex_count();
-  const double start = root < n ? data.vertices[root].value : data.sources[root - n].offset + data.shift;
+  const Index h = record.ray.halfedge, pseudo_source = record.ray.pseudo_source, n = data.mesh.vertex_count();
+  const double start =
+      pseudo_source < n ? data.vertices[pseudo_source].value : data.sources[pseudo_source - n].offset + data.shift;
   const Vec2 apex = frame_of(shape_of(data.mesh, h / 3), h % 3).apex;
   return start < record.value &&
          std::abs(start + norm(apex - record.ray.source) - record.value) <= data.room_for(record);
@@ -39,12 +41,12 @@ std::size_t TracedRays::slot_of(Index halfedge) const {
   return static_cast<std::size_t>((halfedge * kGolden) >> 32) & (slots_.size() - 1);
 }
 
-std::optional<TracedRays::Angle> TracedRays::find(const RayCrossing& crossing, Index root) const {
+std::optional<TracedRays::Angle> TracedRays::find(const RayCrossing& crossing, Index pseudo_source) const {
   const Vec2 direction = crossing.point - crossing.source;
   const double allowed = kSamePlace * norm(direction);
   for (std::size_t s = slot_of(crossing.halfedge); slots_[s] != 0; s = (s + 1) & (slots_.size() - 1)) {
     const Entry& entry = entries_[slots_[s] - 1];
-    if (entry.halfedge != crossing.halfedge || entry.root != root) continue;
+    if (entry.halfedge != crossing.halfedge || entry.pseudo_source != pseudo_source) continue;
     if (!(norm(entry.source - crossing.source) <= allowed)) continue;
     const auto [angle, sense] = entry.angle;
     return Angle{angle + sense * angle_between(entry.direction, direction), sense};
@@ -52,10 +54,10 @@ std::optional<TracedRays::Angle> TracedRays::find(const RayCrossing& crossing, I
   return std::nullopt;
 }
 
-void TracedRays::add(std::span<const RayCrossing> trail, Index root, Angle angle) {
+void TracedRays::add(std::span<const RayCrossing> trail, Index pseudo_source, Angle angle) {
   for (const RayCrossing& c : trail) {
     const double sense = c.mirrored == trail.back().mirrored ? angle.sense : -angle.sense;
-    add({c.halfedge, root, c.source, c.point - c.source, {angle.angle, sense}});
+    add({c.halfedge, pseudo_source, c.source, c.point - c.source, {angle.angle, sense}});
   }
 }
 
@@ -82,7 +84,7 @@ Departures::Departure Departures::of(Index vertex) {
   return {leg.vertex, angle_of_(leg).angle};
 }
 
-// Where the ray that was kept leads to its root beyond doubt, or to where another one did.
+// Where the ray that was kept leads to its pseudo-source beyond doubt, or to where another one did.
 std::optional<Departures::Departure> Departures::follow(Index vertex) {
   const WindowFieldData& data = *field_.data_;
   const PointRecord& record = data.vertices[vertex];
@@ -94,19 +96,19 @@ std::optional<Departures::Departure> Departures::follow(Index vertex) {
   at.weights[Mesh::previous(ray.halfedge) % 3] = 1;
   const WindowField::Leg leg = trace_leg(data, at, record, [&](const RayCrossing& crossing) {
     trail_.push_back(crossing);
-    known = rays_.find(crossing, ray.root);
+    known = rays_.find(crossing, ray.pseudo_source);
     return known.has_value();
   });
-  const bool from_vertex = ray.root < data.mesh.vertex_count();
+  const bool from_vertex = ray.pseudo_source < data.mesh.vertex_count();
   if (known) {
     if (!is_explained(data, record)) return std::nullopt;
-    rays_.add(trail_, ray.root, *known);
-    return Departure{from_vertex ? ray.root : kNoIndex, known->angle};
+    rays_.add(trail_, ray.pseudo_source, *known);
+    return Departure{from_vertex ? ray.pseudo_source : kNoIndex, known->angle};
   }
   if (leg.points.empty()) return std::nullopt;
   const TracedRays::Angle angle = angle_of_(leg);
-  const bool at_root = leg.vertex == (from_vertex ? ray.root : kNoIndex);
-  if (at_root) rays_.add(trail_, ray.root, angle);
+  const bool at_root = leg.vertex == (from_vertex ? ray.pseudo_source : kNoIndex);
+  if (at_root) rays_.add(trail_, ray.pseudo_source, angle);
   return Departure{leg.vertex, angle.angle};
 }
 

@@ -13,25 +13,26 @@
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
-// Rays of one root that were traced, by the halfedges over which they came. Another ray that comes over one of these
-// and sees the root in the same place goes back by the same way, laid flat: its angle is that of the traced one plus
-// what is between the two here.
+// Rays of one pseudo-source that were traced, by the halfedges over which they came. Another ray that comes over one of
+// these and sees the pseudo-source in the same place goes back by the same way, laid flat: its angle is that of the
+// traced one plus what is between the two here.
 class TracedRays {
  public:
   explicit TracedRays(std::size_t vertices);  // of how many the rays will be asked for
 
   struct Angle {
-    double angle = 0;  // at the root
+    double angle = 0;  // at the pseudo-source
     double sense = 1;  // of the way in which it grows: 1: counter-clockwise in the face there; -1: clockwise
   };
-  // Of a ray of this root, where one that is known came over the same edge. The sense is that in the crossing's face.
-  std::optional<Angle> find(const RayCrossing& crossing, Index root) const;
+  // Of a ray of this pseudo-source, where one that is known came over the same edge. The sense is that in the
+  // crossing's face.
+  std::optional<Angle> find(const RayCrossing& crossing, Index pseudo_source) const;
   // Of a ray that came by these: its angle, and the sense in the last one's face.
-  void add(std::span<const RayCrossing> trail, Index root, Angle angle);
+  void add(std::span<const RayCrossing> trail, Index pseudo_source, Angle angle);
 
  private:
   struct Entry {
-    Index halfedge, root;
+    Index halfedge, pseudo_source;
     Vec2 source, direction;  // in the halfedge's frame
     Angle angle;
   };

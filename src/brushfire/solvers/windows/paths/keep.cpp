@@ -34,7 +34,7 @@ void Results::keep() {
   data->targets.assign(run_.problem->targets.begin(), run_.problem->targets.end());
   for (Index i = 0; i < run_.targets.size(); ++i) {
     const TargetState& t = run_.targets[i];
-    data->target.push_back({t.lower, t.lower < kInfinity ? label_of(t.ray.root) : kNoIndex, outer(t.ray)});
+    data->target.push_back({t.lower, t.lower < kInfinity ? label_of(t.ray.pseudo_source) : kNoIndex, outer(t.ray)});
   }
   data->exact = !run_.merges();
   data->view = run_.problem->view;

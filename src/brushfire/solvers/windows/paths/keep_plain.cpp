@@ -6,7 +6,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 brushfire::Vec2 plain(const Vec2& p) { return {to_double(p.x), to_double(p.y)}; }
-PlainRay plain(const Ray& ray) { return {plain(ray.source), ray.halfedge, ray.root}; }
+PlainRay plain(const Ray& ray) { return {plain(ray.source), ray.halfedge, ray.pseudo_source}; }
 
 }  // namespace
 
@@ -26,8 +26,8 @@ void Results::keep() {
   }
   for (Index i = 0; i < run_.targets.size(); ++i) {
     const TargetState& t = run_.targets[i];
-    run.targets.push_back(
-        {kNoIndex, to_double(t.lower), t.lower < kInfinity ? label_of(t.ray.root) : kNoIndex, plain(outer(t.ray))});
+    run.targets.push_back({kNoIndex, to_double(t.lower), t.lower < kInfinity ? label_of(t.ray.pseudo_source) : kNoIndex,
+                           plain(outer(t.ray))});
   }
   run.all_points = point_values();
   field_.windows = window_field_of(run);

@@ -6,13 +6,12 @@
 // that the values at the edge's ends allow on it.
 #include <brushfire/solvers/windows/paths/leg_search.h>
 
-#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/mesh/detail/wide_face.h>
+#include <brushfire/solvers/windows/paths/leg_origins.h>
+#include <brushfire/solvers/windows/paths/wedge.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <queue>
 #include <unordered_map>
 #include <vector>
@@ -21,99 +20,36 @@ namespace brushfire::windows {
 namespace {
 
 using On = PointLocation::On;
-using detail::DoubleDouble, detail::WideFrame, detail::WideVec2, detail::wide_corners, detail::wide_frame,
-    detail::wide_point;
+using detail::WideFrame, detail::wide_corners, detail::wide_frame, detail::wide_point;
 
-// Vertices that are nearer than this share of the value have the same value as the point, as far as anyone knows: the
-// leg may start from any of them.
-constexpr double kNoDistance = 64 * std::numeric_limits<double>::epsilon();
-// And those that are nearer than this share of the longest edge of a face of both: the weights of a point do not tell
-// them apart.
-constexpr double kNoPlace = 2 * std::numeric_limits<double>::epsilon();
-// What a turn of two arrows is rounded by at most, as a share of the product of their lengths: some hundred operations
-// of 2^-104 each, with room for places that are far larger than what they are compared with.
-constexpr double kNoTurn = 1e-26;
 // Two wedges over one edge are one where their places and limits agree to this share of the value.
 constexpr double kSamePlace = 1e-15;
 // Wedges that are one come soon after each other: only so many are looked at.
 constexpr std::ptrdiff_t kRecent = 32;
 // And so many faces of a way: no way winds round more of them in a circle for long.
 constexpr int kMostBack = 64;
-// Once the value is explained, so many more wedges are looked into for the root that the field names itself.
+// Once the value is explained, so many more wedges are looked into for the pseudo-source that the field names itself.
 constexpr int kPatience = 256;
 // A pass ends after so many wedges. Along the hint a leg needs few for each face that it crosses, or it is going
 // astray.
 constexpr std::size_t kMostWedges = 1 << 15, kFewWedges = 1 << 12, kWedgesPerFace = 4;
 
-constexpr Index kStart = kNoIndex;  // the wedge before the first one
-
-// What is seen of an edge from the point, which lies in the origin: the edge goes from right to left.
-struct Wedge {
-  Index halfedge = kNoIndex;  // of the face that is left through the edge
-  Index right_vertex = kNoIndex, left_vertex = kNoIndex;
-  WideVec2 right, left;              // ends of the edge
-  WideVec2 right_limit, left_limit;  // vertices that bound the wedge
-  Index before = kStart;             // the wedge that it is a part of
-  Index origin = 0;                  // the start whose place is the origin
-  Vec2 guide;                        // where the hint points; 0: nowhere
-};
-
-// The point itself, or a vertex at no distance from it.
-struct Origin {
-  PointLocation at;
-  double before = 0;        // the way from the point
-  Index previous = kStart;  // over which other one
-};
-
-// Where a leg may start.
-struct Goal {
-  double total = kInfinity;  // value there and length of the leg
-  double length = 0;         // of the straight part
-  Index vertex = kNoIndex, source = kNoIndex;
-  Index face = kNoIndex;  // that holds it, and the weights there
-  std::array<double, 3> weights{0, 0, 0};
-  WideVec2 place;
-  Index wedge = kStart;
-  Index origin = 0;
-};
-
-Vec2 rounded(WideVec2 a) { return {a.x.high, a.y.high}; }
-double length_of(WideVec2 a) { return norm(a).high; }
-
-// > 0: b lies to the left of a; 0 where that cannot be told.
-int turn(WideVec2 a, WideVec2 b) {
-  const double t = cross(a, b).high;
-  const double room = kNoTurn * norm(rounded(a)) * norm(rounded(b));
-  return t > room ? 1 : t < -room ? -1 : 0;
-}
-
-// The same within a half-plane, one limit of which may be opposite of the other.
-bool is_left_of(WideVec2 a, WideVec2 b) {
-  const int t = turn(a, b);
-  return t > 0 || (t == 0 && dot(a, b).high < 0);
-}
-
-double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
-
-std::array<double, 3> corner_weights(Index k) {
-  std::array<double, 3> weights{0, 0, 0};
-  weights[k] = 1;
-  return weights;
-}
-
 class LegSearch {
  public:
   explicit LegSearch(const LegQuestion& question)
-      : ask_(question), mesh_(question.mesh), value_(question.value), room_(question.room) {
+      : ask_(question),
+        mesh_(question.mesh),
+        value_(question.value),
+        room_(question.room),
+        origins_(question.mesh, question.at, question.value) {
     for (Index s = 0; s < ask_.sources.size(); ++s) {
       const PointLocation& place = ask_.sources[s].at;
       if (place.on == On::Vertex) {
         source_at_.emplace(place.vertex, s);
         continue;
       }
-      for (const Named& f : names_of(place)) sources_in_.emplace(f.face, Inside{s, f.weights});
+      for (const PointInFace& f : names_of(mesh_, place)) sources_in_.emplace(f.face, Inside{s, f.weights});
     }
-    find_origins(ask_.at);
   }
 
   WindowField::Leg operator()() {
@@ -136,11 +72,6 @@ class LegSearch {
     Index source;
     std::array<double, 3> weights;
   };
-  // A point by its faces. A face that has a vertex twice names it once for every corner.
-  struct Named {
-    Index face;
-    std::array<double, 3> weights;
-  };
   struct Open {
     Index wedge;
     double key;
@@ -153,84 +84,6 @@ class LegSearch {
   };
 
   double value_of(Index v) const { return ask_.vertex_value(v); }
-
-  // ---- where to look from
-
-  void find_origins(const PointLocation& at) {
-    origins_.push_back({at, 0, kStart});
-    for (Index i = 0; i < origins_.size(); ++i) {
-      const Origin from = origins_[i];
-      for (const Named& f : names_of(from.at)) {
-        PointLocation here;
-        here.face = f.face;
-        here.weights = f.weights;
-        const std::array<double, 3> d = corner_distances(mesh_, here);
-        for (Index k = 0; k < 3; ++k) {
-          const double way = from.before + d[k];
-          if (way <= no_distance(f.face)) add_origin(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
-        }
-        for (Index k = 0; k < 3; ++k) add_origin_across(f, 3 * f.face + k, i);
-      }
-    }
-  }
-  // A point of an edge is known to an epsilon of the edge, whatever the value.
-  double no_distance(Index face) const {
-    const auto l = mesh_.lengths().subspan(3 * std::size_t{face}, 3);
-    return std::max(kNoDistance * value_, kNoPlace * std::max({l[0], l[1], l[2]}));
-  }
-  void add_origin(Index v, Index corner, double way, Index previous) {
-    if (is_origin(v)) return;
-    PointLocation at;
-    at.on = On::Vertex;
-    at.vertex = v;
-    at.face = Mesh::face_of(corner);
-    at.weights = corner_weights(corner % 3);
-    origins_.push_back({at, way, previous});
-  }
-  bool is_origin(Index v) const {
-    return std::any_of(origins_.begin(), origins_.end(),
-                       [&](const Origin& o) { return o.at.on == On::Vertex && o.at.vertex == v; });
-  }
-  // The foot of the point on an edge at no distance: other corners of faces without area may lie there.
-  void add_origin_across(const Named& f, Index h, Index previous) {
-    const double weight = f.weights[Mesh::previous(h) % 3], length = mesh_.length(h), room = no_distance(f.face);
-    if (weight == 0 || !(length > 0) || mesh_.opposite()[h] == h || is_origin_on_edge(h)) return;
-    if (!(weight * mesh_.double_areas()[f.face] <= 2 * room * length)) return;
-    const std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, h % 3);
-    const WideVec2 here = wide_point(corners, f.weights);
-    const DoubleDouble share = (here.x - corners[h % 3].x) / (corners[Mesh::next(h) % 3].x - corners[h % 3].x);
-    const double way = origins_[previous].before + std::abs((here.y - corners[h % 3].y).high);
-    if (!(share > 0 && share < 1 && way <= room)) return;
-    PointLocation at;
-    at.on = On::Edge;
-    at.halfedge = h;
-    at.face = f.face;
-    at.weights[h % 3] = (DoubleDouble(1) - share).high;
-    at.weights[Mesh::next(h) % 3] = share.high;
-    origins_.push_back({at, way, previous});
-  }
-  bool is_origin_on_edge(Index h) const {
-    const auto is_on = [&](const Origin& o) {
-      if (o.at.on != On::Edge) return false;
-      Index g = o.at.halfedge;
-      do {
-        if (g == h) return true;
-        g = mesh_.opposite()[g];
-      } while (g != o.at.halfedge);
-      return false;
-    };
-    return std::any_of(origins_.begin(), origins_.end(), is_on);
-  }
-
-  std::vector<Named> names_of(const PointLocation& at) const {
-    std::vector<Named> names;
-    if (at.on == On::Vertex) {
-      for (const Index h : mesh_.corners(at.vertex)) names.push_back({Mesh::face_of(h), corner_weights(h % 3)});
-    } else {
-      for (const Index f : faces_at(mesh_, at)) names.push_back({f, *weights_in(mesh_, at, f)});
-    }
-    return names;
-  }
 
   // ---- one pass
 
@@ -264,9 +117,10 @@ class LegSearch {
   void start_from(Index origin) {
     const PointLocation& at = origins_[origin].at;
     offer_source_at(origin);
-    std::vector<Named> names = names_of(at);
-    std::stable_partition(names.begin(), names.end(), [&](const Named& f) { return is_corner(ask_.root, f.face); });
-    for (const Named& f : names) {
+    std::vector<PointInFace> names = names_of(mesh_, at);
+    std::stable_partition(names.begin(), names.end(),
+                          [&](const PointInFace& f) { return is_corner(ask_.pseudo_source, f.face); });
+    for (const PointInFace& f : names) {
       if (done_) return;
       // The frame: that of the hint, or of the longest edge.
       const Index hinted = !by_length() && origin == 0 ? hinted_halfedge(f) : kNoIndex;
@@ -277,7 +131,7 @@ class LegSearch {
       std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, k);
       const WideVec2 here = wide_point(corners, f.weights);
       for (WideVec2& c : corners) c = c - here;
-      Goal goal;
+      LegGoal goal;
       goal.face = f.face;
       goal.origin = origin;
       offer_sources(goal, corners);
@@ -299,7 +153,7 @@ class LegSearch {
 
   // The halfedge of the face over which the hint comes, where it does: a point on that edge itself is reached through
   // the faces beyond.
-  Index hinted_halfedge(const Named& f) const {
+  Index hinted_halfedge(const PointInFace& f) const {
     const Index h = ask_.halfedge;
     if (h == kNoIndex || !(mesh_.length(h) > 0)) return kNoIndex;
     const auto is_on = [&](Index g) { return f.weights[Mesh::previous(g) % 3] == 0; };
@@ -347,7 +201,7 @@ class LegSearch {
     corners[g % 3] = from_right ? w.right : w.left;
     corners[Mesh::next(g) % 3] = from_right ? w.left : w.right;
     corners[top % 3] = apex;
-    Goal goal;
+    LegGoal goal;
     goal.face = face;
     goal.wedge = number;
     goal.origin = w.origin;
@@ -364,12 +218,10 @@ class LegSearch {
       add({left_side, top_vertex, w.left_vertex, apex, w.left, right_limit, w.left_limit, number, w.origin, w.guide});
   }
 
-  static bool in_wedge(const Wedge& w, WideVec2 p) { return turn(w.right_limit, p) >= 0 && turn(p, w.left_limit) >= 0; }
-
   void add(const Wedge& w) {
     if (!is_left_of(w.right_limit, w.left_limit)) return;  // too narrow to hold more than the way to a vertex
     if (!(mesh_.length(w.halfedge) > 0)) return;           // its ends are one place, which is a vertex
-    const Vec2 span = visible(w);
+    const Vec2 span = visible_part(w);
     const double least = least_total(w, span);
     if (!(least <= (by_length() ? best_.total : value_ + room_))) return;
     if (has_been_seen(w, span)) return;
@@ -382,16 +234,6 @@ class LegSearch {
       if (angle == 0) ++on_hint_;
       open_.push({number, angle, reach(w)});
     }
-  }
-
-  // The part of the wedge's edge that lies in the wedge, from right to left, as shares of the edge.
-  static Vec2 visible(const Wedge& w) {
-    const auto share = [&](WideVec2 limit) {
-      const double r = -cross(limit, w.right).high, l = cross(limit, w.left).high;
-      return r + l > 0 ? std::clamp(r / (r + l), 0.0, 1.0) : kInfinity;
-    };
-    const double first = share(w.right_limit), last = share(w.left_limit);
-    return {first < kInfinity ? first : 0, last < kInfinity ? last : 1};
   }
 
   // The least that a way through the wedge can come to. The value on the edge differs from those at its ends by no more
@@ -411,25 +253,6 @@ class LegSearch {
   }
   // A run that stopped early does not know values that are larger than where it stopped: those are NaN.
   double known(Index v) const { return value_of(v) >= 0 ? value_of(v) : value_; }
-
-  // How far away the edge is, in the direction of the wedge that is nearest to the hint. Who is far has got somewhere:
-  // between thin faces over one edge a way may go to and fro for as long as it likes.
-  static double reach(const Wedge& w) {
-    const Vec2 right = rounded(w.right), edge = rounded(w.left - w.right), first = rounded(w.right_limit),
-               last = rounded(w.left_limit);
-    const bool is_right = cross(first, w.guide) < 0, is_left = cross(w.guide, last) < 0;
-    const Vec2 along = !is_right && !is_left ? w.guide : is_right ? first : last;
-    const double turn = cross(along, edge);
-    return turn > 0 ? cross(right, edge) / turn * norm(along) : norm(right);
-  }
-
-  // By what angle the hint misses the wedge.
-  static double miss(const Wedge& w) {
-    if (w.guide == Vec2{0, 0}) return kPi;
-    const Vec2 right = rounded(w.right_limit), left = rounded(w.left_limit);
-    if (cross(right, w.guide) >= 0 && cross(w.guide, left) >= 0) return 0;
-    return std::min(angle_between(right, w.guide), angle_between(left, w.guide));
-  }
 
   // Over edges of many faces one place is reached on many ways, twice as many at each such edge.
   bool has_been_seen(const Wedge& w, Vec2 span) {
@@ -460,7 +283,7 @@ class LegSearch {
     if (at.on != On::Vertex) return;
     const auto [begin, end] = source_at_.equal_range(at.vertex);
     for (auto s = begin; s != end; ++s) {
-      Goal goal;
+      LegGoal goal;
       goal.face = at.face;
       goal.weights = at.weights;
       goal.origin = origin;
@@ -470,7 +293,7 @@ class LegSearch {
   }
 
   // Those within the face that a way of the wedge has entered.
-  void offer_sources(Goal goal, const std::array<WideVec2, 3>& corners) {
+  void offer_sources(LegGoal goal, const std::array<WideVec2, 3>& corners) {
     const auto [begin, end] = sources_in_.equal_range(goal.face);
     for (auto s = begin; s != end; ++s) {
       goal.place = wide_point(corners, s->second.weights);
@@ -482,18 +305,19 @@ class LegSearch {
     }
   }
 
-  void offer_corner(Goal goal, Index k, WideVec2 place) {
+  void offer_corner(LegGoal goal, Index k, WideVec2 place) {
     goal.vertex = mesh_.faces()[goal.face][k];
-    if (!(value_of(goal.vertex) < value_) || is_origin(goal.vertex)) return;
+    if (!(value_of(goal.vertex) < value_) || origins_.has(goal.vertex)) return;
     goal.place = place;
     goal.length = length_of(place);
     goal.weights = corner_weights(k);
     offer(goal, value_of(goal.vertex));
   }
 
-  void offer(Goal& goal, double start) {
+  void offer(LegGoal& goal, double start) {
     goal.total = start + goal.length + origins_[goal.origin].before;
-    const bool named = ask_.root == (goal.source != kNoIndex ? goal.source + mesh_.vertex_count() : goal.vertex);
+    const bool named =
+        ask_.pseudo_source == (goal.source != kNoIndex ? goal.source + mesh_.vertex_count() : goal.vertex);
     if (!by_length() && named && goal.total <= value_ + room_) {
       done_ = true;
     } else if (!(goal.total < best_.total)) {
@@ -504,7 +328,7 @@ class LegSearch {
 
   // ---- the leg
 
-  WindowField::Leg leg_to(const Goal& goal) const {
+  WindowField::Leg leg_to(const LegGoal& goal) const {
     WindowField::Leg leg;
     std::vector<Index> way;
     for (Index o = goal.origin; o != kStart; o = origins_[o].previous) way.push_back(o);
@@ -515,7 +339,7 @@ class LegSearch {
     std::reverse(chain.begin(), chain.end());
     for (const Index w : chain) {
       if (end_at_vertex(goal, wedges_[w], leg)) return leg;
-      leg.points.push_back(crossing(goal, wedges_[w]));
+      leg.points.push_back(crossing(mesh_, wedges_[w], goal.place, goal.length));
     }
     leg.length = origins_[goal.origin].before + goal.length;
     leg.vertex = goal.vertex;
@@ -525,9 +349,9 @@ class LegSearch {
   }
 
   // Where the straight way passes through a vertex of the wedge's edge, as far as anyone can see.
-  bool end_at_vertex(const Goal& goal, const Wedge& w, WindowField::Leg& leg) const {
+  bool end_at_vertex(const LegGoal& goal, const Wedge& w, WindowField::Leg& leg) const {
     const auto try_end = [&](Index v, Index corner, WideVec2 place) {
-      if (v == goal.vertex || is_origin(v) || !(value_of(v) < value_)) return false;
+      if (v == goal.vertex || origins_.has(v) || !(value_of(v) < value_)) return false;
       const double along = dot(goal.place, place).high / goal.length,
                    aside = std::abs(cross(goal.place, place).high) / goal.length;
       if (!(along > 0) || !(aside <= kThrough * std::min(along, goal.length - along))) return false;
@@ -543,36 +367,17 @@ class LegSearch {
     return try_end(w.right_vertex, forward ? from : to, w.right) || try_end(w.left_vertex, forward ? to : from, w.left);
   }
 
-  SurfacePoint crossing(const Goal& goal, const Wedge& w) const {
-    const DoubleDouble r = -cross(goal.place, w.right), l = cross(goal.place, w.left), sum = r + l;
-    double right = 0, left = 0;  // weights
-    if (sum.high > kNoTurn * goal.length * norm(rounded(w.left - w.right))) {
-      left = std::clamp((r / sum).high, 0.0, 1.0);
-      right = std::clamp((l / sum).high, 0.0, 1.0);
-    } else {
-      // Along the edge: where the way begins.
-      const WideVec2 edge = w.left - w.right;
-      left = std::clamp((-dot(w.right, edge) / dot(edge, edge)).high, 0.0, 1.0);
-      right = 1 - left;
-    }
-    const bool forward = mesh_.from(w.halfedge) == w.right_vertex;
-    SurfacePoint p{Mesh::face_of(w.halfedge), {0, 0, 0}};
-    p.weights[w.halfedge % 3] = forward ? right : left;
-    p.weights[Mesh::next(w.halfedge) % 3] = forward ? left : right;
-    return p;
-  }
-
   const LegQuestion& ask_;
   const Mesh& mesh_;
   const double value_, room_;
+  const LegOrigins origins_;
   std::unordered_multimap<Index, Inside> sources_in_;  // by face
   std::unordered_multimap<Index, Index> source_at_;    // by vertex
-  std::vector<Origin> origins_;
   std::vector<Wedge> wedges_;
   std::size_t first_wedges_ = 0, on_hint_ = 0;  // so many of them: where the pass began, aside; along the hint
   std::priority_queue<Open> open_;
   std::unordered_map<Index, std::vector<Seen>> seen_;  // by the lowest halfedge of the edge
-  Goal best_;
+  LegGoal best_;
   Pass pass_ = Pass::AlongHint;
   bool done_ = false;
 };

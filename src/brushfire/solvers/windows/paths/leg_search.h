@@ -22,7 +22,7 @@ struct LegQuestion {
   double value = 0;
   double room = 0;  // by which the leg and the value where it starts may miss that
   // Where the value seems to have come from. It is looked at first, and no more than that.
-  Index root = kNoIndex;  // vertex, or vertex count + position of the source
+  Index pseudo_source = kNoIndex;  // vertex, or vertex count + position of the source
   Index halfedge =
       kNoIndex;  // of a face that holds the point: over this edge, from `from` in its frame; or from nowhere
   Vec2 from;

@@ -10,7 +10,7 @@ namespace brushfire::windows {
 namespace {
 
 PointRecord record_of(const PlainRun::Record& r) {
-  return {r.value, r.label, {r.ray.source, r.ray.halfedge, r.ray.root, WindowKind::Circular}};
+  return {r.value, r.label, {r.ray.source, r.ray.halfedge, r.ray.pseudo_source, WindowKind::Circular}};
 }
 
 }  // namespace

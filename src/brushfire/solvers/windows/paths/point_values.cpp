@@ -20,7 +20,7 @@ class KeptWindows::Least {
     found_.face = at.face;
     for (std::size_t k = 0; k < 3; ++k) found_.weights[k] = to_double(at.weights[k]);
     found_.label = label;
-    found_.ray = {{to_double(ray.source.x), to_double(ray.source.y)}, ray.halfedge, ray.root};
+    found_.ray = {{to_double(ray.source.x), to_double(ray.source.y)}, ray.halfedge, ray.pseudo_source};
   }
   PointValue found() const {
     PointValue rounded = found_;
@@ -72,8 +72,8 @@ void KeptWindows::offer_windows(const FaceWeights& at, Least& least) const {
     const Vec2 p = in_frame(frame_of(shape, k), k, at.weights);
     for (std::size_t i = first_[h]; i < first_[h + 1]; ++i) {
       const Window& w = windows_[i];
-      const Index label = w.root >= n ? w.root - n : vertices_[w.root].label;
-      least.offer(at, arrival(w, p).value, label, {w.source, h, w.root, w.kind});
+      const Index label = w.pseudo_source >= n ? w.pseudo_source - n : vertices_[w.pseudo_source].label;
+      least.offer(at, arrival(w, p).value, label, {w.source, h, w.pseudo_source, w.kind});
     }
   }
 }
@@ -110,7 +110,7 @@ std::shared_ptr<const PointValues> Results::point_values() {
     });
     for (const KeptWindow& k : part.kept()) {
       windows.push_back(k);
-      windows.back().window.root = outer_root(k.window.root);
+      windows.back().window.pseudo_source = outer_pseudo_source(k.window.pseudo_source);
     }
   }
   return std::make_shared<KeptWindows>(run_.structure.mesh, run_.problem->sources, run_.shift, std::move(vertices),

@@ -16,7 +16,7 @@ namespace brushfire::windows {
 // See Ray; as doubles, in types that every number's room can name.
 struct PlainRay {
   brushfire::Vec2 source;
-  Index halfedge = kNoIndex, root = kNoIndex;
+  Index halfedge = kNoIndex, pseudo_source = kNoIndex;
 };
 
 // The least that the run knows of a point: its name in the face over which that came, the value with all offsets, in

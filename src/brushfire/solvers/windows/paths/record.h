@@ -53,7 +53,7 @@ struct WindowFieldData {
   std::vector<detail::LocatedSource> sources;
   std::vector<Real> bases;             // what is to be added to values, by source, in the mesh's units; empty: 0
   Real shift = 0;                      // what was added to every value so that none is negative
-  bool exact = true;                   // no merging: rays lead back to roots
+  bool exact = true;                   // no merging: rays lead back to pseudo-sources
   VertexRecords vertices;              // [vertex_count]; value NaN: farther than the run went
   std::vector<PointLocation> targets;  // where not all_points
   std::vector<PointRecord> target;     // [targets]

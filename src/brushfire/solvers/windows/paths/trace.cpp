@@ -1,5 +1,5 @@
-// A ray is followed backwards from face to face, each laid flat over the edge just crossed, until its root is found.
-// Only where that is beyond doubt: over edges of two faces, past vertices at a distance that can be told.
+// A ray is followed backwards from face to face, each laid flat over the edge just crossed, until its pseudo-source is
+// found. Only where that is beyond doubt: over edges of two faces, past vertices at a distance that can be told.
 #include <brushfire/solvers/windows/paths/trace.h>
 
 #include <brushfire/solvers/windows/algebra/frame.h>
@@ -14,12 +14,12 @@ namespace {
 // Places on an edge are known to a few epsilons of its length. A ray may cross no edge this near (share of the edge) to
 // an end or to the point before: what is longer keeps its direction to 1e-7.
 constexpr Real kTooShort = 1e-8;
-// By what angle the ray may miss its root: seen from the last edge crossed.
+// By what angle the ray may miss its pseudo-source: seen from the last edge crossed.
 constexpr Real kMissed = 1e-7;
 
 struct Position {
   Index halfedge;  // the next edge to cross, from inside of its face
-  Vec2 source;     // the ray's root, in the halfedge's frame: below
+  Vec2 source;     // the ray's pseudo-source, in the halfedge's frame: below
   Vec2 point;      // where the ray is: above, or on the edge
   bool mirrored = false;
 };
@@ -35,7 +35,7 @@ class Tracer {
         ray_(record.ray),
         value_(record.value),
         room_(data.room_for(record)),
-        start_(ray_.root < mesh_.vertex_count() ? value_of(ray_.root) : 0),
+        start_(ray_.pseudo_source < mesh_.vertex_count() ? value_of(ray_.pseudo_source) : 0),
         knows_the_rest_(knows_the_rest) {}
 
   WindowField::Leg run(const FaceWeights& at) {
@@ -104,8 +104,8 @@ class Tracer {
     return Step::On;
   }
 
-  // From a position on an edge of a face (the ray's root above, beyond the face) to the edge through which it leaves:
-  // the one to the left of the apex or the other.
+  // From a position on an edge of a face (the ray's pseudo-source above, beyond the face) to the edge through which it
+  // leaves: the one to the left of the apex or the other.
   void leave(Position& at) const {
     const Frame frame = frame_at(at.halfedge);
     const bool left = cross(frame.apex - at.point, at.source - at.point) > 0;
@@ -123,7 +123,7 @@ class Tracer {
   };
 
   // Whether the ray goes through vertex v, as far as anyone can see from either end, and v's value says so as well;
-  // `before` and `after`: the arrows from v to where the ray was and to its root.
+  // `before` and `after`: the arrows from v to where the ray was and to its pseudo-source.
   bool ends_at_vertex(Index v, Corner at, Vec2 before, Vec2 after, Real miss) {
     const Real way = length_of(before.x, before.y);
     const Real nearer = std::min(leg_.length + way, length_of(after.x, after.y));
@@ -142,31 +142,31 @@ class Tracer {
     return true;
   }
 
-  // Whether the root is in the face of the position's halfedge, where the ray says.
+  // Whether the pseudo-source is in the face of the position's halfedge, where the ray says.
   bool ends_in_face(const Position& at) {
     const Index h = at.halfedge, face = Mesh::face_of(h), n = mesh_.vertex_count();
-    const auto is_root = [&](const std::array<Real, 3>& weights) {
+    const auto is_source = [&](const std::array<Real, 3>& weights) {
       const Vec2 p = in_frame(frame_at(h), h % 3, weights);
       const Real way = length_of(p.x - at.point.x, p.y - at.point.y);
       if (!(length_of(p.x - at.source.x, p.y - at.source.y) <= kMissed * way)) return false;
       return way > kTooShort * lengths_[h] && finish(face, weights, way);
     };
-    if (ray_.root < n) {
+    if (ray_.pseudo_source < n) {
       if (!(start_ < value_)) return false;
-      leg_.vertex = ray_.root;
+      leg_.vertex = ray_.pseudo_source;
       for (Index i = 0; i < 3; ++i) {
-        if (from(3 * face + i) != ray_.root) continue;
+        if (from(3 * face + i) != ray_.pseudo_source) continue;
         std::array<Real, 3> weights{0, 0, 0};
         weights[i] = 1;
-        if (is_root(weights)) return true;
+        if (is_source(weights)) return true;
       }
       leg_.vertex = kNoIndex;
       return false;
     }
     bool found = false;
-    for_each_face_around(mesh_, data_.sources[ray_.root - n].at,
-                         [&](const FaceWeights& f) { found = found || (f.face == face && is_root(f.weights)); });
-    if (found) leg_.source = ray_.root - n;
+    for_each_face_around(mesh_, data_.sources[ray_.pseudo_source - n].at,
+                         [&](const FaceWeights& f) { found = found || (f.face == face && is_source(f.weights)); });
+    if (found) leg_.source = ray_.pseudo_source - n;
     return found;
   }
 
@@ -177,7 +177,7 @@ class Tracer {
   const std::span<const Index> opposite_;
   const Ray& ray_;
   const Real value_, room_;
-  const Real start_;  // the root's value, where that is a vertex
+  const Real start_;  // the pseudo-source's value, where that is a vertex
   const CrossingListener& knows_the_rest_;
   WindowField::Leg leg_;
 };

@@ -1,4 +1,4 @@
-// Following a ray back to its root.
+// Following a ray back to its pseudo-source.
 #pragma once
 
 #include <brushfire/solvers/window_field.h>
@@ -11,7 +11,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 // Where a ray, followed backwards, comes into a face over one of its edges. In the frame of the edge's halfedge in it.
 struct RayCrossing {
   Index halfedge = kNoIndex;
-  Vec2 source;            // the ray's root
+  Vec2 source;            // the ray's pseudo-source
   Vec2 point;             // on the edge
   bool mirrored = false;  // the face lies the other way round than the one where the trace began
 };

@@ -69,22 +69,22 @@ class Look {
  private:
   Found evaluate(const PointLocation& at) const {
     const windows::PointValue p = data_.all_points->at(at);
-    return {{p.face, p.weights}, {p.value, p.label, {p.ray.source, p.ray.halfedge, p.ray.root, {}}}};
+    return {{p.face, p.weights}, {p.value, p.label, {p.ray.source, p.ray.halfedge, p.ray.pseudo_source, {}}}};
   }
 
   const windows::WindowFieldData& data_;
   const Mesh& mesh_;
 };
 
-// Where no ray came: the point is a source at a vertex, or the root is at the other end of an edge.
+// Where no ray came: the point is a source at a vertex, or the pseudo-source is at the other end of an edge.
 WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Found& found, Index vertex) {
   const Mesh& mesh = data.mesh;
-  const Index root = found.record.ray.root, n = mesh.vertex_count();
+  const Index pseudo_source = found.record.ray.pseudo_source, n = mesh.vertex_count();
   WindowField::Leg leg;
-  if (root >= n) {
-    const PointLocation& source = data.sources[root - n].at;
+  if (pseudo_source >= n) {
+    const PointLocation& source = data.sources[pseudo_source - n].at;
     if (source.on != PointLocation::On::Vertex || source.vertex != vertex) return {};
-    leg.source = root - n;
+    leg.source = pseudo_source - n;
     leg.points.push_back({found.at.face, found.at.weights});
     return leg;
   }
@@ -104,7 +104,7 @@ WindowField::Leg last_leg_of(const windows::WindowFieldData& data, const Found& 
     const std::function<double(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
     const PointLocation at = locate(data.mesh, {found.at.face, found.at.weights});
     leg = windows::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value,
-                             data.room_for(found.record), ray.root, ray.halfedge, ray.source});
+                             data.room_for(found.record), ray.pseudo_source, ray.halfedge, ray.source});
   }
   leg.length *= data.mesh.unit();
   return leg;

@@ -2,7 +2,7 @@
 #include <brushfire/solvers/windows/propagation/exact_trim.h>
 
 #include <brushfire/solvers/windows/algebra/exact_cross.h>
-#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
 #include <brushfire/solvers/windows/algebra/wide.h>
 
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace {
 Real value_of(const WindowColumns& w, Index i, Real at) { return w.sigma[i] + length_of(at - w.x[i], w.y[i]); }
 
 // The usual case for a whole list at once: window i reaches into the next one, j = i + 1, and is the lower one where
-// their overlap begins, the next one where it ends, so that both end at the ridge. ridge_in_closed_form() says how that
-// is found. plain: 1 where all that holds.
-BRUSHFIRE_WIDE void ridges(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict x,
-                           const Real* __restrict y, const Real* __restrict sigma, const Real* __restrict d0,
-                           const Real* __restrict d1, std::ptrdiff_t pairs, Real* __restrict ridge,
-                           Real* __restrict value_i, Real* __restrict value_j, Real* __restrict plain) {
+// their overlap begins, the next one where it ends, so that both end at the tie point. tie_point_in_closed_form() says
+// how that is found. plain: 1 where all that holds.
+BRUSHFIRE_WIDE void tie_points(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict x,
+                               const Real* __restrict y, const Real* __restrict sigma, const Real* __restrict d0,
+                               const Real* __restrict d1, std::ptrdiff_t pairs, Real* __restrict tie_point,
+                               Real* __restrict value_i, Real* __restrict value_j, Real* __restrict plain) {
   for (std::ptrdiff_t i = 0; i < pairs; ++i) {
     const std::ptrdiff_t j = i + 1;
     const Real p = b0[j], q = b1[i];
@@ -33,15 +33,15 @@ BRUSHFIRE_WIDE void ridges(const Real* __restrict b0, const Real* __restrict b1,
     const Real qa = slope * slope - 4 * d * d, qb = slope * rest + 4 * d * d * bx;
     const Real qc = rest * rest - 4 * d * d * (bx * bx + by * by);
     const Real discriminant = qb * qb - qa * qc;
-    const Real root = sqrt(discriminant > 0 ? discriminant : 0.0);
-    const Real sum = qb > 0 ? -(qb + root) : root - qb;
+    const Real square_root = sqrt(discriminant > 0 ? discriminant : 0.0);
+    const Real sum = qb > 0 ? -(qb + square_root) : square_root - qb;
     const Real x1 = sum / qa, x2 = qc / sum, x0 = -rest / slope, length = q - p;
     const bool fits1 = (x1 >= 0) & (x1 <= length) & ((slope * x1 + rest) * d >= 0);
     const Real z = p + (d == 0 ? x0 : (fits1 ? x1 : x2));
     const Real azx = z - x[i], bzx = z - x[j];
     const Real iz = sigma[i] + sqrt(azx * azx + ay * ay), jz = sigma[j] + sqrt(bzx * bzx + by * by);
     const Real off = iz > jz ? iz - jz : jz - iz;
-    ridge[i] = z;
+    tie_point[i] = z;
     value_i[i] = iz;
     value_j[i] = jz;
     plain[i] = (b0[i] <= p) & (q <= b1[j]) & (d0[j] - ip > within) & (d1[i] - jq > within) & (z >= p) & (z <= q) &
@@ -95,7 +95,7 @@ void ListTrimmer::operator()(WindowList& list, const EdgeBounds& edge, Real radi
 void ListTrimmer::drop_dominated(WindowList& list, const EdgeBounds& edge, Real radius) {
   const WindowColumns w = list.block.columns();
   if (d0_.size() < list.size) {
-    for (std::vector<Real>* column : {&d0_, &d1_, &ridge_, &ridge_a_, &ridge_b_, &plain_}) {
+    for (std::vector<Real>* column : {&d0_, &d1_, &tie_point_, &tie_value_a_, &tie_value_b_, &plain_}) {
       column->resize(2 * list.size);
     }
   }
@@ -117,17 +117,17 @@ void ListTrimmer::sweep(const WindowColumns& w, Index count) {
   constexpr std::size_t kDepth = 6;  // how many windows back are looked at
   const auto gone = [&](Index i) { return !(w.b1[i] - w.b0[i] > kSliver * (d0_[i] - w.sigma[i])); };
   if (count > 1) {
-    ridges(w.b0, w.b1, w.x, w.y, w.sigma, d0_.data(), d1_.data(), std::ptrdiff_t{count} - 1, ridge_.data(),
-           ridge_a_.data(), ridge_b_.data(), plain_.data());
+    tie_points(w.b0, w.b1, w.x, w.y, w.sigma, d0_.data(), d1_.data(), std::ptrdiff_t{count} - 1, tie_point_.data(),
+               tie_value_a_.data(), tie_value_b_.data(), plain_.data());
   }
   const bool all_may_be_cut = nearly_on_edge(w.b0, w.b1, w.y, count) == 0;
   kept_.clear();
   for (Index i = 0; i < count; ++i) {
     // Plain, if the one before is still there and what it lost on its left does not reach into this one.
     if (all_may_be_cut && !kept_.empty() && kept_.back() == i - 1 && plain_[i - 1] > 0 && w.b0[i - 1] <= w.b0[i]) {
-      w.b1[i - 1] = w.b0[i] = ridge_[i - 1];
-      d1_[i - 1] = ridge_a_[i - 1];
-      d0_[i] = ridge_b_[i - 1];
+      w.b1[i - 1] = w.b0[i] = tie_point_[i - 1];
+      d1_[i - 1] = tie_value_a_[i - 1];
+      d0_[i] = tie_value_b_[i - 1];
       if (!gone(i - 1) && !gone(i)) {
         kept_.push_back(i);
         continue;
@@ -168,10 +168,10 @@ void ListTrimmer::settle(const WindowColumns& w, Index a, Index b) {
   };
   if (fp * fq < 0) {
     const Vec2 s{w.x[a], w.y[a]}, t{w.x[b], w.y[b]};
-    Real z = p + ridge_in_closed_form(s, t, w.sigma[b] - w.sigma[a], p, q - p);
+    Real z = p + tie_point_in_closed_form(s, t, w.sigma[b] - w.sigma[a], p, q - p);
     Real az = value_of(w, a, z), bz = value_of(w, b, z);
     if (!(z >= p && z <= q && abs(az - bz) <= within)) {
-      z = ridge(w.window(a), w.window(b), p, q, fp, fq);
+      z = tie_point(w.window(a), w.window(b), p, q, fp, fq);
       az = value_of(w, a, z);
       bz = value_of(w, b, z);
     }
@@ -189,7 +189,7 @@ void ListTrimmer::settle(const WindowColumns& w, Index a, Index b) {
     const Real x = along == 0 ? kInfinity : (w.x[a] * w.y[b] - w.y[a] * w.x[b]) / along;
     const Real fx = x > p && x < q ? settled(value_of(w, a, x) - value_of(w, b, x)) : 0;
     if (draw) {
-      a_wins = fx < 0 || (fx == 0 && w.root[a] <= w.root[b]);
+      a_wins = fx < 0 || (fx == 0 && w.pseudo_source[a] <= w.pseudo_source[b]);
     } else if (a_wins ? fx > 0 : fx < 0) {
       return;
     }

@@ -26,7 +26,7 @@ class ListTrimmer {
 
   std::vector<Real> d0_, d1_;  // values at the ends
   // Of each window and the next one: where they cross, their values there; whether that is all there is to it.
-  std::vector<Real> ridge_, ridge_a_, ridge_b_, plain_;
+  std::vector<Real> tie_point_, tie_value_a_, tie_value_b_, plain_;
   std::vector<Index> kept_;
   std::vector<Window> windows_, uncut_;
   Envelope envelope_;

@@ -37,8 +37,8 @@ inline Sector whole_sector(const WindowFace& f, Index face, Index corner) {
 // z turned back by the angle of `by`, as complex numbers: z times the conjugate.
 constexpr Vec2 turned_back(Vec2 z, Vec2 by) { return {dot(z, by), cross(by, z)}; }
 
-// A shadow is lit wider by this on both sides: rounding of products of turns and of the arrival's direction. Whatever
-// it adds are real paths.
+// A shadow is taken to be wider by this on both sides: rounding of products of turns and of the arrival's direction.
+// Whatever it adds are real paths.
 inline constexpr double kShadowMargin = 1e-12 * kFiner;
 
 // Where light came from: over a halfedge, at this place of its line (in the halfedge's frame).
@@ -136,7 +136,7 @@ void for_each_shadow(const WindowStructure& mesh, Index vertex, const CrossedAt&
       low = {1, 0};
     } while (next_in_fan(mesh, vertex, start, at.exit(), at));
   };
-  if (mesh.bend[vertex] == Bend::Boundary) {
+  if (mesh.vertex_type[vertex] == VertexType::Boundary) {
     if (one.found) spread(one, {});
     if (other.found) spread(other, {});
   } else if (one.found && other.found) {

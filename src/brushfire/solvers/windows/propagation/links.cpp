@@ -8,9 +8,10 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
-// Angles along a link are sums of arc tangents, and doubles whatever the room's number: shadows are lit wider by this.
+// Angles along a link are sums of arc tangents, and doubles whatever the room's number: shadows are taken to be wider
+// by this.
 constexpr double kAngleMargin = 1e-12;
-// A shadow that is narrower is rounding (kFlat); in wider numbers, which could tell, it is lit all the same.
+// A shadow that is narrower is rounding (kFlat); in wider numbers, which could tell, it counts all the same.
 constexpr double kNarrow = kWide ? -1e-14 : kFlat;
 
 double angle_of(const Real& cosine, const Real& sine) {

@@ -1,4 +1,4 @@
-// What one part of the mesh has to tell others: it waits in the sender's outbox until all parts have stopped.
+// What one part of the mesh sends to others: it waits in the sender's outbox until all parts have stopped.
 #pragma once
 
 #include <brushfire/solvers/partition/outbox.h>
@@ -8,16 +8,16 @@
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
-// The label of a root: to be known before what comes from there. Of runs with several sources.
+// The label of a pseudo-source: to be known before what comes from there. Of runs with several sources.
 struct LabelMessage {
-  Index part, root, label;
+  Index part, pseudo_source, label;
 };
-// The upper bound of a vertex fell: its other copies are to know what it is now.
+// The upper bound of a vertex fell: its ghosts are to know what it is now.
 struct FallenMessage {
   Index vertex;
 };
-// A window or a source sees a vertex: to each of its other copies.
-struct SightMessage {
+// A window or a source sees a vertex: to each of its ghosts.
+struct ArrivalMessage {
   Index vertex;
   Real value;
   Ray ray;
@@ -42,6 +42,7 @@ struct ListMessage {
 };
 
 // In the order in which they are received.
-using Outbox = partition::Outbox<LabelMessage, FallenMessage, SightMessage, TargetMessage, WindowMessage, ListMessage>;
+using Outbox =
+    partition::Outbox<LabelMessage, FallenMessage, ArrivalMessage, TargetMessage, WindowMessage, ListMessage>;
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -21,11 +21,11 @@ class OwnVertices {
         last_(run.structure.partition.end_vertex(part)) {}
 
   const VertexValues& operator[](Index v) const { return run_->values[own(v)]; }
-  VertexLight& light(Index v) { return run_->light[own(v)]; }
-  const VertexLight& light(Index v) const { return run_->light[own(v)]; }
+  PseudoSource& pseudo_source(Index v) { return run_->pseudo_sources[own(v)]; }
+  const PseudoSource& pseudo_source(Index v) const { return run_->pseudo_sources[own(v)]; }
   // For prefetching: where these are.
   const void* place_of_values(Index v) const { return run_->values.data() + v; }
-  const void* place_of_light(Index v) const { return run_->light.data() + v; }
+  const void* place_of_pseudo_source(Index v) const { return run_->pseudo_sources.data() + v; }
 
   // A real path of this length leads to v.
   [[gnu::always_inline]] void reach(Index v, Real length) {
@@ -43,8 +43,8 @@ class OwnVertices {
   bool see(Index v, Real value, const Ray& ray);
   // The least value of v came straight from a source in one of its faces.
   void mark_direct(Index v) { run_->values[own(v)].direct = true; }
-  // Another part's copy of v has these.
-  void hear(Index v, Real upper, Real estimate);
+  // A ghost of v has these.
+  void receive(Index v, Real upper, Real estimate);
 
   // By how much the distance may exceed the least value of v, and by how much it is expected to.
   Real slack(Index v) const { return std::max(Real{0}, (*this)[v].upper - (*this)[v].lower); }
@@ -58,16 +58,17 @@ class OwnVertices {
     return std::min((*this)[f.vertex[k]].upper, (*this)[f.vertex[next3(k)]].upper);
   }
 
-  // The source that a root's paths begin at. Roots in other parts have to be learned before.
-  Index label_of(Index root) const {
+  // The source that a pseudo-source's paths begin at. Those in other parts have to be learned before.
+  Index label_of(Index pseudo_source) const {
     const Index n = run_->structure.vertex_count();
-    if (root >= n) return root - n;
+    if (pseudo_source >= n) return pseudo_source - n;
     if (!run_->several) return 0;
-    return first_ <= root && root < last_ ? run_->origins[root].label : labels_.at(root);
+    return first_ <= pseudo_source && pseudo_source < last_ ? run_->provenance[pseudo_source].label
+                                                            : labels_.at(pseudo_source);
   }
-  void learn_label(Index root, Index label) { labels_[root] = label; }
+  void learn_label(Index pseudo_source, Index label) { labels_[pseudo_source] = label; }
 
-  // Vertices with copies whose upper bound fell since this was asked last, each once.
+  // Vertices with ghosts whose upper bound fell since this was asked last, each once.
   template <class Visit>
   void take_fallen(Visit&& visit) {
     for (const Index v : fallen_) {
@@ -108,7 +109,7 @@ class OwnVertices {
   Index first_, last_;
   Index touched_ = 0;
   Pile fallen_;                              // with repetitions
-  std::unordered_map<Index, Index> labels_;  // of roots in other parts, in runs with several sources
+  std::unordered_map<Index, Index> labels_;  // of pseudo-sources in other parts, in runs with several sources
 };
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -47,7 +47,7 @@ void Part::work(std::int64_t last, Workbench& bench) {
     if (++updates_ % kPoll == 0) throw_if_cancelled(*part.run);
     if (!event.is_list) {
       prefetching.next_vertices();
-      if (part.vertices.light(event.index).waiting) propagate_from_vertex(part, event.index);
+      if (part.vertices.pseudo_source(event.index).waiting) propagate_from_vertex(part, event.index);
       continue;
     }
     prefetching.next_lists();

@@ -1,4 +1,4 @@
-// One part of the mesh in a run: it takes turns with its queue, and hears from the others between rounds.
+// One part of the mesh in a run: it works off its queue in rounds, and receives messages between them.
 #pragma once
 
 #include <brushfire/solvers/partition/rounds.h>

@@ -20,22 +20,23 @@ class Prefetching {
     for (std::size_t i = 0; i < kAroundAhead; ++i) fetch_around(queue_.peek_list(i));
     for (std::size_t i = 0; i < kWindowsAhead; ++i) fetch_windows(queue_.peek_list(i));
   }
-  // While windows or a list take their turn: the faces of later ones; then their windows and the faces beyond; then the
+  // While windows or a list are propagated: the faces of later ones; then their windows and the faces beyond; then the
   // vertices there.
   [[gnu::always_inline]] void next_lists() const {
     fetch_face(queue_.peek_list(kFacesAhead));
     fetch_around(queue_.peek_list(kAroundAhead));
     fetch_windows(queue_.peek_list(kWindowsAhead));
   }
-  // While a vertex takes its turn: what later ones know of their light, the face that it came through, and the faces
-  // around.
+  // While windows go on from a vertex: what later ones know of their light, the face that it came through, and the
+  // faces around.
   [[gnu::always_inline]] void next_vertices() const {
     if (part_.run->in_lists) return;  // exact runs gain nothing by it
     if (const Index v = queue_.peek_vertex(kLightAhead); v != kNoIndex) {
-      prefetch(part_.vertices.place_of_light(v));
+      prefetch(part_.vertices.place_of_pseudo_source(v));
       prefetch(part_.vertices.place_of_values(v));
     }
-    if (const Index v = queue_.peek_vertex(kArrivalAhead); v != kNoIndex) fetch_face(part_.vertices.light(v).halfedge);
+    if (const Index v = queue_.peek_vertex(kArrivalAhead); v != kNoIndex)
+      fetch_face(part_.vertices.pseudo_source(v).halfedge);
     for (std::size_t steps = 0; steps < kFanSteps; ++steps) {
       const Index v = queue_.peek_vertex(kFanAhead - steps);
       if (v != kNoIndex) fetch_fan(v, steps);
@@ -57,7 +58,7 @@ class Prefetching {
       const Index apex = f.vertex[previous3(h % 3)];
       if (!f.thin) part_.activity->lists.prefetch_list(f.waiting);
       prefetch(part_.vertices.place_of_values(apex));
-      prefetch(part_.vertices.place_of_light(apex));
+      prefetch(part_.vertices.place_of_pseudo_source(apex));
     } else {
       part_.activity->windows.prefetch_list(f.waiting);
     }
@@ -80,7 +81,7 @@ class Prefetching {
   // A shadow is found by going from face to face round the vertex, on both sides of the face that the light came
   // through.
   [[gnu::always_inline]] void fetch_fan(Index v, std::size_t steps) const {
-    const Index h = part_.vertices.light(v).halfedge;
+    const Index h = part_.vertices.pseudo_source(v).halfedge;
     if (h == kNoIndex) return;
     const Index start = h / 3, corner = previous3(h % 3);
     for (Index exit : {3 * start + corner, 3 * start + previous3(corner)}) {

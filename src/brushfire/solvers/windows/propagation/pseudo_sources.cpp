@@ -35,7 +35,7 @@ void propagate_along(PartState& part, Index v, Index face, Index j, Real length)
 void propagate_into(PartState& part, Index v, Sector sector) {
   const WindowFace& f = part.run->structure.faces[sector.face];
   const Index i = sector.corner, near = next3(i), far = previous3(i);
-  // Where the corner lies on the opposite edge, an interval there cannot tell directions: all are lit.
+  // Where the corner lies on the opposite edge, an interval there cannot tell directions: light goes in all of them.
   if (f.double_area <= kOnEdge * f.length[near] * f.length[near]) sector = whole_sector(f, sector.face, i);
   if (sector.from_edge()) propagate_along(part, v, sector.face, near, f.length[i]);
   if (sector.to_edge()) propagate_along(part, v, sector.face, far, f.length[far]);
@@ -43,8 +43,8 @@ void propagate_into(PartState& part, Index v, Sector sector) {
   Window w = window_of(f, sector, part.vertices[v].lower);
   w.slack = part.vertices.slack(v);
   w.lift = static_cast<float>(part.vertices.lift(v));
-  w.root = v;
-  if (is_lit(w)) leave_face(part, 3 * sector.face + near, w, Origin::Apex);
+  w.pseudo_source = v;
+  if (is_visible(w)) leave_face(part, 3 * sector.face + near, w, Origin::Apex);
 }
 
 // Through the whole of the face of a corner at v.
@@ -59,7 +59,7 @@ void propagate_through(PartState& part, Index v, Index corner) {
 }
 
 // The targets in the face of a source.
-void reach_targets(PartState& part, const FaceWeights& at, Real sigma, Index root) {
+void reach_targets(PartState& part, const FaceWeights& at, Real sigma, Index pseudo_source) {
   const WindowFace& f = part.run->structure.faces[at.face];
   part.run->targets.for_each_in(at.face, [&](const TargetInFace& t) {
     const Index k = f.length[0] > 0 ? 0 : 1;
@@ -68,7 +68,7 @@ void reach_targets(PartState& part, const FaceWeights& at, Real sigma, Index roo
     const Vec2 d = in_frame(frame_of(f, k), k, step);
     const Vec2 source = in_frame(frame_of(f, k), k, at.weights);
     reach_target(part, t.target, sigma + length_of(d.x, d.y), 0, 0,
-                 {source, 3 * at.face + k, root, WindowKind::Circular});
+                 {source, 3 * at.face + k, pseudo_source, WindowKind::Circular});
   });
 }
 
@@ -76,38 +76,38 @@ void reach_targets(PartState& part, const FaceWeights& at, Real sigma, Index roo
 
 void propagate_from_vertex(PartState& part, Index v) {
   const WindowStructure& structure = part.run->structure;
-  VertexLight& light = part.vertices.light(v);
-  light.waiting = false;
+  PseudoSource& pseudo_source = part.vertices.pseudo_source(v);
+  pseudo_source.waiting = false;
   if (part.vertices[v].lower > part.run->radius) return;
-  if (light.all_around || structure.bend[v] == Bend::Full || light.halfedge == kNoIndex) {
+  if (pseudo_source.all_around || structure.vertex_type[v] == VertexType::Full || pseudo_source.halfedge == kNoIndex) {
     for (const Index h : structure.corners_of(v, part.number, part.bench->corners)) propagate_through(part, v, h);
     return;
   }
   const auto into = [&](const Sector& sector) {
     if (part.is_here(sector.face)) propagate_into(part, v, sector);
   };
-  if (structure.bend[v] == Bend::Fans) {
+  if (structure.vertex_type[v] == VertexType::Fans) {
     const std::span<const Index> corners = structure.corners_of(v, part.bench->corners);
-    for (const Sector& sector : part.bench->link(structure, corners, light.from())) into(sector);
+    for (const Sector& sector : part.bench->link(structure, corners, pseudo_source.from())) into(sector);
     return;
   }
-  for_each_shadow(structure, v, light.from(), into);
+  for_each_shadow(structure, v, pseudo_source.from(), into);
 }
 
-void start_at_vertex(PartState& part, Index v, Real sigma, Index root) {
+void start_at_vertex(PartState& part, Index v, Real sigma, Index pseudo_source) {
   part.vertices.reach(v, sigma);
   part.vertices.expect(v, sigma, 0);
-  see_vertex(part, v, sigma, {{}, kNoIndex, root, WindowKind::Circular}, true);
+  see_vertex(part, v, sigma, {{}, kNoIndex, pseudo_source, WindowKind::Circular}, true);
 }
 
 // Straight to the corners, and through the edges that the source does not lie on.
-void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index root) {
+void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pseudo_source) {
   const WindowFace& f = part.run->structure.faces[at.face];
   const std::array<Real, 3> distance = corner_distances_of(part.run->structure, at);
   const Real longest = std::max({f.length[0], f.length[1], f.length[2]});
   for (Index k = 0; k < 3; ++k) {
     const Index h = 3 * at.face + next3(k);  // opposite of corner k
-    Ray ray{{}, kNoIndex, root, WindowKind::Circular};
+    Ray ray{{}, kNoIndex, pseudo_source, WindowKind::Circular};
     if (f.usable && f.length[next3(k)] > 0) {
       ray.halfedge = h;
       ray.source = in_frame(frame_of(f, next3(k)), next3(k), at.weights);
@@ -124,11 +124,11 @@ void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index roo
     w.sigma = sigma;
     w.d0 = sigma + distance[previous3(k)];
     w.d1 = sigma + distance[next3(k)];
-    w.root = root;
+    w.pseudo_source = pseudo_source;
     // A source on the edge of a face with an area lights nothing through that edge: the faces beyond start it, too.
-    if (is_lit(w) && (w.source.y < 0 || f.double_area == 0)) leave_face_once(part, h, w);
+    if (is_visible(w) && (w.source.y < 0 || f.double_area == 0)) leave_face_once(part, h, w);
   }
-  if (f.has_target) reach_targets(part, at, sigma, root);
+  if (f.has_target) reach_targets(part, at, sigma, pseudo_source);
 }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,4 +1,4 @@
-// Bounds into values, inner numbers into the mesh's own, and the copies of a vertex into one.
+// Bounds into values, inner numbers into the mesh's own, and what is known of a vertex in several parts into one.
 #include <brushfire/solvers/windows/propagation/results.h>
 
 #include <algorithm>
@@ -15,16 +15,16 @@ void Results::write(std::vector<Index>& scratch, ThreadTeam* team) {
   if (run_.keeps_rays()) keep();
 }
 
-Index Results::label_of(Index root) const {
+Index Results::label_of(Index pseudo_source) const {
   const Index n = run_.structure.vertex_count();
-  return root >= n ? root - n : run_.several ? run_.origins[root].label : 0;
+  return pseudo_source >= n ? pseudo_source - n : run_.several ? run_.provenance[pseudo_source].label : 0;
 }
 
 void Results::offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight) {
   TargetState& t = run_.targets[target];
   t.upper = std::min(t.upper, value + slack);
   if (!straight) return;
-  if (value > t.lower || (value == t.lower && label_of(ray.root) >= label_of(t.ray.root))) return;
+  if (value > t.lower || (value == t.lower && label_of(ray.pseudo_source) >= label_of(t.ray.pseudo_source))) return;
   t.lower = value;
   t.estimate = value + lift;
   t.ray = ray;
@@ -45,20 +45,21 @@ void Results::finish_targets() {
   }
 }
 
-// A vertex belongs to the source to which its chain of roots leads; with ties, roots may have changed hands since.
+// A vertex belongs to the source to which its chain of pseudo-sources leads; with ties, pseudo-sources may have changed
+// hands since.
 void Results::finish_labels(std::vector<Index>& chain) {
   if (!run_.several) return;
   const Index n = run_.structure.vertex_count();
-  std::vector<Origins>& origins = run_.origins;
+  std::vector<Provenance>& provenance = run_.provenance;
   for (const Part& part : parts_) {
     part.vertices().for_each_touched([&](Index v) {
       chain.clear();
-      while (v < n && origins[v].root < n && chain.size() <= n) {
+      while (v < n && provenance[v].pseudo_source < n && chain.size() <= n) {
         chain.push_back(v);
-        v = origins[v].root;
+        v = provenance[v].pseudo_source;
       }
       if (v >= n) return;
-      for (const Index u : chain) origins[u].label = origins[v].label;
+      for (const Index u : chain) provenance[u].label = provenance[v].label;
     });
   }
 }
@@ -109,7 +110,7 @@ Results::Tally Results::write_vertices(const Part& part) {
       return;
     }
     const Index label = label_of(v);
-    const Reading r = read(s.lower, s.upper, s.estimate, label, rounding_at(outer, s));
+    const CertifiedValue r = read(s.lower, s.upper, s.estimate, label, rounding_at(outer, s));
     field_.distance[outer] = to_double(r.value - run_.shift);
     field_.source[outer] = label;
     if (!run_.problem->touched) field_.error_bound[outer] = r.bound;
@@ -124,7 +125,7 @@ void Results::write_targets() {
     if (at.on == PointLocation::On::Vertex) continue;  // read off the field
     const TargetState& t = run_.targets[i];
     if (t.upper == kInfinity) continue;
-    field_.target_source[i] = label_of(t.ray.root);
+    field_.target_source[i] = label_of(t.ray.pseudo_source);
     field_.target_distance[i] =
         to_double(read(t.lower, t.upper, t.estimate, field_.target_source[i], run_.rounding).value - run_.shift);
   }
@@ -153,19 +154,21 @@ Rounding Results::rounding_at(Index outer, const VertexValues& values) const {
   return direct;
 }
 
-Reading Results::read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const {
-  return reading_of(lower, upper, estimate, run_.start_of(label), run_.shift, run_.budget.share, rounding,
-                    run_.problem->options->bound);
+CertifiedValue Results::read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const {
+  return certified_value(lower, upper, estimate, run_.start_of(label), run_.shift, run_.budget.share, rounding,
+                         run_.problem->options->bound);
 }
 
-// With the mesh's own numbers. Sources come behind the vertices: here behind the mesh's, in the run behind the copies.
-Index Results::outer_root(Index root) const {
+// With the mesh's own numbers. Sources come behind the vertices: here behind the mesh's, in the run behind the ghosts,
+// too.
+Index Results::outer_pseudo_source(Index pseudo_source) const {
   const Index n = run_.structure.vertex_count();
-  return root < n ? run_.structure.outer_vertex(root) : root - n + run_.structure.mesh.vertex_count();
+  return pseudo_source < n ? run_.structure.outer_vertex(pseudo_source)
+                           : pseudo_source - n + run_.structure.mesh.vertex_count();
 }
 Ray Results::outer(Ray ray) const {
   if (ray.halfedge != kNoIndex) ray.halfedge = run_.structure.outer_halfedge(ray.halfedge);
-  if (ray.root != kNoIndex) ray.root = outer_root(ray.root);
+  if (ray.pseudo_source != kNoIndex) ray.pseudo_source = outer_pseudo_source(ray.pseudo_source);
   return ray;
 }
 

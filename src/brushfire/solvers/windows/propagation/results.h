@@ -22,12 +22,12 @@ class Results {
   void write(std::vector<Index>& scratch, ThreadTeam* team);
 
  private:
-  Index label_of(Index root) const;
+  Index label_of(Index pseudo_source) const;
   VertexValues with_ghosts(Index v) const;
   bool is_owner(Index v) const;
   Rounding rounding_at(Index outer, const VertexValues& values) const;
-  Reading read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const;
-  Index outer_root(Index root) const;
+  CertifiedValue read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const;
+  Index outer_pseudo_source(Index pseudo_source) const;
   Ray outer(Ray ray) const;
   void finish_targets();
   void finish_labels(std::vector<Index>& chain);

@@ -3,10 +3,10 @@
 
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/windows/algebra/rays.h>
-#include <brushfire/solvers/windows/propagation/reading.h>
+#include <brushfire/solvers/windows/propagation/certified_value.h>
 #include <brushfire/solvers/windows/propagation/structure.h>
 #include <brushfire/solvers/windows/propagation/targets.h>
-#include <brushfire/solvers/windows/propagation/vertex_state.h>
+#include <brushfire/solvers/windows/propagation/vertex_entries.h>
 
 #include <vector>
 
@@ -22,11 +22,11 @@ struct RunState {
       : structure(mesh, part_bits), rounding(rounding_of(structure.unevenness)) {}
 
   WindowStructure structure;
-  std::vector<VertexValues> values;  // [vertex_count]
-  std::vector<VertexLight> light;    // [vertex_count]
-  std::vector<Origins> origins;      // [vertex_count] in runs with several sources
-  std::vector<Ray> rays;             // [vertex_count] in runs that keep them: what brought every vertex its least value
-  std::vector<Index> touched;        // of each part, from its first vertex' number / kFewTouched on: see Part
+  std::vector<VertexValues> values;          // [vertex_count]
+  std::vector<PseudoSource> pseudo_sources;  // [vertex_count]
+  std::vector<Provenance> provenance;        // [vertex_count] in runs with several sources
+  std::vector<Ray> rays;       // [vertex_count] in runs that keep them: what brought every vertex its least value
+  std::vector<Index> touched;  // of each part, from its first vertex' number / kFewTouched on: see OwnVertices
   Targets targets;
 
   const detail::Problem* problem = nullptr;

@@ -32,8 +32,8 @@ std::span<Window> set_apart(std::span<Window> windows, std::vector<Window>& on_e
 bool merge_pair(const PartState& part, const Window& a, Window& b, const Joint& joint) {
   const RunState& run = *part.run;
   if (run.problem->sources.size() == 1) return merge_into(a, b, joint, run.start_of(0), run.budget);
-  const Index label = part.vertices.label_of(a.root);
-  return label == part.vertices.label_of(b.root) && merge_into(a, b, joint, run.start_of(label), run.budget);
+  const Index label = part.vertices.label_of(a.pseudo_source);
+  return label == part.vertices.label_of(b.pseudo_source) && merge_into(a, b, joint, run.start_of(label), run.budget);
 }
 
 // L2, L8. From left to right, each with the one before it as long as that works. Returns how many are left.
@@ -78,7 +78,7 @@ void pass_along(PartState& part, Index h, const Frame& frame, const Window& w) {
     out.b1 = length;
     out.d0 = value_at(out, 0);
     out.d1 = value_at(out, length);
-    if (is_lit(out)) leave_face(part, face + edge, out, Origin::Anywhere);
+    if (is_visible(out)) leave_face(part, face + edge, out, Origin::Anywhere);
   };
   leave(previous3(k), frame.left, apex > 0 ? x : -x);
   leave(next3(k), frame.right, apex < frame.length ? x - apex : apex - x);
@@ -114,7 +114,7 @@ void pass_face(PartState& part, Index h, const Frame& frame, const Window& waiti
   const WindowFace& f = part.face(h);
   const Index apex = f.vertex[previous3(h % 3)];
   if (leaves_trail(f)) w.trail = part.trails.with(w.trail, h / 3);
-  const Ray ray{w.source, h, w.root, w.kind};
+  const Ray ray{w.source, h, w.pseudo_source, w.kind};
   const Arrival at = arrival(w, frame.apex);
   if (at.detour <= kSeen * at.value) {
     part.vertices.reach(apex, at.value + w.slack);

@@ -38,7 +38,7 @@ bool pass_spine(PartState& part, Index h, Window& w) {
   const EdgeBounds seen = part.vertices.bounds(f, h % 3);
   if (is_sliver(w) || least_value(w) > part.run->radius) return false;
   if (is_dominated({seen.length, seen.end, seen.start}, w.b0, w.b1, w.d0, w.d1)) return false;
-  const Index label = part.run->several ? part.vertices.label_of(w.root) : 0;
+  const Index label = part.run->several ? part.vertices.label_of(w.pseudo_source) : 0;
   if (end < start) return part.spines.learn(end, start, w, label);
   Window turned = mirrored(w, seen.length);
   if (!part.spines.learn(start, end, turned, label)) return false;
@@ -64,7 +64,7 @@ void send(PartState& part, Index h, const WindowList& list, Origin origin) {
   const WindowColumns w = list.block.columns();
   if (part.run->several) {
     const Index to = part.run->structure.part_of_face(h / 3);
-    for (Index i = 0; i < list.size; ++i) send_label(part, to, w.root[i]);
+    for (Index i = 0; i < list.size; ++i) send_label(part, to, w.pseudo_source[i]);
   }
   part.activity->outbox.send(ListMessage{h, origin, list});
 }
@@ -85,7 +85,7 @@ void receive(PartState& part, const ListMessage& message) {
 // To another part.
 void send(PartState& part, Index h, const Window& w, Origin origin) {
   if (is_sliver(w) || least_value(w) > part.run->radius) return;
-  send_label(part, part.run->structure.part_of_face(h / 3), w.root);
+  send_label(part, part.run->structure.part_of_face(h / 3), w.pseudo_source);
   WindowMessage message{h, origin, w};
   message.window.trail = kNoIndex;  // a trail is known in its part only
   part.activity->outbox.send(message);

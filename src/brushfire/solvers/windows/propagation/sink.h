@@ -33,7 +33,7 @@ inline bool leads_on(const PartState& part, Index h) { return part.face(h).beyon
 [[gnu::noinline]] void pass_at_once(PartState& part, Index h, const Window& w);
 [[gnu::noinline]] bool ends_here(const PartState& part, const WindowFace& f, Index k, const Window& w);
 
-// Until the turn of its halfedge, in the face of h.
+// In the face of h, until h comes up in the queue.
 [[gnu::always_inline]] inline void wait(PartState& part, WindowFace& f, Index h, const Window& w) {
   const RunState& run = *part.run;
   const Index k = h % 3;
@@ -44,11 +44,11 @@ inline bool leads_on(const PartState& part, Index h) { return part.face(h).beyon
   if (run.merges() && at_apex.detour <= kSeen * at_apex.value) part.vertices.expect(apex, at_apex.value, w.lift);
   // The key is the arrival at the far corner: by then everything that enters over the edge has come.
   EventQueue& queue = part.activity->queue;
-  const std::int64_t turn = queue.turn_of(to_double(at_apex.value));
-  if (part.activity->windows.push(f.waiting, h, w, turn)) queue.push_list(h, to_double(at_apex.value), turn);
+  const std::int64_t bucket = queue.bucket_of(to_double(at_apex.value));
+  if (part.activity->windows.push(f.waiting, h, w, bucket)) queue.push_list(h, to_double(at_apex.value), bucket);
 }
 
-// A window is about to enter the face of h: unless it is of no use, it waits there for its turn.
+// A window is about to enter the face of h: unless it is of no use, it waits there.
 [[gnu::always_inline]] inline void enter_face(PartState& part, Index h, const Window& w, Origin origin) {
   if (!part.is_here(h / 3)) return send(part, h, w, origin);
   WindowFace& f = part.face(h);

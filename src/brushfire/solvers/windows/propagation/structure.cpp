@@ -167,11 +167,12 @@ struct Around {
 
 // By how much the angles around a vertex differ from 2 pi, in the median (of a sample): large ones at a few corners and
 // creases say nothing about the rest.
-double typical_defect_of(std::span<const Around> around, std::span<const Bend> bend, std::span<const Link> links) {
+double typical_deficit_of(std::span<const Around> around, std::span<const VertexType> vertex_type,
+                          std::span<const Link> links) {
   std::vector<double> sample;
   const std::size_t stride = std::max<std::size_t>(1, around.size() / kSample);
   for (std::size_t v = 0; v < around.size(); v += stride) {
-    if (bend[v] == Bend::Full || links[v] != Link::Circle) continue;
+    if (vertex_type[v] == VertexType::Full || links[v] != Link::Circle) continue;
     sample.push_back(abs(2 * kPi - around[v].angles.value()));
   }
   return sample.empty() ? 0 : median(sample);
@@ -254,7 +255,7 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
   crowds = std::move(its_crowds);
   const FacesInOrder outer(mesh, order);
   faces.resize(mesh.face_count());
-  bend.assign(n, Bend::None);
+  vertex_type.assign(n, VertexType::None);
   std::vector<Around> around(n);
   Poll poll;
   for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -281,7 +282,7 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
       if (has_angles) {
         around[face.vertex[k]].add(face, k);
       } else {
-        bend[face.vertex[k]] = Bend::Full;
+        vertex_type[face.vertex[k]] = VertexType::Full;
       }
     }
   }
@@ -294,11 +295,11 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
   for (Index h = 0; h < mesh.halfedge_count() && any_several && !has_spines; ++h)
     has_spines = opposite[opposite[h]] != h;
   for (Index v = 0; v < n; ++v) {
-    if (around[v].is_uneven()) bend[v] = Bend::Full;
-    if (bend[v] == Bend::Full) continue;
-    if (links[v] == Link::Other) bend[v] = Bend::Fans;
-    if (links[v] == Link::Circle && around[v].angles.exceeds_two_pi()) bend[v] = Bend::Saddle;
-    if (links[v] == Link::Arc && around[v].angles.exceeds_pi()) bend[v] = Bend::Boundary;
+    if (around[v].is_uneven()) vertex_type[v] = VertexType::Full;
+    if (vertex_type[v] == VertexType::Full) continue;
+    if (links[v] == Link::Other) vertex_type[v] = VertexType::Fans;
+    if (links[v] == Link::Circle && around[v].angles.exceeds_two_pi()) vertex_type[v] = VertexType::Saddle;
+    if (links[v] == Link::Arc && around[v].angles.exceeds_pi()) vertex_type[v] = VertexType::Boundary;
   }
   std::vector<std::tuple<Index, Index, Index>> by_part;
   for (Crowd& c : crowds) {
@@ -306,11 +307,11 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
     for (const Index h : c.corners) by_part.emplace_back(part_of_face(h / 3), outer_halfedge(h), h);
     std::sort(by_part.begin(), by_part.end());
     for (std::size_t i = 0; i < by_part.size(); ++i) c.corners[i] = std::get<2>(by_part[i]);
-    Bend& its = bend[order.vertex_rank[c.vertex]];
-    if (its == Bend::Fans && c.corners.size() > kManyFaces) its = Bend::Full;
+    VertexType& its = vertex_type[order.vertex_rank[c.vertex]];
+    if (its == VertexType::Fans && c.corners.size() > kManyFaces) its = VertexType::Full;
   }
   bucket_width = typical_bucket(faces);
-  typical_defect = typical_defect_of(around, bend, links);
+  typical_deficit = typical_deficit_of(around, vertex_type, links);
   cut_into_parts();
 }
 
@@ -328,14 +329,14 @@ std::span<WindowFace> WindowStructure::faces_of(Index part) {
 
 void WindowStructure::renumber(const std::vector<Index>& places) {
   UninitializedArray<Index> outer(places.size());
-  std::vector<Bend> bends(places.size());
+  std::vector<VertexType> types(places.size());
   for (std::size_t v = places.size(); v-- > 0;) {
     outer[v] = order.vertices[places[v]];
-    bends[v] = bend[places[v]];
+    types[v] = vertex_type[places[v]];
     order.vertex_rank[outer[v]] = static_cast<Index>(v);  // its number in the first part comes last
   }
   order.vertices = std::move(outer);
-  bend = std::move(bends);
+  vertex_type = std::move(types);
 }
 
 void WindowStructure::find_ghosts_of_crowds() {

@@ -17,7 +17,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 // every ray that leaves a vertex is a real path, so it is always right; it is used where angles mean nothing or are
 // not known well enough.
 // Fans: what Saddle is to one fan, for several of them and for books.
-enum class Bend : std::uint8_t { None, Saddle, Boundary, Fans, Full };
+enum class VertexType : std::uint8_t { None, Saddle, Boundary, Fans, Full };
 
 // Vertices and faces are renumbered so that neighbours are near each other in memory; corners keep their places in
 // their faces. "Inner" numbers are used everywhere in a run, the mesh's own only to and from the caller.
@@ -29,7 +29,7 @@ struct WindowStructure {
   explicit WindowStructure(const Mesh& mesh, unsigned part_bits);
 
   // A vertex counts once in each of its parts.
-  Index vertex_count() const { return static_cast<Index>(bend.size()); }
+  Index vertex_count() const { return static_cast<Index>(vertex_type.size()); }
   Index inner_vertex(Index v) const { return order.vertex_rank[v]; }  // in the first of its parts
   Index outer_vertex(Index v) const { return order.vertices[v]; }
   Index inner_face(Index f) const;  // O(log faces): sources and targets ask, the run itself hardly ever
@@ -65,16 +65,16 @@ struct WindowStructure {
   // v's number in a part; kNoIndex: it has none there.
   Index ghost_in(Index part, Index v) const;
 
-  Mesh mesh;                      // the caller's
-  LocalityOrder order;            // vertices: [vertex_count()] inner to outer
-  std::vector<WindowFace> faces;  // [face_count]
-  std::vector<Bend> bend;         // [vertex_count()]
+  Mesh mesh;                            // the caller's
+  LocalityOrder order;                  // vertices: [vertex_count()] inner to outer
+  std::vector<WindowFace> faces;        // [face_count]
+  std::vector<VertexType> vertex_type;  // [vertex_count()]
   partition::FacePartition partition;
-  std::vector<Crowd> crowds;  // ascending
-  bool has_spines = false;    // some edge has three faces or more
-  double bucket_width = 1;    // half a typical edge
-  Unevenness unevenness;      // of the faces' edges
-  double typical_defect = 0;  // the median of |2 pi - angles around a vertex|, of inner vertices
+  std::vector<Crowd> crowds;   // ascending
+  bool has_spines = false;     // some edge has three faces or more
+  double bucket_width = 1;     // half a typical edge
+  Unevenness unevenness;       // of the faces' edges
+  double typical_deficit = 0;  // the median of |2 pi - angles around a vertex|, of inner vertices
 
  private:
   const Crowd* crowd_at(Index v) const;

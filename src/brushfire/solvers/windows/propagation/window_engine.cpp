@@ -1,10 +1,10 @@
-// The driver: sources, rounds in which the parts of the mesh work side by side, and mail between them.
+// The driver: sources, rounds in which the parts of the mesh work side by side, and messages between them.
 //
 // L1 ... L10 are the lemmas of docs/tolerance.md. Every write to a vertex is the length of a real path (to rounding),
 // and a window or a part of one is dropped only where another real path is shown to be shorter; so order does not
 // matter to the result, only to the time. That is why the parts of a mesh can be left alone with their events for a
-// bucket of values at a time, and hear from each other only then. What a part does depends on its mail alone, and mail
-// is delivered in a fixed order: the numbers are the same for any number of threads.
+// bucket of values at a time, and receive messages only then. What a part does depends on these alone, and they
+// are delivered in a fixed order: the numbers are the same for any number of threads.
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/partition/rounds.h>
 #include <brushfire/solvers/partition/worker_team.h>
@@ -40,7 +40,7 @@ class WindowEngine final : public NumberedEngine {
     const Index n = run_.structure.vertex_count();
     run_.values.resize(n);
     run_.structure.partition.for_each_ghost([&](Index v, Index ghost) { run_.values[v].next_ghost = ghost; });
-    run_.light.resize(n);
+    run_.pseudo_sources.resize(n);
     run_.touched.resize(n / kFewTouched + 1);
     for (Index p = 0; p < run_.structure.part_count(); ++p) parts_.emplace_back(run_, p);
   }
@@ -87,7 +87,7 @@ class WindowEngine final : public NumberedEngine {
                   })->offset;
     run_.radius = problem.max_distance + run_.shift;
     run_.several = problem.sources.size() > 1;
-    if (run_.several) run_.origins.resize(run_.values.size());
+    if (run_.several) run_.provenance.resize(run_.values.size());
     if (run_.keeps_rays()) run_.rays.resize(run_.values.size());
     run_.budget = budget_of(*problem.options, run_.rounding, merging_ == Merging::Always ? 0 : least_share(outlook()));
     run_.in_lists = !kWide && !run_.merges() && run_.radius > kShort * run_.structure.bucket_width;
@@ -102,23 +102,23 @@ class WindowEngine final : public NumberedEngine {
 
   MergeOutlook outlook() const {
     return {static_cast<double>(run_.structure.mesh.vertex_count()), static_cast<double>(run_.problem->sources.size()),
-            run_.structure.typical_defect};
+            run_.structure.typical_deficit};
   }
 
   // ---- sources
 
   void start(const detail::LocatedSource& s) {
     const WindowStructure& structure = run_.structure;
-    const Index root = structure.vertex_count() + s.label;
+    const Index pseudo_source = structure.vertex_count() + s.label;
     const Real sigma = s.offset + run_.shift;
     if (s.at.on == PointLocation::On::Vertex) {
       const Index v = structure.inner_vertex(s.at.vertex);
-      start_at_vertex(active_part(structure.part_of_vertex(v)), v, sigma, root);
+      start_at_vertex(active_part(structure.part_of_vertex(v)), v, sigma, pseudo_source);
       return;
     }
     for_each_face_around(structure.mesh, s.at, [&](const FaceWeights& f) {
       const Index face = structure.inner_face(f.face);
-      start_in_face(active_part(structure.part_of_face(face)), {face, f.weights}, sigma, root);
+      start_in_face(active_part(structure.part_of_face(face)), {face, f.weights}, sigma, pseudo_source);
     });
   }
 
@@ -210,11 +210,12 @@ class WindowEngine final : public NumberedEngine {
 
   void deliver(const Outbox& messages, Results& results) {
     const WindowStructure& structure = run_.structure;
-    for (const LabelMessage& m : messages.all<LabelMessage>()) parts_[m.part].vertices().learn_label(m.root, m.label);
+    for (const LabelMessage& m : messages.all<LabelMessage>())
+      parts_[m.part].vertices().learn_label(m.pseudo_source, m.label);
     prefetch_receivers(run_, messages);
     for (const FallenMessage& m : messages.all<FallenMessage>()) tell_ghosts(m.vertex);
-    for (const SightMessage& m : messages.all<SightMessage>()) {
-      receive_sight(active_part(structure.part_of_vertex(m.vertex)), m.vertex, m.value, m.ray, m.all_around);
+    for (const ArrivalMessage& m : messages.all<ArrivalMessage>()) {
+      receive(active_part(structure.part_of_vertex(m.vertex)), m);
     }
     for (const TargetMessage& m : messages.all<TargetMessage>()) {
       results.offer_target(m.target, m.value, m.slack, m.lift, m.ray, m.straight);
@@ -231,7 +232,7 @@ class WindowEngine final : public NumberedEngine {
     VertexValues& at = run_.values[v];
     at.sent = false;
     for (Index c = at.next_ghost; c != v; c = run_.values[c].next_ghost) {
-      parts_[run_.structure.part_of_vertex(c)].vertices().hear(c, at.upper, at.estimate);
+      parts_[run_.structure.part_of_vertex(c)].vertices().receive(c, at.upper, at.estimate);
     }
   }
 

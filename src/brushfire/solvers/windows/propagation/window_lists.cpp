@@ -12,7 +12,7 @@ constexpr unsigned kTrimEvery = 8;
 
 inline void offer_apex(PartState& part, Index apex, Real value, const WindowColumns& w, Index i, Index h) {
   part.vertices.reach(apex, value);
-  see_vertex(part, apex, value, {{w.x[i], w.y[i]}, h, w.root[i], WindowKind::Circular}, false);
+  see_vertex(part, apex, value, {{w.x[i], w.y[i]}, h, w.pseudo_source[i], WindowKind::Circular}, false);
 }
 
 // What the list is to the apex. Returns the window that is best there among those that see it, if any.
@@ -38,11 +38,11 @@ inline void offer_apex(PartState& part, Index apex, Real value, const WindowColu
   // Nobody sees it: paths that bend where the windows next to it end.
   Index right = 0;
   while (right < count && sight.left[right] > 0) ++right;
-  const auto bend = [&](Index i, Real x) {
+  const auto bend_around = [&](Index i, Real x) {
     part.vertices.reach(apex, w.sigma[i] + length_of(x - w.x[i], w.y[i]) + length_of(frame.apex.x - x, frame.apex.y));
   };
-  if (right > 0) bend(right - 1, w.b1[right - 1]);
-  if (right < count) bend(right, w.b0[right]);
+  if (right > 0) bend_around(right - 1, w.b1[right - 1]);
+  if (right < count) bend_around(right, w.b0[right]);
   return kNoIndex;
 }
 
@@ -51,7 +51,7 @@ void reach_targets(PartState& part, Index h, const Frame& frame, const WindowCol
     const Vec2 p = in_frame(frame, h % 3, t.weights);
     for (Index i = 0; i < count; ++i) {
       const Arrival there = arrival(w.window(i), p);
-      reach_target(part, t.target, there.value, 0, 0, {{w.x[i], w.y[i]}, h, w.root[i], WindowKind::Circular},
+      reach_target(part, t.target, there.value, 0, 0, {{w.x[i], w.y[i]}, h, w.pseudo_source[i], WindowKind::Circular},
                    there.detour <= kSeen * there.value);
     }
   });

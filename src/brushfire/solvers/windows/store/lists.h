@@ -11,28 +11,28 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // All windows that wait on one face are in one list, whose head is in the face's record (WindowFace::waiting); they are
-// few. Those of a halfedge are taken together when its turn has come. Freed places are used again, last one first, so
-// that a run in steady state allocates nothing.
+// few. Those of a halfedge are taken together when it comes up in the queue. Freed places are used again, last one
+// first, so that a run in steady state allocates nothing.
 class WindowLists {
  public:
-  // `turn`: when the window wants to be taken (EventQueue::turn_of). Returns true where no window of the halfedge has
-  // waited for a turn as early.
-  [[gnu::always_inline]] bool push(Index& first, Index h, const Window& w, std::int64_t turn) {
+  // `bucket`: in which the window is to be taken (EventQueue::turn_of). Returns true where no window of the halfedge
+  // has waited for a bucket as early.
+  [[gnu::always_inline]] bool push(Index& first, Index h, const Window& w, std::int64_t bucket) {
     std::int64_t earliest = std::numeric_limits<std::int64_t>::max();
     for (Index i = first; i != kNoIndex; i = pool_[i].next) {
       if (pool_[i].halfedge == h) {
-        earliest = pool_[i].turn;
+        earliest = pool_[i].bucket;
         break;
       }
     }
     const Index place = allocate();
     Waiting& p = pool_[place];
     p.window = w;
-    p.turn = std::min(turn, earliest);
+    p.bucket = std::min(bucket, earliest);
     p.halfedge = h;
     p.next = first;
     first = place;
-    return turn < earliest;
+    return bucket < earliest;
   }
 
   // Takes the windows of h out of the list that begins with `first`: visit(window), last one first.
@@ -70,7 +70,7 @@ class WindowLists {
  private:
   struct Waiting {
     Window window;
-    std::int64_t turn = 0;  // the earliest of this window and those of the same halfedge behind it
+    std::int64_t bucket = 0;  // the earliest of this window and those of the same halfedge behind it
     Index halfedge = kNoIndex;
     Index next = kNoIndex;
   };

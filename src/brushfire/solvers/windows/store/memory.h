@@ -1,7 +1,7 @@
 // What has come over the edges of thin faces in a run.
 #pragma once
 
-#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
 #include <brushfire/solvers/windows/algebra/window.h>
 
 #include <algorithm>
@@ -92,7 +92,7 @@ class WindowMemory {
   // Nearer to `from` than where they cross, if anything.
   static Real crossing_of(const Window& k, const Window& w, Real from, Real end, Real at_from, Real at_end) {
     if (!(at_from < 0)) return from;
-    return from < end ? ridge(k, w, from, end, at_from, at_end) : ridge(k, w, end, from, at_end, at_from);
+    return from < end ? tie_point(k, w, from, end, at_from, at_end) : tie_point(k, w, end, from, at_end, at_from);
   }
 
   // What is known of one halfedge, by where it begins.

@@ -35,10 +35,10 @@ class EventQueue {
   // Whether the two keys fall into one bucket.
   bool same_bucket(double a, double b) const { return number(a) == number(b); }
   // The bucket of a key.
-  std::int64_t turn_of(double key) const { return number(key); }
+  std::int64_t bucket_of(double key) const { return number(key); }
 
   void push_list(Index h, double key) { push({key, h, true}, number(key)); }
-  void push_list(Index h, double key, std::int64_t turn) { push({key, h, true}, turn); }
+  void push_list(Index h, double key, std::int64_t bucket) { push({key, h, true}, bucket); }
   void push_vertex(Index v, double key) { push({key, v, false}, number(key)); }
 
   struct Event {
@@ -132,12 +132,12 @@ class EventQueue {
   };
 
   std::int64_t number(double key) const {
-    constexpr double kMost = 4e18;  // keys beyond what 64 bits count share the last bucket
-    return static_cast<std::int64_t>(std::min(key * inverse_width_, kMost));
+    constexpr double kLastBucket = 4e18;  // keys beyond what 64 bits count share the last bucket
+    return static_cast<std::int64_t>(std::min(key * inverse_width_, kLastBucket));
   }
 
-  [[gnu::always_inline]] void push(const Event& e, std::int64_t turn) {
-    const std::int64_t n = std::max(turn, current_);
+  [[gnu::always_inline]] void push(const Event& e, std::int64_t bucket) {
+    const std::int64_t n = std::max(bucket, current_);
     if (n - current_ >= kBuckets) {
       far_.push_back(e);
       return;

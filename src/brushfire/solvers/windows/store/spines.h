@@ -1,7 +1,7 @@
 // What has passed the edges at which three faces or more meet: the spines.
 #pragma once
 
-#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
 #include <brushfire/solvers/windows/algebra/window.h>
 
 #include <algorithm>

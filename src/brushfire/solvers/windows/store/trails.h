@@ -1,4 +1,4 @@
-// Which faces a window has crossed since its root: what ends light that goes round and round.
+// Which faces a window has crossed since its pseudo-source: what ends light that goes round and round.
 #pragma once
 
 #include <brushfire/solvers/windows/algebra/real.h>

@@ -1,11 +1,11 @@
 // The crossing of two windows: closed form, checked, with a bracketed search behind it.
-#include <brushfire/solvers/windows/algebra/ridge.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
-Real ridge(const Window& a, const Window& b, Real p, Real q, Real fp, Real fq) {
+Real tie_point(const Window& a, const Window& b, Real p, Real q, Real fp, Real fq) {
   const auto difference = [&](Real x) { return value_at(a, x) - value_at(b, x); };
   if (a.kind == WindowKind::Circular && b.kind == WindowKind::Circular) {
-    const Real x = p + ridge_in_closed_form(a.source, b.source, b.sigma - a.sigma, p, q - p);
+    const Real x = p + tie_point_in_closed_form(a.source, b.source, b.sigma - a.sigma, p, q - p);
     if (x >= p && x <= q && abs(difference(x)) <= tie(value_at(a, x))) return x;
   }
   // Illinois: false position that halves the weight of an end which has stayed twice; bisection from then on.

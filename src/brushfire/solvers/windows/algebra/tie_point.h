@@ -20,7 +20,7 @@ inline Real tie(Real value) { return 8 * kEpsilon * abs(value); }
 // |x-a| - |x-b| = d  for x on the edge, squared twice: with L(x) = |x-a|^2 - |x-b|^2 - d^2 = slope x + rest, linear,
 // L(x) = 2 d |x-b|, so L^2 = 4 d^2 |x-b|^2 with the root where L and d have the same sign. Origin at p, so that short
 // intervals keep their digits. Returns x - p, in [0, length], or -1 where rounding leaves none or both roots.
-inline Real ridge_in_closed_form(Vec2 a, Vec2 b, Real d, Real p, Real length) {
+inline Real tie_point_in_closed_form(Vec2 a, Vec2 b, Real d, Real p, Real length) {
   const Real ax = a.x - p, bx = b.x - p;
   const Real slope = 2 * (bx - ax);
   const Real rest = (ax - bx) * (ax + bx) + (a.y - b.y) * (a.y + b.y) - d * d;
@@ -39,6 +39,6 @@ inline Real ridge_in_closed_form(Vec2 a, Vec2 b, Real d, Real p, Real length) {
 
 // The place in [p,q] where a and b have the same value; fp, fq = a-b there, of opposite signs. A place that is off by
 // rounding costs nothing: the windows' cones overlap beyond it.
-Real ridge(const Window& a, const Window& b, Real p, Real q, Real fp, Real fq);
+Real tie_point(const Window& a, const Window& b, Real p, Real q, Real fp, Real fq);
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

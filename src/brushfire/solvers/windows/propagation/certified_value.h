@@ -30,7 +30,7 @@ inline MergeBudget budget_of(const DistanceOptions& options, const Rounding& rou
 }
 
 // A value, how far it may be off, and that as a share of the path's length.
-struct Reading {
+struct CertifiedValue {
   Real value;
   double bound, relative;
 };
@@ -38,8 +38,8 @@ struct Reading {
 // For lower <= distance <= upper, to rounding, of a place whose paths begin with the value `start`, all of them raised
 // by `shift`; `share`: of the budget, 0 where the run was exact. A bound that is wanted stays on its side whatever
 // rounding did.
-inline Reading reading_of(Real lower, Real upper, Real estimate, Real start, Real shift, double share,
-                          const Rounding& rounding, Bound wanted) {
+inline CertifiedValue certified_value(Real lower, Real upper, Real estimate, Real start, Real shift, double share,
+                                      const Rounding& rounding, Bound wanted) {
   lower = std::min(lower, upper);  // in exact runs they differ by rounding
   const Real length = lower - start;
   const bool exact = !(share > 0);

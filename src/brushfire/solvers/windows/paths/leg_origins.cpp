@@ -1,0 +1,113 @@
+// The point's faces, and what lies at no distance from it.
+#include <brushfire/solvers/windows/paths/leg_origins.h>
+
+#include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/mesh/detail/wide_face.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace brushfire::windows {
+namespace {
+
+using On = PointLocation::On;
+using detail::DoubleDouble, detail::WideVec2, detail::wide_corners, detail::wide_point;
+
+// Vertices that are nearer than this share of the value have the same value as the point, as far as anyone knows: the
+// leg may start from any of them.
+constexpr double kNoDistance = 64 * std::numeric_limits<double>::epsilon();
+// And those that are nearer than this share of the longest edge of a face of both: the weights of a point do not tell
+// them apart.
+constexpr double kNoPlace = 2 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+std::array<double, 3> corner_weights(Index k) {
+  std::array<double, 3> weights{0, 0, 0};
+  weights[k] = 1;
+  return weights;
+}
+
+std::vector<PointInFace> names_of(const Mesh& mesh, const PointLocation& at) {
+  std::vector<PointInFace> names;
+  if (at.on == On::Vertex) {
+    for (const Index h : mesh.corners(at.vertex)) names.push_back({Mesh::face_of(h), corner_weights(h % 3)});
+  } else {
+    for (const Index f : faces_at(mesh, at)) names.push_back({f, *weights_in(mesh, at, f)});
+  }
+  return names;
+}
+
+LegOrigins::LegOrigins(const Mesh& mesh, const PointLocation& at, double value) : mesh_(mesh), value_(value) {
+  origins_.push_back({at, 0, kNoIndex});
+  for (Index i = 0; i < size(); ++i) {
+    const LegOrigin from = origins_[i];
+    for (const PointInFace& f : names_of(mesh_, from.at)) {
+      PointLocation here;
+      here.face = f.face;
+      here.weights = f.weights;
+      const std::array<double, 3> d = corner_distances(mesh_, here);
+      for (Index k = 0; k < 3; ++k) {
+        const double way = from.before + d[k];
+        if (way <= no_distance(f.face)) add(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
+      }
+      for (Index k = 0; k < 3; ++k) add_across(f, 3 * f.face + k, i);
+    }
+  }
+}
+
+// A point of an edge is known to an epsilon of the edge, whatever the value.
+double LegOrigins::no_distance(Index face) const {
+  const auto l = mesh_.lengths().subspan(3 * std::size_t{face}, 3);
+  return std::max(kNoDistance * value_, kNoPlace * std::max({l[0], l[1], l[2]}));
+}
+
+void LegOrigins::add(Index v, Index corner, double way, Index previous) {
+  if (has(v)) return;
+  PointLocation at;
+  at.on = On::Vertex;
+  at.vertex = v;
+  at.face = Mesh::face_of(corner);
+  at.weights = corner_weights(corner % 3);
+  origins_.push_back({at, way, previous});
+}
+
+bool LegOrigins::has(Index v) const {
+  return std::any_of(origins_.begin(), origins_.end(),
+                     [&](const LegOrigin& o) { return o.at.on == On::Vertex && o.at.vertex == v; });
+}
+
+// The foot of the point on an edge at no distance: other corners of faces without area may lie there.
+void LegOrigins::add_across(const PointInFace& f, Index h, Index previous) {
+  const double weight = f.weights[Mesh::previous(h) % 3], length = mesh_.length(h), room = no_distance(f.face);
+  if (weight == 0 || !(length > 0) || mesh_.opposite()[h] == h || has_edge(h)) return;
+  if (!(weight * mesh_.double_areas()[f.face] <= 2 * room * length)) return;
+  const std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, h % 3);
+  const WideVec2 here = wide_point(corners, f.weights);
+  const DoubleDouble share = (here.x - corners[h % 3].x) / (corners[Mesh::next(h) % 3].x - corners[h % 3].x);
+  const double way = origins_[previous].before + std::abs((here.y - corners[h % 3].y).high);
+  if (!(share > 0 && share < 1 && way <= room)) return;
+  PointLocation at;
+  at.on = On::Edge;
+  at.halfedge = h;
+  at.face = f.face;
+  at.weights[h % 3] = (DoubleDouble(1) - share).high;
+  at.weights[Mesh::next(h) % 3] = share.high;
+  origins_.push_back({at, way, previous});
+}
+
+bool LegOrigins::has_edge(Index h) const {
+  const auto is_on = [&](const LegOrigin& o) {
+    if (o.at.on != On::Edge) return false;
+    Index g = o.at.halfedge;
+    do {
+      if (g == h) return true;
+      g = mesh_.opposite()[g];
+    } while (g != o.at.halfedge);
+    return false;
+  };
+  return std::any_of(origins_.begin(), origins_.end(), is_on);
+}
+
+}  // namespace brushfire::windows

@@ -1,0 +1,52 @@
+// From where a leg may be looked for: the point, and vertices and edges that cannot be told from it.
+#pragma once
+
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_point.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace brushfire::windows {
+
+// A point by one of its faces.
+struct PointInFace {
+  Index face;
+  std::array<double, 3> weights;
+};
+
+// All of them; a face that has a vertex twice comes once for every corner.
+std::vector<PointInFace> names_of(const Mesh& mesh, const PointLocation& at);
+
+std::array<double, 3> corner_weights(Index k);
+
+// The point itself, or a vertex at no distance from it.
+struct LegOrigin {
+  PointLocation at;
+  double before = 0;          // the way from the point
+  Index previous = kNoIndex;  // over which other one
+};
+
+class LegOrigins {
+ public:
+  // `value`: of the point.
+  LegOrigins(const Mesh& mesh, const PointLocation& at, double value);
+
+  Index size() const { return static_cast<Index>(origins_.size()); }
+  const LegOrigin& operator[](Index i) const { return origins_[i]; }
+  // Whether vertex v is one.
+  bool has(Index v) const;
+
+ private:
+  double no_distance(Index face) const;
+  void add(Index v, Index corner, double way, Index previous);
+  void add_across(const PointInFace& f, Index h, Index previous);
+  bool has_edge(Index h) const;
+
+  const Mesh& mesh_;
+  double value_;
+  std::vector<LegOrigin> origins_;
+};
+
+}  // namespace brushfire::windows
