@@ -141,7 +141,8 @@ TEST(ReuseOfMarching, AllocatesNothingInParts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Reuse,
-                         testing::Values(Way{Method::NovotniKlein}, Way{Method::NovotniKlein, Precision::Double},
+                         testing::Values(Way{Method::CarriedSource}, Way{Method::CarriedSource, Precision::Double},
+                                         Way{Method::NovotniKlein}, Way{Method::NovotniKlein, Precision::Double},
                                          Way{Method::KimmelSethian}, Way{Method::Windows}, Way{Method::Exact},
                                          Way{Method::Dijkstra}),
                          [](const auto& each) {
