@@ -224,7 +224,7 @@ class Fields(OnMesh):
         """
         if on not in ("faces", "vertices"):
             raise BrushfireError(f"on: 'faces' or 'vertices' is needed, not {on!r}")
-        return _core.gradients(self._mesh, _values(values, "values"), on == "vertices")
+        return _core.gradients(self._space, _values(values, "values"), on == "vertices")
 
     def steepest_descent(self, values: npt.ArrayLike, place: Places) -> Descent | None:
         """The direction in which a field falls fastest from a place, of all faces around it; None where it falls nowhere.

@@ -295,7 +295,7 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pi
         >>> mesh.masked([True, True, True, False]).distance(0, method="exact").tolist()
         [0.0, 3.0, 5.0, inf]
         """
-        return self.walled(mask=open_vertices)
+        return self.walled(faces=self._closed_faces(open_vertices))
 
     @property
     def open_vertices(self) -> npt.NDArray[np.bool_]:

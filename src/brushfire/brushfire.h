@@ -41,6 +41,7 @@
 #include <brushfire/queries/shorten.h>
 #include <brushfire/queries/smoothing.h>
 #include <brushfire/queries/straightest.h>
+#include <brushfire/queries/surface_curves.h>
 #include <brushfire/queries/surface_path.h>
 #include <brushfire/queries/vertex_measures.h>
 #include <brushfire/queries/voronoi.h>

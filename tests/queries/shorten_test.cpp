@@ -228,5 +228,19 @@ TEST(Shorten, WalksOnScansAreJudgedGood) {
   }
 }
 
+// Over faces that name a vertex twice, which conduct along their edges: there is nothing to cross and go round.
+TEST(Shorten, ClosedWalkThereAndBackOverDegenerateFacesPullsTogether) {
+  const std::vector<Vec3> positions{{1, 2.098249616101384, 3.1122733149677515},
+                                    {0, 0.5480647776275873, 3.94677866040729},
+                                    {3, 1, 0.9489168550353497},
+                                    {3.940353937447071, 2.768662933493033, 1},
+                                    {0.5277850760612637, 2.3478644769638777, 1},
+                                    {3, 2.7676450989674777, 3}};
+  const std::vector<Face> faces{{5, 1, 0}, {4, 5, 5}, {5, 4, 5}, {5, 3, 4}, {0, 2, 1},
+                                {5, 0, 3}, {0, 3, 5}, {4, 4, 4}, {1, 4, 4}};
+  const std::vector<SurfacePoint> walk{{0, {0, 0, 1}}, {1, {0, 0, 1}}, {3, {0, 0, 1}}, {0, {1, 0, 0}}};
+  EXPECT_NEAR(shorten(Mesh(positions, faces), walk, true).length, 0, 1e-9);
+}
+
 }  // namespace
 }  // namespace brushfire

@@ -29,7 +29,7 @@ MarchState<T> marched(const Rings<T>& rings, Index vertices, FrontModel model, b
   const MarchPart<T> march = march_part<T>(model, labelled, variant);
   state.begin_run();
   while (state.next_round()) {
-    for (const partition::Due& due : state.due) march(rings, state, due.part);
+    for (const partition::Due& d : state.due) march(rings, state, d.part);
   }
   return state;
 }

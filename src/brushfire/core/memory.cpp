@@ -9,7 +9,22 @@
 #include <fstream>
 #include <limits>
 
+#if defined(__EMSCRIPTEN__)
+#include <malloc.h>
+#endif
+
 namespace brushfire {
+
+#if defined(__EMSCRIPTEN__)
+
+// A module's memory grows up to 4 GB; what was let go of in it is taken again first.
+std::uint64_t available_memory() {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 32, kPage = std::uint64_t{1} << 16;
+  return kMost - kPage * __builtin_wasm_memory_size(0) + static_cast<std::uint64_t>(mallinfo().fordblks);
+}
+
+#else
+
 namespace {
 
 constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
@@ -42,6 +57,8 @@ std::uint64_t available_in_control_group() {
 
 std::uint64_t available_memory() { return std::min(available_in_system(), available_in_control_group()); }
 
+#endif
+
 std::string bytes_as_text(std::uint64_t bytes) {
   constexpr std::array kUnits{"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
   double value = static_cast<double>(bytes);
@@ -53,7 +70,9 @@ std::string bytes_as_text(std::uint64_t bytes) {
 }
 
 void require_memory(std::uint64_t bytes, std::uint64_t limit, const std::string& what, const std::string& advice) {
-  const std::uint64_t available = limit == 0 ? available_memory() : limit;
+  // No array is larger than what its size can be, whatever the caller allows.
+  constexpr std::uint64_t kMost = std::numeric_limits<std::size_t>::max();
+  const std::uint64_t available = std::min(limit == 0 ? available_memory() : limit, kMost);
   if (bytes <= available) return;
   throw Error(ErrorCode::TooLarge, what + " needs " + bytes_as_text(bytes) + ", but " + bytes_as_text(available) +
                                        " are available: " + advice);

@@ -69,10 +69,6 @@ Failure work(Loop& loop, unsigned worker) noexcept {
   return {};
 }
 
-void keep_first(Failure& first, Failure&& other) {
-  if (other.exception && (!first.exception || other.index < first.index)) first = std::move(other);
-}
-
 void finish(const Loop& loop, const Failure& failure) {
   if (failure.exception) std::rethrow_exception(failure.exception);
   if (loop.stop.load(std::memory_order_relaxed)) throw Error(ErrorCode::Cancelled, "cancelled");
@@ -83,6 +79,10 @@ void finish(const Loop& loop, const Failure& failure) {
 #if BRUSHFIRE_HAS_THREADS
 
 namespace {
+
+void keep_first(Failure& first, Failure&& other) {
+  if (other.exception && (!first.exception || other.index < first.index)) first = std::move(other);
+}
 
 // What all threads of a team agree on, in one word: the number of the loop, whether it can be joined, and how many
 // helpers have joined it and not left yet.

@@ -148,7 +148,7 @@ std::vector<double> values_of(const Input& input, const GiftiArray& a) {
     input.fail_line(a.line, "an array of " + std::to_string(a.rows) + " times " + std::to_string(a.columns) +
                                 " numbers is beyond what the file can hold");
   }
-  const std::size_t count = a.rows * a.columns, size = count * size_of(a.type);
+  const std::size_t count = as_size(a.rows * a.columns), size = count * size_of(a.type);
   const std::string_view text = input.bytes().substr(a.begin, a.end - a.begin);
   const auto short_of = [&](std::size_t have) {
     input.fail_line(
@@ -186,7 +186,7 @@ std::vector<double> values_of(const Input& input, const GiftiArray& a) {
     input.fail_line(a.line, "data of encoding " + quote(a.encoding) + " is not read");
   }
   if (a.column_major && a.columns > 1) {
-    values = transposed(values, a.columns, a.rows);
+    values = transposed(values, as_size(a.columns), as_size(a.rows));
   }
   return values;
 }
@@ -202,7 +202,7 @@ void need_columns(const Input& input, const GiftiArray& a, std::uint64_t columns
 std::vector<double> triples_of(const Input& input, GiftiArray a, bool are_columns) {
   std::vector<double> values = values_of(input, a);
   if (are_columns && a.rows == 3) {
-    values = transposed(values, a.rows, a.columns);
+    values = transposed(values, as_size(a.rows), as_size(a.columns));
     std::swap(a.rows, a.columns);
   }
   need_columns(input, a, 3);

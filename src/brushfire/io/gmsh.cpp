@@ -2,6 +2,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/binary.h>
 #include <brushfire/io/detail/formats.h>
+#include <brushfire/io/detail/numbers.h>
 #include <brushfire/io/detail/text.h>
 
 #include <algorithm>
@@ -170,7 +171,8 @@ class GmshReader {
   Index node(std::int64_t tag) const {
     if (!tags_.empty() && tag >= tags_[0].tag) {
       const auto ahead = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(tags_[0].tag);
-      if (ahead < tags_.size() && tags_[ahead].tag == tag) return tags_[ahead].index;
+      const std::size_t place = as_size(ahead);
+      if (place < tags_.size() && tags_[place].tag == tag) return tags_[place].index;
     }
     const auto found =
         std::lower_bound(tags_.begin(), tags_.end(), tag, [](const Tag& a, std::int64_t t) { return a.tag < t; });

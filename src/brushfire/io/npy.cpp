@@ -1,6 +1,7 @@
 // NumPy's .npy, versions 1 to 3.
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/binary.h>
+#include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/input.h>
 #include <brushfire/io/detail/output.h>
 #include <brushfire/io/npy.h>
@@ -246,7 +247,7 @@ NpyArray read(const Input& input) {
 }
 
 template <class T>
-void write(const std::string& path, std::span<const T> values, std::span<const std::size_t> shape, const char* descr) {
+void write(const detail::Destination& to, std::span<const T> values, std::span<const std::size_t> shape, const char* descr) {
   std::size_t product = 1;
   for (const std::size_t n : shape) product *= n;
   if (!shape.empty() && product != values.size()) {
@@ -266,7 +267,7 @@ void write(const std::string& path, std::span<const T> values, std::span<const s
   char length[2];
   detail::store(static_cast<std::uint16_t>(header.size()), length, std::endian::little);
 
-  detail::Output out(path);
+  detail::Output out(to);
   out.write(kMagic);
   out.write(std::string_view("\x01\x00", 2));
   out.write(std::string_view(length, 2));
@@ -281,6 +282,9 @@ std::string_view as_text(std::span<const std::byte> bytes) {
 
 }  // namespace
 
+void detail::write_npy_to(const Destination& to, std::span<const double> values) { write(to, values, {}, "<f8"); }
+void detail::write_npy_to(const Destination& to, std::span<const Index> values) { write(to, values, {}, "<i4"); }
+
 NpyArray read_npy(const std::string& path) { return read(Input::from_file(path)); }
 
 NpyArray read_npy(std::span<const std::byte> content, const std::string& name) {
@@ -288,16 +292,16 @@ NpyArray read_npy(std::span<const std::byte> content, const std::string& name) {
 }
 
 void write_npy(const std::string& path, std::span<const double> values, std::span<const std::size_t> shape) {
-  write(path, values, shape, "<f8");
+  write(detail::Destination{path}, values, shape, "<f8");
 }
 
 void write_npy(const std::string& path, std::span<const std::int32_t> values, std::span<const std::size_t> shape) {
-  write(path, values, shape, "<i4");
+  write(detail::Destination{path}, values, shape, "<i4");
 }
 
 // The bits of kNoIndex are those of -1.
 void write_npy(const std::string& path, std::span<const Index> values, std::span<const std::size_t> shape) {
-  write(path, values, shape, "<i4");
+  write(detail::Destination{path}, values, shape, "<i4");
 }
 
 }  // namespace brushfire

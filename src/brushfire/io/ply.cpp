@@ -392,7 +392,7 @@ class PlyReader {
       if (p == nullptr || p->is_list) rows_.fail(rows_.place(), std::string("the vertices have no property ") + name);
       axis[k] = static_cast<std::size_t>(p - e.properties.data());
     }
-    parts_.positions.reserve(e.count);
+    parts_.positions.reserve(as_size(e.count));
     if constexpr (std::is_same_v<Rows, BinaryRows>) {
       if (read_vertices_of_fixed_size(e, axis)) return;
     }
@@ -435,14 +435,15 @@ class PlyReader {
       stride += size_of(e.properties[k].type);
     }
     const std::size_t begin = rows_.place();
-    const char* block = rows_.take(stride * e.count, e, e.count);
+    const std::size_t count = as_size(e.count);
+    const char* block = rows_.take(as_size(std::uint64_t{stride} * e.count), e, e.count);
     const std::array<Type, 3> type{e.properties[axis[0]].type, e.properties[axis[1]].type, e.properties[axis[2]].type};
     const std::size_t first = parts_.positions.size();
-    parts_.positions.resize(first + e.count);
+    parts_.positions.resize(first + count);
     Vec3* out = parts_.positions.data() + first;
     const std::endian order = rows_.order();
     const auto convert = [&]<class T>(T) {
-      for (std::uint64_t v = 0; v < e.count; ++v) {
+      for (std::size_t v = 0; v < count; ++v) {
         const char* p = block + v * stride;
         out[v] = {static_cast<double>(load<T>(p + offset[0], order)),
                   static_cast<double>(load<T>(p + offset[1], order)),
@@ -454,13 +455,13 @@ class PlyReader {
     } else if (type == std::array{Type::Float32, Type::Float32, Type::Float32}) {
       convert(float{});
     } else {
-      for (std::uint64_t v = 0; v < e.count; ++v) {
+      for (std::size_t v = 0; v < count; ++v) {
         const char* p = block + v * stride;
         out[v] = {load_number(type[0], p + offset[0], order), load_number(type[1], p + offset[1], order),
                   load_number(type[2], p + offset[2], order)};
       }
     }
-    for (std::uint64_t v = 0; v < e.count; ++v) check_finite(out[v], first + v, begin + v * stride);
+    for (std::size_t v = 0; v < count; ++v) check_finite(out[v], first + v, begin + v * stride);
     return true;
   }
 
@@ -549,7 +550,7 @@ class PlyReader {
   }
 
   void read_faces(const Element& e, const Property& list) {
-    parts_.faces.reserve(e.count);
+    parts_.faces.reserve(as_size(e.count));
     std::uint64_t done = 0;
     if constexpr (std::is_same_v<Rows, BinaryRows>) {
       if (e.properties.size() == 1 && list.count_type <= Type::UInt8 &&

@@ -299,7 +299,7 @@ class VtkReader {
     const auto first = static_cast<unsigned char>(text_.peek());
     std::uint64_t length = 0;
     for (const char c : take_bytes(kBytes[first >> 6])) length = length << 8 | static_cast<unsigned char>(c);
-    take_bytes(length & (~std::uint64_t{0} >> (64 - (8 * kBytes[first >> 6] - 2))));
+    take_bytes(as_size(length & (~std::uint64_t{0} >> (64 - (8 * kBytes[first >> 6] - 2)))));
   }
 
   std::string_view take_bytes(std::size_t size) {

@@ -115,7 +115,7 @@ class VtpReader {
       loaded.value_name = scalar->name;
       const std::vector<double> values = numbers(*scalar);
       for (std::size_t k = first_line; k < loaded.lines.size(); ++k) {
-        const std::size_t at = piece.vertices + k - first_line;
+        const std::size_t at = as_size(piece.vertices + k - first_line);
         if (at < values.size()) loaded.lines[k].value = values[at];
       }
     }
@@ -201,7 +201,7 @@ class VtpReader {
     a.type = *type;
     a.line = e.line;
     a.components = e.count(*input_, "NumberOfComponents", 1);
-    a.begin = a.format == "appended" ? e.count(*input_, "offset") : e.text_begin;
+    a.begin = a.format == "appended" ? as_size(e.count(*input_, "offset")) : e.text_begin;
     a.end = e.text_end;
     return a;
   }
@@ -226,8 +226,8 @@ class VtpReader {
     read_cells(
         piece.strip_connectivity, piece.strip_offsets, piece, first_point,
         [&](std::span<const double> corners, std::size_t line) { cells.add_strip(*input_, corners, line, parts); });
-    cells.leave_out(VtkCells::kVertices, piece.vertices);
-    cells.leave_out(VtkCells::kPolyline, piece.lines);
+    cells.leave_out(VtkCells::kVertices, as_size(piece.vertices));
+    cells.leave_out(VtkCells::kPolyline, as_size(piece.lines));
     if (!piece.cell_connectivity) return;
     if (!piece.cell_types) input_->fail_line(piece.line, "cells without an array of types");
     const std::vector<double> types = numbers(*piece.cell_types);
@@ -251,7 +251,7 @@ class VtpReader {
     const std::size_t first = parts.positions.size();
     if (piece.positions) {
       const std::vector<double> xyz = numbers(*piece.positions, 3 * piece.points);
-      parts.positions.reserve(first + piece.points);
+      parts.positions.reserve(first + as_size(piece.points));
       for (std::size_t v = 0; v < piece.points; ++v) {
         const Vec3 p{xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
@@ -348,7 +348,7 @@ class VtpReader {
     if (bytes.size() < header_size()) fail_short(a);
     const std::uint64_t blocks = header_word(bytes, 0);
     if (bytes.size() / header_size() < 3 || blocks > bytes.size() / header_size() - 3) fail_short(a);
-    return (3 + blocks) * header_size();
+    return as_size(3 + blocks) * header_size();
   }
 
   // One block of compressed data into `size` bytes at `target`; an empty string, or what is wrong.
@@ -370,10 +370,10 @@ class VtpReader {
         (whole != 0 && size > budget_ / whole) || last > budget_ || (blocks != 0 && whole * size > budget_ - last);
     if (too_large) input_->fail_line(a.line, "the array inflates to far more than the file's size: refused");
     std::vector<char> out;
-    for (std::uint64_t b = 0; b < blocks; ++b) {
-      const std::uint64_t length = header_word(header, 3 + b);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const std::size_t length = as_size(header_word(header, 3 + b));
       if (length > data.size()) fail_short(a);
-      const std::uint64_t wanted = b + 1 == blocks && last != 0 ? last : size;
+      const std::size_t wanted = as_size(b + 1 == blocks && last != 0 ? last : size);
       const std::size_t at = out.size();
       if (!can_expand_to(wanted, data.substr(0, length))) fail_short(a);
       out.resize(at + wanted);
@@ -391,12 +391,12 @@ class VtpReader {
     const std::vector<char> start = decode_some(a, text, header_size()).bytes;
     const std::uint64_t first = header_word(view(start), 0);
     if (first > text.size()) fail_short(a);  // bytes of data, or blocks
-    if (compressor_ == Compressor::None) return unpack(a, view(decode_some(a, text, header_size() + first).bytes));
-    const std::size_t size = static_cast<std::size_t>(3 + first) * header_size();
+    if (compressor_ == Compressor::None) return unpack(a, view(decode_some(a, text, header_size() + as_size(first)).bytes));
+    const std::size_t size = as_size((3 + first) * header_size());
     const Base64Result header = decode_some(a, text, size);
     std::size_t compressed = 0;
-    for (std::uint64_t b = 0; b < first; ++b) {
-      const std::uint64_t length = header_word(view(header.bytes), 3 + b);
+    for (std::size_t b = 0; b < first; ++b) {
+      const std::size_t length = as_size(header_word(view(header.bytes), 3 + b));
       if (length > text.size() - compressed) fail_short(a);
       compressed += length;
     }

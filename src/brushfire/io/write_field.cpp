@@ -132,11 +132,11 @@ struct Masked {
   std::vector<Index> labels;
 };
 
-void write_npy_field(const std::string& path, const FieldView& field) {
+void write_npy_field(const Destination& to, const FieldView& field) {
   if (!field.values.empty() || field.labels.empty()) {
-    write_npy(path, field.values);
+    write_npy_to(to, field.values);
   } else {
-    write_npy(path, field.labels);
+    write_npy_to(to, field.labels);
   }
 }
 
@@ -152,26 +152,41 @@ std::vector<FileFormat> fields_written() {
 
 void check_field_format(const std::string& path, const std::string& format) { detail::known_extension(path, format); }
 
-void write_field(const std::string& path, const Mesh& mesh, const FieldView& given, const std::string& format) {
-  using namespace detail;
+namespace detail {
+namespace {
+
+void write_field_to(const Destination& to, const Mesh& mesh, const FieldView& given, const std::string& format) {
   check_size(given.values.size(), mesh, "values");
   check_size(given.labels.size(), mesh, "labels");
   check_size(given.mask.size(), mesh, "entries of the mask");
   check_name(given.name);
   check_name(given.label_name);
-  const std::string extension = known_extension(path, format);
+  const std::string extension = known_extension(to.name, format);
   const Masked masked(given);
   const FieldView& field = masked.field;
-  if (extension == "npy") return write_npy_field(path, field);
+  if (extension == "npy") return write_npy_field(to, field);
   for (const Writer& w : kWriters) {
     if (w.extension != extension) continue;
     if (w.needs_positions && !mesh.has_positions()) {
       throw Error(ErrorCode::InvalidArgument, "a mesh from lengths has no positions to write as " + extension);
     }
-    Output out(path);
+    Output out(to);
     w.write(out, mesh, field);
     return out.commit();
   }
+}
+
+}  // namespace
+}  // namespace detail
+
+void write_field(const std::string& path, const Mesh& mesh, const FieldView& field, const std::string& format) {
+  detail::write_field_to({path}, mesh, field, format);
+}
+
+std::vector<std::uint8_t> encode_field(const Mesh& mesh, const FieldView& field, const std::string& format) {
+  std::vector<std::uint8_t> bytes;
+  detail::write_field_to({"field." + format, &bytes}, mesh, field, format);
+  return bytes;
 }
 
 }  // namespace brushfire

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace brushfire {
 
@@ -40,5 +41,8 @@ void check_field_format(const std::string& path, const std::string& format = "")
 // Error(FileNotWritable), Error(UnknownFormat), and Error(InvalidArgument) where a size does not fit the mesh, a format
 // has no place for what is given, or a mesh without positions should go into a format that needs them.
 void write_field(const std::string& path, const Mesh& mesh, const FieldView& field, const std::string& format = "");
+
+// The file's bytes in place of the file; `format` is an extension without dot.
+std::vector<std::uint8_t> encode_field(const Mesh& mesh, const FieldView& field, const std::string& format);
 
 }  // namespace brushfire

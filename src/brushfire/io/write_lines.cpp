@@ -450,12 +450,14 @@ void check_lines_format(const std::string& path, const std::string& format, cons
   }
 }
 
-void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfaceLine> lines,
-                 const std::string& value_name, const std::string& format, const LinesOptions& options) {
-  check_lines_format(path, format, options);
-  const Writer& writer = writer_for(path, format);
+namespace {
+
+void write_lines_to(const detail::Destination& to, const Mesh& mesh, std::span<const SurfaceLine> lines,
+                    const std::string& value_name, const std::string& format, const LinesOptions& options) {
+  check_lines_format(to.name, format, options);
+  const Writer& writer = writer_for(to.name, format);
   if (writer.needs_positions && !mesh.has_positions()) {
-    throw Error(ErrorCode::InvalidArgument, path + ": a mesh without positions has no place in ." +
+    throw Error(ErrorCode::InvalidArgument, to.name + ": a mesh without positions has no place in ." +
                                                 std::string(writer.extension) + " files: write json");
   }
   Drawing drawing{mesh, lines, value_name, options, {}};
@@ -469,9 +471,24 @@ void write_lines(const std::string& path, const Mesh& mesh, std::span<const Surf
       }
     }
   }
-  Output out(path);
+  Output out(to);
   writer.write(out, drawing);
   out.commit();
+}
+
+}  // namespace
+
+void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfaceLine> lines,
+                 const std::string& value_name, const std::string& format, const LinesOptions& options) {
+  write_lines_to({path}, mesh, lines, value_name, format, options);
+}
+
+std::vector<std::uint8_t> encode_lines(const Mesh& mesh, std::span<const SurfaceLine> lines,
+                                       const std::string& value_name, const std::string& format,
+                                       const LinesOptions& options) {
+  std::vector<std::uint8_t> bytes;
+  write_lines_to({"lines." + format, &bytes}, mesh, lines, value_name, format, options);
+  return bytes;
 }
 
 }  // namespace brushfire

@@ -4,6 +4,7 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,6 +40,11 @@ struct LinesOptions {
 // output and needs `format`. Throws Error(FileNotWritable), Error(UnknownFormat), Error(InvalidArgument).
 void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfaceLine> lines,
                  const std::string& value_name, const std::string& format = "", const LinesOptions& options = {});
+
+// The file's bytes in place of the file; `format` is an extension without dot.
+std::vector<std::uint8_t> encode_lines(const Mesh& mesh, std::span<const SurfaceLine> lines,
+                                       const std::string& value_name, const std::string& format,
+                                       const LinesOptions& options = {});
 
 // Throws the Error(UnknownFormat) or Error(InvalidArgument) that write_lines() would: for finding out before the curves
 // are computed.

@@ -264,20 +264,36 @@ std::vector<FileFormat> meshes_written() {
 
 void check_mesh_format(const std::string& path, const std::string& format) { detail::mesh_writer_for(path, format); }
 
-void write_mesh(const std::string& path, const Mesh& mesh, const std::string& format, const std::string& structure) {
-  const detail::MeshWriter& writer = detail::mesh_writer_for(path, format);
+namespace detail {
+namespace {
+
+void write_mesh_to(const Destination& to, const Mesh& mesh, const std::string& format, const std::string& structure) {
+  const MeshWriter& writer = mesh_writer_for(to.name, format);
   if (!mesh.has_positions() && mesh.face_count() != 0) {
     throw Error(ErrorCode::InvalidArgument,
                 std::string("a mesh from lengths has no positions to write as ") + writer.name);
   }
-  if (writer.in_floats) detail::check_range(mesh, writer.name);
-  detail::Output out(path);
+  if (writer.in_floats) check_range(mesh, writer.name);
+  Output out(to);
   if (writer.write == nullptr) {
-    detail::write_gifti_surface(out, mesh, structure);
+    write_gifti_surface(out, mesh, structure);
   } else {
     writer.write(out, mesh);
   }
   out.commit();
+}
+
+}  // namespace
+}  // namespace detail
+
+void write_mesh(const std::string& path, const Mesh& mesh, const std::string& format, const std::string& structure) {
+  detail::write_mesh_to({path}, mesh, format, structure);
+}
+
+std::vector<std::uint8_t> encode_mesh(const Mesh& mesh, const std::string& format, const std::string& structure) {
+  std::vector<std::uint8_t> bytes;
+  detail::write_mesh_to({"mesh." + format, &bytes}, mesh, format, structure);
+  return bytes;
 }
 
 }  // namespace brushfire

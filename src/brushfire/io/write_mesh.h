@@ -3,7 +3,9 @@
 
 #include <brushfire/mesh/mesh.h>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace brushfire {
 
@@ -23,6 +25,9 @@ namespace brushfire {
 // coordinates are too large for a format of floats.
 void write_mesh(const std::string& path, const Mesh& mesh, const std::string& format = "",
                 const std::string& structure = "");
+
+// The file's bytes in place of the file; `format` is an extension without dot.
+std::vector<std::uint8_t> encode_mesh(const Mesh& mesh, const std::string& format, const std::string& structure = "");
 
 // Throws the Error(UnknownFormat) that write_mesh() would: for finding out before the mesh is made.
 void check_mesh_format(const std::string& path, const std::string& format = "");

@@ -168,11 +168,19 @@ void measure_geometry(const Mesh& mesh, MeshReport& r) {
 // Two digits, and no less than the value.
 std::string rounded_up(double value) {
   char text[32];
+  const auto as_text = [&](double v, std::chars_format format, int precision) {
+    return std::string_view(text, std::to_chars(text, text + sizeof text, v, format, precision).ptr - text);
+  };
   for (double v = value;; v *= 1.02) {
-    const auto end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, 2).ptr;
-    double read = 0;
-    std::from_chars(text, end, read);
-    if (read >= value) return {text, end};
+    // "d.de+xx", read by hand: not every standard library reads doubles.
+    const std::string_view digits = as_text(v, std::chars_format::scientific, 1);
+    int exponent = 0;
+    const bool is_negative = digits[4] == '-';
+    std::from_chars(digits.data() + 5, digits.data() + digits.size(), exponent);
+    exponent = (is_negative ? -exponent : exponent) - 1;
+    const int whole = 10 * (digits[0] - '0') + (digits[2] - '0');
+    const double read = exponent < 0 ? whole / std::pow(10.0, -exponent) : whole * std::pow(10.0, exponent);
+    if (read >= value) return std::string(as_text(v, std::chars_format::general, 2));
   }
 }
 

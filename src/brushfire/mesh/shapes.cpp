@@ -30,8 +30,8 @@ void make_room(Shape& s, std::uint64_t vertices, std::uint64_t faces) {
   require_memory(2 * (vertices * sizeof(Vec3) + faces * sizeof(Face)), 0,
                  "a shape of " + std::to_string(vertices) + " vertices and " + std::to_string(faces) + " faces",
                  "ask for fewer vertices");
-  s.positions.reserve(vertices);
-  s.faces.reserve(faces);
+  s.positions.reserve(static_cast<std::size_t>(vertices));
+  s.faces.reserve(static_cast<std::size_t>(faces));
 }
 
 // Cosine and sine of (octant + within) eighths of a turn, from + and * alone (the C library's differ between platforms
@@ -180,7 +180,7 @@ Shape cube(Index cells) {
   };
   Shape s;
   make_room(s, 6 * side + 2, 12 * side);
-  in_pieces(6 * side + 2, [&](std::size_t, std::size_t end) { s.positions.resize(end); });
+  in_pieces(static_cast<std::size_t>(6 * side + 2), [&](std::size_t, std::size_t end) { s.positions.resize(end); });
   Poll poll;
   // Corners of a cell on each side, as seen from outside: (u, v) to (i, j, k).
   const std::array<std::function<std::array<Index, 3>(Index, Index)>, 6> sides{

@@ -182,7 +182,7 @@ template <class T>
 void distance_matrix(const Domain& domain, Places rows, Places columns, std::span<T> result,
                      const MatrixOptions& options) {
   detail::Rows all(domain, rows, columns, options);
-  if (result.size() != all.count() * all.columns()) {
+  if (result.size() != std::uint64_t{all.count()} * all.columns()) {
     throw Error(ErrorCode::InvalidArgument, "memory for " + std::to_string(result.size()) + " values was given for " +
                                                 size_text(all.count(), all.columns(), kValueType<T>));
   }
@@ -258,8 +258,9 @@ SparseMatrix<T> join(std::vector<SparseBlock<T>>& blocks, std::span<const std::s
   m.row_start.reserve(row_size.size() + 1);
   m.row_start.push_back(0);
   for (const Index size : row_size) m.row_start.push_back(m.row_start.back() + size);
-  m.column.resize(m.row_start.back());
-  m.value.resize(m.row_start.back());
+  const auto entries = static_cast<std::size_t>(m.row_start.back());
+  m.column.resize(entries);
+  m.value.resize(entries);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     auto column = blocks[b].column.cbegin();
     auto value = blocks[b].value.cbegin();

@@ -142,7 +142,7 @@ class MatrixFile {
   }
 
  private:
-  std::size_t size() const { return header_.size() + done_.size() * row_bytes_; }
+  std::uint64_t size() const { return header_.size() + std::uint64_t{done_.size()} * row_bytes_; }
 
   // Reads which rows are there, if the files are of this matrix.
   bool resume(std::uint64_t fingerprint) {
@@ -153,7 +153,7 @@ class MatrixFile {
     if (!list.read(reinterpret_cast<char*>(&number), sizeof number) || number != fingerprint) return false;
     std::uintmax_t read = sizeof number;
     while (list.read(reinterpret_cast<char*>(&number), sizeof number) && number < done_.size()) {
-      done_[number] = true;
+      done_[static_cast<std::size_t>(number)] = true;
       read += sizeof number;
     }
     list.close();

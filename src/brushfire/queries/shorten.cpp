@@ -148,6 +148,8 @@ class Shortener {
       // The corner where the list closes; it is looked at last, so that no piece is used twice.
       if (const auto way = shorter_way(pieces.back(), pieces.front())) {
         const bool single = pieces.size() == 1;
+        // It crosses nothing, as along the edges of a face that names a vertex twice: it pulls together.
+        if (single && pieces.front().leg.steps.empty() && way->empty()) return {{}, true};
         Leg leg = single ? rotated(pieces.front().leg, *way) : joined(pieces.back().leg, *way, pieces.front().leg);
         if (!single) {
           legs.erase(legs.begin());

@@ -184,7 +184,7 @@ void write_matrix_market(const std::string& path, const SparseMatrix<T>& m) {
   output.write(std::to_string(m.row_start.size() - 1) + " " + std::to_string(m.columns) + " " +
                std::to_string(m.value.size()) + "\n");
   for (std::size_t i = 0; i + 1 < m.row_start.size(); ++i) {
-    for (std::uint64_t k = m.row_start[i]; k < m.row_start[i + 1]; ++k) {
+    for (auto k = static_cast<std::size_t>(m.row_start[i]); k < m.row_start[i + 1]; ++k) {
       output.number(static_cast<std::int64_t>(i + 1));
       output.write(' ');
       output.number(std::int64_t{m.column[k]} + 1);

@@ -9,6 +9,8 @@
 #include <brushfire/io/read_lines.h>
 #include <brushfire/io/write_field.h>
 
+#include <span>
+
 namespace brushfire::detail {
 
 MeshParts read_3mf(const Input& input);
@@ -52,6 +54,10 @@ LoadedLines read_json_lines(const Input& input);
 LoadedLines read_obj_lines(const Input& input);
 LoadedLines read_ply_lines(const Input& input);
 LoadedLines read_vtp_lines(const Input& input);
+
+// Vectors; of numbers, kNoIndex reads -1.
+void write_npy_to(const Destination& to, std::span<const double> values);
+void write_npy_to(const Destination& to, std::span<const Index> values);
 
 void write_csv(Output& out, const Mesh& mesh, const FieldView& field);
 void write_freesurfer_curv(Output& out, const Mesh& mesh, const FieldView& field);

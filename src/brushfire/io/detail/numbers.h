@@ -3,13 +3,22 @@
 
 #include <brushfire/io/detail/binary.h>
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 namespace brushfire::detail {
 
 enum class NumberType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
+
+// What a file says about sizes, as a size in memory: the largest there is where that is less, which nothing holds.
+constexpr std::size_t as_size(std::uint64_t n) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::size_t>::max();
+  return static_cast<std::size_t>(std::min(n, kMost));
+}
 
 constexpr std::size_t size_of(NumberType t) {
   constexpr std::uint8_t kSize[]{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};

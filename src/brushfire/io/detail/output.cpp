@@ -27,8 +27,15 @@ constexpr std::size_t kAtOnce = PIPE_BUF;   // what a pipe that can be written t
 
 }  // namespace
 
-Output::Output(const std::string& path) : name_(path == "-" ? "standard output" : path), buffer_(kBufferSize) {
+Output::Output(const Destination& destination)
+    : name_(destination.name == "-" ? "standard output" : destination.name),
+      memory_(destination.memory),
+      buffer_(kBufferSize) {
   stop_if_cancelled();
+  if (memory_ == nullptr) open(destination.name);
+}
+
+void Output::open(const std::string& path) {
   struct stat status{};
   if (path == "-") {
     if (std::fflush(stdout) != 0) fail(std::string("cannot be written: ") + std::strerror(errno));
@@ -56,7 +63,7 @@ Output::Output(const std::string& path) : name_(path == "-" ? "standard output" 
 // A pipe has no reader at first, and is not waited for in a call that nothing ends.
 void Output::open_pipe_or_device() {
   waits_ = true;
-  while ((descriptor_ = open(target_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)) < 0) {
+  while ((descriptor_ = ::open(target_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)) < 0) {
     if (errno != ENXIO && errno != EINTR) fail(std::strerror(errno));
     wait_a_little();
   }
@@ -71,6 +78,11 @@ void Output::fail(const std::string& cause) {
 }
 
 void Output::send(const char* data, std::size_t size) {
+  if (memory_ != nullptr) {
+    stop_if_cancelled();
+    memory_->insert(memory_->end(), data, data + size);
+    return;
+  }
   while (size != 0) {
     stop_if_cancelled();
     if (waits_) wait_until_writable(descriptor_);
@@ -123,7 +135,7 @@ void Output::numbers(std::initializer_list<double> values, char separator) {
 
 void Output::commit() {
   flush();
-  if (is_stdout_) return;
+  if (is_stdout_ || memory_ != nullptr) return;
   if (temporary_.is_open()) {
     descriptor_ = -1;
     if (!temporary_.rename_to(target_)) fail(std::string("cannot be renamed into place: ") + std::strerror(errno));

@@ -1,4 +1,4 @@
-// Output: a file that appears under its name complete or not at all.
+// Output: a file that appears under its name complete or not at all, or bytes in memory.
 #pragma once
 
 #include <brushfire/io/detail/binary.h>
@@ -15,13 +15,20 @@
 
 namespace brushfire::detail {
 
+// Where output goes: to the file `name`, or into `memory` where there is any; `name` then stands in messages only.
+struct Destination {
+  std::string name;
+  std::vector<std::uint8_t>* memory = nullptr;
+};
+
 // Collects bytes in a buffer and writes them to a temporary beside the target, which commit() renames; without commit()
 // the temporary goes away. "-" is standard output; devices and pipes are written to directly, links are followed.
 // Everything that fails is Error(FileNotWritable). Listens to the thread's CancelScope, also while a pipe is waited
 // for.
 class Output {
  public:
-  explicit Output(const std::string& path);
+  explicit Output(const Destination& destination);
+  explicit Output(const std::string& path) : Output(Destination{path}) {}
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
   ~Output();
@@ -54,10 +61,12 @@ class Output {
   void bytes(const void* data, std::size_t size);
   void flush();
   void send(const char* data, std::size_t size);
+  void open(const std::string& path);
   void open_pipe_or_device();
   [[noreturn]] void fail(const std::string& cause);
 
   std::string name_, target_;
+  std::vector<std::uint8_t>* memory_ = nullptr;
   TemporaryFile temporary_;  // where the target is a file
   int descriptor_ = -1;
   bool is_stdout_ = false;

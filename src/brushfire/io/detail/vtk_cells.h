@@ -33,7 +33,7 @@ class VtkCells {
   }
 
   // Cells of this type of VTK's that are no faces.
-  void leave_out(std::uint8_t type, std::uint64_t cells = 1) { left_out_[type] += cells; }
+  void leave_out(std::uint8_t type, std::size_t cells = 1) { left_out_[type] += cells; }
 
   // Cells of an unstructured grid by their type; what is no face is left out.
   void add_grid(const Input& input, std::span<const double> offset, std::span<const double> connectivity,
@@ -49,7 +49,7 @@ class VtkCells {
   }
 
   void remark(MeshParts& parts) const {
-    std::uint64_t total = 0;
+    std::size_t total = 0;
     std::string names;
     for (const auto& [type, cells] : left_out_) {
       if (cells == 0) continue;
@@ -140,8 +140,8 @@ class VtkCells {
   }
 
   std::vector<Index> corners_;
-  std::map<std::uint8_t, std::uint64_t> left_out_;  // cells by type
-  std::uint64_t curved_ = 0;
+  std::map<std::uint8_t, std::size_t> left_out_;  // cells by type
+  std::size_t curved_ = 0;
 };
 
 }  // namespace brushfire::detail

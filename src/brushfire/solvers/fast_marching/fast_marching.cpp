@@ -3,14 +3,13 @@
 
 #include <brushfire/core/detail/planar.h>
 #include <brushfire/core/detail/prefetch.h>
-#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
-#include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/solvers/detail/local_mesh.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
 #include <brushfire/solvers/fast_marching/detail/fronts.h>
+#include <brushfire/solvers/fast_marching/detail/local_mesh.h>
 #include <brushfire/solvers/fast_marching/detail/march.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
 #include <brushfire/solvers/partition/worker_team.h>
@@ -51,7 +50,7 @@ double update(FrontModel model, double length, Vec2 at, double t1, double t2) {
 }
 
 // Rounds are as short as it would take to wait for another thread, and a part is soon in another cache.
-constexpr std::chrono::microseconds kPatience{0};
+constexpr std::chrono::microseconds kStealAfter{0};
 
 // The methods in one precision.
 template <class T>
@@ -299,7 +298,7 @@ class Marcher {
   mutable detail::SeedSearch seeds_;
   MarchState<T> state_;
   MarchPart<T> march_part_ = nullptr;  // of this run
-  partition::WorkerTeam workers_{kPatience};
+  partition::WorkerTeam workers_{kStealAfter};
   double base_ = 0;           // the lowest offset: values are kept relative to it
   double final_ = kInfinity;  // where the front stopped
 };

@@ -89,8 +89,8 @@ BRUSHFIRE_INLINE void find_updates(const RingBlock<T>& block, const LaneLinks& l
   }
 }
 
-// Vertex v updates its neighbours. A ghost has no blocks and updates nothing: its front is bent, as that of the vertex
-// for which it stands.
+// Vertex v updates its neighbours. A ghost has no blocks and updates nothing: its front is corrected, as that of the
+// vertex for which it stands.
 template <class Front, bool kLabelled, class T>
 BRUSHFIRE_INLINE void update_neighbours(const Rings<T>& rings, MarchState<T>& s, Part<T>& part, Index v,
                                         CandidateUpdates<T>& updates) {

@@ -1,0 +1,18 @@
+// The package's main entry: everything.
+import { Field, Library, Mesh } from './full.js';
+import { instantiate } from './load.js';
+import { Cut } from './mesh.js';
+import { Pool } from './pool.js';
+
+export { BrushfireError } from './errors.js';
+export { Cut, Field, Library, Mesh, Pool };
+
+export const wasmURL = new URL('./brushfire.wasm', import.meta.url);
+
+export async function load(options = {}) {
+  return new Library(await instantiate(options.wasm ?? wasmURL));
+}
+
+export async function createPool(options = {}) {
+  return Pool.start(options, wasmURL);
+}

@@ -1,0 +1,37 @@
+// The entry of the solvers only, and how large both are.
+import assert from 'node:assert/strict';
+import { readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { gzipSync } from 'node:zlib';
+
+import { load } from '../lib/core.js';
+import { bf, difference, meshes, package_ } from './support.js';
+
+const core = await load();
+
+test('brushfire/core gives the same bits', () => {
+  for (const [name, make, source] of meshes) {
+    const mesh = make();
+    const other = core.mesh(mesh.vertices, mesh.faces);
+    for (const method of core.methods) {
+      assert.equal(difference(other.distance(source, { method }).distance, mesh.distance(source, { method }).distance), 0, `${name}, ${method}`);
+    }
+    const field = other.field(source);
+    assert.equal(field.at([0]).distance[0], field.distance[0]);
+    for (const o of [field, other, mesh]) o.free();
+  }
+  assert.equal(core.version, bf.version);
+});
+
+const lib = join(package_, 'lib');
+const packed = (names) => names.reduce((sum, name) => sum + gzipSync(readFileSync(join(lib, name)), { level: 9 }).length, 0);
+const scripts = readdirSync(lib).filter((name) => name.endsWith('.js'));
+
+test('the package is less than 450 kB with its readers, the core less than 250 kB', (t) => {
+  const whole = packed(['brushfire.wasm', ...scripts]);
+  const small = packed(['core.wasm', ...scripts]);
+  t.diagnostic(`brushfire ${(whole / 1000).toFixed(1)} kB, core ${(small / 1000).toFixed(1)} kB, gzipped`);
+  assert.ok(whole < 450e3, `${whole} bytes`);
+  assert.ok(small < 250e3, `${small} bytes`);
+});

@@ -1,0 +1,24 @@
+// What the visitor takes along: the bytes that the program would write.
+
+function download(bytes, name, type = 'application/octet-stream') {
+  const url = URL.createObjectURL(bytes instanceof Blob ? bytes : new Blob([bytes], { type }));
+  const link = Object.assign(document.createElement('a'), { href: url, download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
+
+export async function save({ engine, field, path, scene, state }, what) {
+  const { mesh } = engine;
+  if (what === 'png') return download(await scene.picture(), 'picture.png');
+  if (what === 'npy' || what === 'ply') {
+    return download(await mesh.write(what, { values: field.distance, ...(what === 'ply' && { labels: field.source }) }), `distance.${what}`);
+  }
+  if (what === 'path.obj') {
+    if (!path) throw new Error('Point at the surface first: the path under the pointer is saved.');
+    return download(await mesh.writeCurves('obj', [path]), 'path.obj');
+  }
+  const format = what.split('.')[1];
+  const farthest = field.distance.reduce((most, d) => (Number.isFinite(d) && d > most ? d : most), 0);
+  const lines = await mesh.isolines(field.distance, { every: farthest / Math.max(1, state.lines) });
+  return download(await mesh.writeCurves(format, lines), `isolines.${format}`);
+}

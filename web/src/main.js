@@ -1,0 +1,199 @@
+// The page: what the visitor does changes the state, and the state is shown.
+import { Engine } from './engine.js';
+import { save } from './exports.js';
+import { listen, openFiles } from './pointer.js';
+import { Scene } from './scene.js';
+import { asCommand, asPython, fromFragment, History, initial, SHAPES, solving, tidy, toFragment } from './state.js';
+
+const $ = (id) => document.getElementById(id);
+const METHODS = ['windows', 'exact', 'novotni-klein', 'kimmel-sethian', 'novotni-klein-2002', 'dijkstra'];
+const number = (x) => (Number.isFinite(x) ? Number(x.toPrecision(7)).toString() : 'unreachable');
+
+export const app = { state: fromFragment(location.hash) ?? initial(), history: new History(), scene: null, engine: null, field: null, path: null, file: null };
+
+function say(error) {
+  $('message').textContent = error ? String(error.message ?? error) : '';
+  $('message').hidden = !error;
+}
+
+async function guarded(run) {
+  try {
+    say(null);
+    return await run();
+  } catch (error) {
+    if (error.code !== 'cancelled') say(error);
+    return undefined;
+  }
+}
+
+export async function open(make, name, file) {
+  const opened = await guarded(() => app.engine.open(make));
+  if (!opened) return;
+  app.file = file ?? null;
+  app.name = name;
+  const { mesh, vertices, faces, report } = opened;
+  app.scene.showMesh(vertices, faces, mesh.bounds);
+  $('report').textContent = [`${mesh.vertexCount} vertices, ${mesh.faceCount} faces, ${report.components} component${report.components === 1 ? '' : 's'}.`, ...report.remarks, ...(mesh.file?.remarks ?? [])].join(' ');
+  await refresh();
+}
+
+export function openShape(name) {
+  return open((pool) => pool.shape(...SHAPES[name]), name);
+}
+
+export async function openFile(file) {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  app.state = { ...app.state, shape: '', sources: [{ face: 0, weights: [1, 0, 0] }] };
+  app.history.clear();
+  return open((pool) => pool.read(bytes, file.name), file.name, bytes);
+}
+
+// The field of the state as it is now; pictures of older ones are not drawn.
+export async function refresh() {
+  show();
+  const busy = setTimeout(() => { $('busy').hidden = false; }, 200);
+  const field = await guarded(() => app.engine.solve(app.state.sources, solving(app.state), () => {}));
+  clearTimeout(busy);
+  $('busy').hidden = true;
+  if (!field) return;
+  app.field = field;
+  app.scene.showField(field.distance, field.source);
+  const farthest = field.distance.reduce((most, d) => (Number.isFinite(d) && d > most ? d : most), 0);
+  app.scene.uniforms.farthest.value = farthest || 1;
+  app.scene.uniforms.spacing.value = app.state.lines > 0 ? farthest / app.state.lines : 0;
+  $('legend-high').textContent = number(farthest);
+  const bound = Number.isFinite(field.maxErrorBound) ? `, every distance within ${(100 * field.maxErrorBound).toPrecision(2)} % (proven)` : '';
+  $('summary').textContent = `${app.name}: ${field.reached} of ${field.distance.length} vertices reached, the farthest at ${number(farthest)}${bound}`;
+  document.documentElement.dataset.solved = String(Number(document.documentElement.dataset.solved ?? 0) + 1);
+}
+
+function show() {
+  const { state } = app;
+  $('shape').value = state.shape;
+  $('method').value = state.method;
+  $('tolerance').value = state.tolerance;
+  $('tolerance').disabled = state.method !== 'windows';
+  $('colormap').value = state.colormap;
+  $('lines').value = state.lines;
+  $('lines-value').textContent = state.lines;
+  $('undo').disabled = !app.history.canUndo;
+  $('redo').disabled = !app.history.canRedo;
+  history.replaceState(null, '', state.shape ? toFragment(state) : '#');
+  app.engine.mesh?.position(state.sources).then((p) => app.scene.showSources(p), () => {});
+}
+
+// A change that can be undone.
+export function change(parts) {
+  app.history.add(app.state);
+  app.state = { ...app.state, ...parts };
+  return refresh();
+}
+
+export function setSources(sources, { remember = true } = {}) {
+  if (remember) app.history.add(app.state);
+  app.state = { ...app.state, sources: sources.map(tidy) };
+  return refresh();
+}
+
+// The number and the path at a point: exactly what the program says for it with the same options.
+let asked = 0;
+export async function look(point) {
+  const mine = ++asked;
+  if (!point) return;
+  await guarded(async () => {
+    const { mesh } = app.engine;
+    const { targetDistance, targetSource } = await mesh.distance(app.state.sources, { ...solving(app.state), targets: [point] });
+    if (mine !== asked) return;
+    app.target = point;
+    $('readout').textContent = `Distance ${number(targetDistance[0])}`;
+    $('readout').dataset.distance = targetDistance[0];
+    if (!$('path').checked || targetSource[0] < 0) return;
+    const path = await mesh.path([app.state.sources[targetSource[0]], point]);
+    if (mine !== asked) return;
+    app.path = path;
+    app.scene.showPath(path.positions);
+    $('readout').textContent = `Distance ${number(targetDistance[0])}, path ${number(path.length)} long`;
+  });
+}
+
+async function colours() {
+  const table = await app.engine.colormap(app.state.colormap);
+  app.scene.setColours(table);
+  const canvas = $('legend-bar');
+  canvas.getContext('2d').putImageData(new ImageData(new Uint8ClampedArray(table), 256, 1), 0, 0);
+}
+
+async function travel(step) {
+  const state = step(app.state);
+  if (!state) return;
+  const before = app.state;
+  app.state = state;
+  if (state.colormap !== before.colormap) await colours();
+  if (state.shape !== before.shape && state.shape) await openShape(state.shape);
+  else await refresh();
+}
+
+function wave(on) {
+  $('wave').setAttribute('aria-pressed', String(on));
+  const { uniforms } = app.scene;
+  if (!on) {
+    uniforms.front.value = -1;
+    app.scene.draw();
+    return;
+  }
+  const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
+  const begin = performance.now();
+  const frame = () => {
+    if ($('wave').getAttribute('aria-pressed') !== 'true') return;
+    const share = still ? 0.5 : ((performance.now() - begin) / 4000) % 1.1;
+    uniforms.front.value = share * uniforms.farthest.value;
+    app.scene.draw();
+    if (!still) requestAnimationFrame(frame);
+  };
+  frame();
+}
+
+function bind() {
+  for (const name of Object.keys(SHAPES)) $('shape').add(new Option(name));
+  $('shape').add(new Option('your file', ''));
+  for (const name of METHODS) $('method').add(new Option(name));
+  $('shape').onchange = async () => {
+    if (!$('shape').value) return;
+    app.history.add(app.state);
+    app.state = { ...app.state, shape: $('shape').value, sources: initial().sources };
+    await openShape(app.state.shape);
+  };
+  $('method').onchange = () => change({ method: $('method').value });
+  $('tolerance').onchange = () => change({ tolerance: $('tolerance').value });
+  $('colormap').onchange = async () => { await change({ colormap: $('colormap').value }); await colours(); };
+  $('lines').oninput = () => {
+    app.state = { ...app.state, lines: Number($('lines').value) };
+    app.scene.uniforms.spacing.value = app.state.lines > 0 ? app.scene.uniforms.farthest.value / app.state.lines : 0;
+    show();
+    app.scene.draw();
+  };
+  $('path').onchange = () => { if (!$('path').checked) app.scene.showPath(null); };
+  $('cells').onchange = () => { app.scene.uniforms.showCells.value = $('cells').checked; app.scene.draw(); };
+  $('wave').onclick = () => wave($('wave').getAttribute('aria-pressed') !== 'true');
+  $('undo').onclick = () => travel((s) => app.history.undo(s));
+  $('redo').onclick = () => travel((s) => app.history.redo(s));
+  $('cancel').onclick = () => app.engine.cancel();
+  $('save').onclick = () => guarded(() => save(app, $('export').value));
+  const file = () => (app.state.shape ? `${app.state.shape.replace(' ', '-')}.ply` : app.name);
+  $('copy-command').onclick = () => guarded(() => navigator.clipboard.writeText(asCommand(app.state, file())));
+  $('copy-python').onclick = () => guarded(() => navigator.clipboard.writeText(asPython(app.state, file())));
+  $('controls').onsubmit = (event) => event.preventDefault();
+  listen($('canvas'), app, { setSources, look, undo: () => $('undo').click() });
+  openFiles($('stage'), $('file'), openFile);
+}
+
+window.brushfire = app; // for tests, and for who is curious
+try {
+  app.scene = new Scene($('canvas'));
+  app.engine = await Engine.start();
+  bind();
+  await colours();
+  await openShape(app.state.shape);
+} catch (error) {
+  say(error);
+}

@@ -1,0 +1,88 @@
+// Pointer and keyboard on the surface: sources are set, added and dragged; what is under the pointer is told.
+
+const NEAR = 14; // pixels: a press that near to a source takes hold of it
+const STILL = 5; // pixels: a press that moved less is a click, else the view was turned
+
+export function listen(canvas, app, { setSources, look, undo }) {
+  let press = null;
+  let hover = null;
+
+  async function sourceAt(x, y) {
+    const positions = await app.engine.mesh.position(app.state.sources);
+    for (let k = 0; k < app.state.sources.length; ++k) {
+      const at = app.scene.onPage(...positions.subarray(3 * k, 3 * k + 3));
+      if (Math.hypot(at.x - x, at.y - y) < NEAR) return k;
+    }
+    return -1;
+  }
+
+  const moved = (k, point) => app.state.sources.map((s, i) => (i === k ? point : s));
+
+  canvas.addEventListener('pointerdown', async (event) => {
+    const mine = (press = { x: event.clientX, y: event.clientY, shift: event.shiftKey, held: -1, dragged: false });
+    const point = app.scene.pick(event.clientX, event.clientY);
+    if (!point || event.shiftKey) return;
+    // Turning waits for the answer, which takes a worker some milliseconds.
+    app.scene.turning = false;
+    const k = await sourceAt(event.clientX, event.clientY);
+    if (press === mine) mine.held = k;
+    app.scene.turning = press !== mine || k < 0;
+  });
+  canvas.addEventListener('pointermove', (event) => {
+    if (press?.held >= 0) {
+      const point = app.scene.pick(event.clientX, event.clientY);
+      if (!point) return;
+      setSources(moved(press.held, point), { remember: !press.dragged });
+      press.dragged = true;
+      return;
+    }
+    if (event.buttons !== 0) return;
+    clearTimeout(hover);
+    hover = setTimeout(() => look(app.scene.pick(event.clientX, event.clientY)), 60);
+  });
+  canvas.addEventListener('pointerup', (event) => {
+    app.scene.turning = true;
+    const was = press;
+    press = null;
+    if (!was || was.dragged || Math.hypot(event.clientX - was.x, event.clientY - was.y) > STILL) return;
+    const point = app.scene.pick(event.clientX, event.clientY);
+    if (point) setSources(was.shift ? [...app.state.sources, point] : [point]);
+  });
+  canvas.addEventListener('pointerleave', () => clearTimeout(hover));
+
+  canvas.addEventListener('keydown', (event) => {
+    const box = canvas.getBoundingClientRect();
+    const middle = () => app.scene.pick(box.left + box.width / 2, box.top + box.height / 2);
+    const step = 0.12;
+    const keys = {
+      ArrowLeft: () => app.scene.turn(-step, 0),
+      ArrowRight: () => app.scene.turn(step, 0),
+      ArrowUp: () => app.scene.turn(0, step),
+      ArrowDown: () => app.scene.turn(0, -step),
+      '+': () => app.scene.zoom(0.9),
+      '-': () => app.scene.zoom(1 / 0.9),
+      Home: () => app.scene.home(),
+      Enter: () => { const p = middle(); if (p) setSources([p]).then(() => look(app.state.sources[0])); },
+      a: () => { const p = middle(); if (p) setSources([...app.state.sources, p]); },
+      ' ': () => look(middle()),
+    };
+    if ((event.ctrlKey || event.metaKey) && event.key === 'z') undo();
+    else if (keys[event.key] && !event.ctrlKey && !event.metaKey) keys[event.key]();
+    else return;
+    event.preventDefault();
+  });
+}
+
+export function openFiles(stage, input, openFile) {
+  input.addEventListener('change', () => input.files[0] && openFile(input.files[0]));
+  const over = (on) => (event) => {
+    event.preventDefault();
+    stage.classList.toggle('dropping', on);
+  };
+  document.addEventListener('dragover', over(true));
+  document.addEventListener('dragleave', over(false));
+  document.addEventListener('drop', (event) => {
+    over(false)(event);
+    if (event.dataTransfer.files[0]) openFile(event.dataTransfer.files[0]);
+  });
+}

@@ -1,0 +1,100 @@
+// What the page shows, as plain data: kept for undo, and in the address for shapes that are built in.
+
+export const SHAPES = {
+  'folded sphere': ['folded-sphere', 5],
+  torus: ['torus', 120, 60],
+  sphere: ['icosphere', 5],
+  terrain: ['noise-terrain', 120, 120, 0.25],
+  cube: ['cube', 40],
+  cylinder: ['cylinder', 40, 80],
+  saddle: ['saddle', 80, 1],
+  cone: ['cone', 60, 120, 1, 2],
+};
+
+export const initial = () => ({ shape: 'folded sphere', sources: [{ face: 0, weights: [1, 0, 0] }], method: 'windows', tolerance: '1e-3', colormap: 'viridis', lines: 20 });
+
+const digits = (w) => String(Number(w.toFixed(12)));
+
+// Weights as they come back from their text: a shared page shows the same numbers.
+export const tidy = ({ face, weights }) => {
+  const [a, b] = weights.slice(0, 2).map((w) => Number(digits(w)));
+  return { face, weights: [a, b, Math.max(0, Number(digits(1 - a - b)))] };
+};
+
+export const placeText = ({ face, weights }) => `f:${face}:${weights.map(digits).join(',')}`;
+
+export function toFragment(state) {
+  const words = new URLSearchParams({ shape: state.shape, method: state.method, tolerance: state.tolerance, colours: state.colormap, lines: String(state.lines) });
+  for (const source of state.sources) words.append('source', placeText(source));
+  return `#${words}`;
+}
+
+// Null where the fragment does not say anything usable.
+export function fromFragment(fragment) {
+  const words = new URLSearchParams(fragment.replace(/^#/, ''));
+  if (!(words.get('shape') in SHAPES)) return null;
+  const sources = words.getAll('source').map((text) => {
+    const [, face, weights] = /^f:(\d+):([-\d.e,]+)$/.exec(text) ?? [];
+    return { face: Number(face), weights: weights?.split(',').map(Number) ?? [] };
+  });
+  const start = initial();
+  if (sources.length === 0 || !sources.every((s) => Number.isInteger(s.face) && s.weights.length === 3 && s.weights.every(Number.isFinite))) return null;
+  return { ...start, shape: words.get('shape'), sources, method: words.get('method') ?? start.method, tolerance: words.get('tolerance') ?? start.tolerance,
+    colormap: words.get('colours') ?? start.colormap, lines: Math.min(60, Math.max(0, Number(words.get('lines') ?? start.lines) || 0)) };
+}
+
+// One step back, one step forth.
+export class History {
+  #past = [];
+  #future = [];
+
+  add(state) {
+    this.#past.push(structuredClone(state));
+    this.#future = [];
+  }
+
+  undo(now) {
+    return this.#move(this.#past, this.#future, now);
+  }
+
+  redo(now) {
+    return this.#move(this.#future, this.#past, now);
+  }
+
+  clear() {
+    this.#past = [];
+    this.#future = [];
+  }
+
+  get canUndo() {
+    return this.#past.length > 0;
+  }
+
+  get canRedo() {
+    return this.#future.length > 0;
+  }
+
+  #move(from, to, now) {
+    const state = from.pop();
+    if (state) to.push(structuredClone(now));
+    return state;
+  }
+}
+
+const solving = ({ method, tolerance }) => (method === 'windows' ? { method, tolerance: Number(tolerance) } : { method });
+export { solving };
+
+// What does the same on the command line, and in Python.
+export function asCommand(state, file) {
+  const options = solving(state);
+  const words = ['brushfire', 'distance', file, ...state.sources.map((s) => `--source ${placeText(s)}`), `--method ${options.method}`];
+  if (options.tolerance !== undefined) words.push(`--tolerance ${state.tolerance}`);
+  return `${words.join(' ')} -o distance.npy`;
+}
+
+export function asPython(state, file) {
+  const options = solving(state);
+  const places = state.sources.map(({ face, weights }) => `bf.Point(${face}, (${weights.map(digits).join(', ')}))`);
+  const tolerance = options.tolerance === undefined ? '' : `, tolerance=${state.tolerance}`;
+  return `import brushfire as bf\n\nmesh = bf.read(${JSON.stringify(file)})\nd = mesh.distance([${places.join(', ')}], method="${options.method}"${tolerance})\n`;
+}

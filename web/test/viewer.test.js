@@ -1,0 +1,255 @@
+// The page in Debian's Chromium: what a visitor does, and what has to come of it.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+import { load } from 'brushfire';
+import { chromium } from 'playwright-core';
+
+import { serve } from '../../js/test/browser.js';
+
+const here = fileURLToPath(new URL('..', import.meta.url));
+const program = process.env.BRUSHFIRE_PROGRAM ?? join(here, '../build/release/brushfire');
+const withoutNative = existsSync(program) ? false : `${program} is not there`;
+const folder = mkdtempSync(join(tmpdir(), 'brushfire-viewer-'));
+const pictures = process.env.BRUSHFIRE_SCREENSHOTS;
+if (pictures) mkdirSync(pictures, { recursive: true });
+const bf = await load();
+let browser, server, context;
+
+before(async () => {
+  server = await serve(join(here, 'dist'));
+  browser = await chromium.launch({ executablePath: process.env.BRUSHFIRE_CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+// A page, its complaints, and a wait for the next field.
+async function visit(fragment = '', options = {}) {
+  context = await browser.newContext({ viewport: { width: 1000, height: 700 }, permissions: ['clipboard-read', 'clipboard-write'], acceptDownloads: true, ...options });
+  const page = await context.newPage();
+  const complaints = [];
+  page.on('console', (m) => ['error', 'warning'].includes(m.type()) && !/GPU stall|GL Driver/.test(m.text()) && complaints.push(m.text()));
+  page.on('pageerror', (e) => complaints.push(String(e)));
+  page.on('request', (r) => !r.url().startsWith(server.url) && !/^(data|blob):/.test(r.url()) && complaints.push(`asked for ${r.url()}`));
+  await page.goto(server.url + fragment);
+  await page.waitForSelector('html[data-solved]', { timeout: 60000 });
+  const solved = () => page.evaluate('Number(document.documentElement.dataset.solved)');
+  const nextField = async (act) => {
+    const n = await solved();
+    await act();
+    await page.waitForFunction(`Number(document.documentElement.dataset.solved) > ${n}`, null, { timeout: 60000 });
+  };
+  const shot = async (name) => {
+    const picture = await page.screenshot();
+    if (pictures) writeFileSync(join(pictures, `${name}.png`), picture);
+    return picture;
+  };
+  const state = () => page.evaluate('window.brushfire.state');
+  return { page, complaints, nextField, shot, state, close: () => context.close() };
+}
+
+const middle = async (page) => {
+  const box = await page.locator('#canvas').boundingBox();
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+};
+
+const place = ({ face, weights }) => `f:${face}:${weights.join(',')}`;
+
+// The mesh of the page as a file for the program.
+function fileOf(...shape) {
+  const mesh = bf.shape(...shape);
+  const file = join(folder, 'mesh.ply');
+  writeFileSync(file, mesh.write('ply'));
+  mesh.free();
+  return file;
+}
+
+test('the page opens with a field, and asks nobody else for anything', async () => {
+  const v = await visit();
+  assert.match(await v.page.textContent('#summary'), /10242 of 10242 vertices reached.*proven/);
+  await v.shot('first');
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
+test('a click sets the source, and the number under the pointer is the program\'s', { skip: withoutNative }, async () => {
+  const v = await visit('#shape=torus&source=f:0:1,0,0');
+  const m = await middle(v.page);
+  const box = await v.page.locator('#canvas').boundingBox();
+  await v.nextField(() => v.page.mouse.click(m.x, m.y + box.height * 0.2));
+  await v.page.mouse.move(m.x - box.width * 0.2, m.y);
+  await v.page.waitForFunction("document.getElementById('readout').dataset.distance && document.getElementById('readout').textContent.includes('path')");
+  const { state, target, distance, length } = await v.page.evaluate(`({ state: brushfire.state, target: brushfire.target, distance: Number(document.getElementById('readout').dataset.distance), length: brushfire.path.length })`);
+  const said = JSON.parse(execFileSync(program, ['distance', fileOf('torus', 120, 60), '--source', place(state.sources[0]), '--target', place(target), '--json'], { encoding: 'utf8' }));
+  const theirs = said.targets?.[0]?.distance ?? said.target_distance?.[0] ?? said.targets?.[0];
+  assert.ok(Math.abs(distance - theirs) <= 1e-12 * theirs, `${distance} here, ${JSON.stringify(said).slice(0, 400)}`);
+  assert.ok(length > 0 && Math.abs(length - distance) <= 1e-3 * length, `the path is ${length} long`);
+  await v.shot('path');
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
+test('shift-click adds a source, undo takes it back, dragging moves one and the field follows', async () => {
+  const v = await visit();
+  const m = await middle(v.page);
+  await v.nextField(() => v.page.mouse.click(m.x, m.y));
+  await v.page.keyboard.down('Shift');
+  await v.nextField(() => v.page.mouse.click(m.x + 80, m.y + 60));
+  await v.page.keyboard.up('Shift');
+  assert.equal((await v.state()).sources.length, 2);
+  await v.shot('two-sources');
+  await v.nextField(() => v.page.click('#undo'));
+  assert.equal((await v.state()).sources.length, 1);
+  const before = (await v.state()).sources[0];
+  await v.page.mouse.move(m.x, m.y);
+  await v.page.mouse.down();
+  await v.page.waitForTimeout(300);
+  for (let k = 1; k <= 10; ++k) await v.page.mouse.move(m.x + 8 * k, m.y);
+  await v.page.waitForTimeout(500);
+  await v.page.mouse.up();
+  const moved = (await v.state()).sources;
+  assert.equal(moved.length, 1);
+  assert.notEqual(moved[0].face, before.face);
+  await v.nextField(() => v.page.click('#undo'));
+  assert.deepEqual((await v.state()).sources[0], before);
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
+test('isolines and colours are drawn, and a missing isoline is noticed', async () => {
+  const v = await visit('#shape=sphere&source=f:0:1,0,0');
+  const dark = () => v.page.evaluate(async () => {
+    const blob = await window.brushfire.scene.picture();
+    const bitmap = await createImageBitmap(blob);
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+    const context_ = canvas.getContext('2d');
+    context_.drawImage(bitmap, 0, 0);
+    const { data } = context_.getImageData(0, 0, bitmap.width, bitmap.height);
+    let ink = 0, area = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] < 128) continue;
+      ++area;
+      if (Math.max(data[i], data[i + 1], data[i + 2]) < 60) ++ink;
+    }
+    return { ink, area };
+  });
+  const lines = async (n) => {
+    await v.page.locator('#lines').fill(String(n));
+    await v.page.waitForTimeout(200);
+    return dark();
+  };
+  const none = await lines(0);
+  const ten = await lines(10);
+  const nine = await lines(9);
+  assert.ok(none.area > 50000, `the surface covers ${none.area} pixels`);
+  assert.ok(ten.ink > none.ink + 1000, `${none.ink} dark pixels without lines, ${ten.ink} with`);
+  assert.ok(ten.ink > nine.ink * 1.04, `${nine.ink} with nine, ${ten.ink} with ten`);
+  await v.page.selectOption('#colormap', 'magma');
+  await v.page.waitForTimeout(500);
+  await v.shot('magma');
+  await v.page.check('#cells');
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
+test('what is saved reads back, and is what the program computes', { skip: withoutNative }, async () => {
+  const v = await visit('#shape=torus&source=f:7:0.2,0.3,0.5&method=exact');
+  const take = async (what) => {
+    await v.page.selectOption('#export', what);
+    const [download] = await Promise.all([v.page.waitForEvent('download'), v.page.click('#save')]);
+    const path = join(folder, download.suggestedFilename());
+    await download.saveAs(path);
+    return readFileSync(path);
+  };
+  const { values } = bf.readField(await take('npy'), 'distance.npy');
+  const out = join(folder, 'native.npy');
+  execFileSync(program, ['distance', fileOf('torus', 120, 60), '--source', 'f:7:0.2,0.3,0.5', '--method', 'exact', '-o', out]);
+  const native = bf.readField(readFileSync(out), out).values;
+  assert.ok(values.every((d, k) => Math.abs(d - native[k]) <= 1e-12 * native[k]));
+  assert.equal(bf.read(await take('ply'), 'distance.ply').vertexCount, 7200);
+  assert.match((await take('lines.svg')).toString(), /^<\?xml|<svg/);
+  assert.match((await take('lines.dxf')).toString(), /AC1009/);
+  assert.equal((await take('png')).subarray(1, 4).toString(), 'PNG');
+  await v.page.click('#copy-command');
+  const command = await v.page.evaluate('navigator.clipboard.readText()');
+  assert.equal(command, 'brushfire distance torus.ply --source f:7:0.2,0.3,0.5 --method exact -o distance.npy');
+  await v.page.click('#copy-python');
+  assert.match(await v.page.evaluate('navigator.clipboard.readText()'), /bf\.Point\(7, \(0\.2, 0\.3, 0\.5\)\)/);
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
+test('files are opened, and a bad one shows the library\'s own words', async () => {
+  const v = await visit();
+  const file = fileOf('cone', 20, 40, 1, 2);
+  await v.nextField(() => v.page.setInputFiles('#file', file));
+  assert.match(await v.page.textContent('#report'), /821 vertices|\d+ vertices/);
+  writeFileSync(join(folder, 'bad.ply'), 'ply\nformat ascii 1.0\nelement vertex 3\n');
+  await v.page.setInputFiles('#file', join(folder, 'bad.ply'));
+  await v.page.waitForSelector('#message:not([hidden])');
+  assert.match(await v.page.textContent('#message'), /bad\.ply/);
+  await v.shot('bad-file');
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
+test('the keyboard alone does', async () => {
+  const v = await visit();
+  await v.page.focus('#canvas');
+  const before = (await v.state()).sources[0].face;
+  await v.nextField(() => v.page.keyboard.press('Enter'));
+  const after_ = (await v.state()).sources;
+  assert.notEqual(after_[0].face, before);
+  await v.page.waitForFunction("/^Distance 0\\b/.test(document.getElementById('readout').textContent)");
+  for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowUp', '+']) await v.page.keyboard.press(key);
+  await v.nextField(() => v.page.keyboard.press('a'));
+  assert.equal((await v.state()).sources.length, 2);
+  await v.nextField(() => v.page.keyboard.press('Control+z'));
+  assert.deepEqual((await v.state()).sources, after_);
+  await v.page.keyboard.press('Tab');
+  assert.equal(await v.page.evaluate('document.activeElement.id'), 'shape');
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
+test('a shared address shows the same', async () => {
+  const v = await visit();
+  const m = await middle(v.page);
+  await v.nextField(() => v.page.mouse.click(m.x + 30, m.y));
+  await v.nextField(() => v.page.selectOption('#method', 'novotni-klein'));
+  const address = new URL(v.page.url()).hash;
+  const [state, sum] = await v.page.evaluate('[brushfire.state, brushfire.field.distance.reduce((s, d) => s + d)]');
+  await v.close();
+  const w = await visit(address);
+  assert.deepEqual(await w.state(), state);
+  assert.equal(await w.page.evaluate('brushfire.field.distance.reduce((s, d) => s + d)'), sum);
+  await w.close();
+});
+
+test('on a telephone, in the dark', async () => {
+  const v = await visit('', { viewport: { width: 390, height: 780 }, colorScheme: 'dark', hasTouch: true });
+  const { width, scroll } = await v.page.evaluate('({ width: innerWidth, scroll: document.documentElement.scrollWidth })');
+  assert.ok(scroll <= width, `${scroll} wide in a window of ${width}`);
+  await v.shot('telephone');
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe finds nothing serious (${colorScheme})`, async () => {
+    const v = await visit('', { colorScheme });
+    await v.page.addScriptTag({ path: createRequire(import.meta.url).resolve('axe-core/axe.min.js') });
+    const { violations } = await v.page.evaluate('axe.run()');
+    const serious = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
+    assert.deepEqual(serious.map(({ id, nodes }) => `${id}: ${nodes.map((n) => n.html).join(' ')}`), []);
+    await v.close();
+  });
+}
