@@ -171,6 +171,7 @@ TEST(Crowds, ALegFromTheHubIsFoundByLength) {
                                                   value,
                                                   locate(mesh, vertex_point(mesh, 0)),
                                                   straight * (1 - 1e-3),
+                                                  0,
                                                   kNoIndex,
                                                   kNoIndex,
                                                   {}});

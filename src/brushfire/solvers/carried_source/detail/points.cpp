@@ -3,6 +3,7 @@
 
 #include <brushfire/mesh/detail/flat_face.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace brushfire::carried_source {
@@ -30,8 +31,32 @@ void Points::add_face(Index f, const std::array<double, 3>& weights) {
   }
 }
 
-std::span<const Points::Near> Points::around(const PointLocation& at, int crossings, double limit) {
+// Points of an edge have a name in each of its faces: the one that all names lead to, so that they give the same bits.
+PointLocation Points::by_lowest_halfedge(const PointLocation& at) const {
+  const Index h = at.halfedge;
+  Index lowest = h;
+  for (Index g = mesh_.opposite(h); g != h; g = mesh_.opposite(g)) lowest = std::min(lowest, g);
+  return at_edge(at, lowest);
+}
+
+// The same point in the face of another halfedge of the edge.
+PointLocation Points::at_edge(const PointLocation& at, Index g) const {
+  const Index h = at.halfedge;
+  const bool same_way = mesh_.from(g) == mesh_.from(h);
+  PointLocation there = at;
+  there.halfedge = g;
+  there.face = Mesh::face_of(g);
+  there.weights = {0, 0, 0};
+  there.weights[g % 3] = at.weights[(same_way ? h : Mesh::next(h)) % 3];
+  there.weights[Mesh::next(g) % 3] = at.weights[(same_way ? Mesh::next(h) : h) % 3];
+  there.t = there.weights[Mesh::next(g) % 3];
+  return there;
+}
+
+std::span<const Points::Near> Points::around(const PointLocation& named, int crossings, double limit) {
   near_.clear();
+  const bool on_edge = named.on == PointLocation::On::Edge && mesh_.is_face_usable(named.face);
+  const PointLocation at = on_edge ? by_lowest_halfedge(named) : named;
   if (at.on == PointLocation::On::Vertex) {
     near_.push_back({at.vertex, 0, {}, true, 0});
   } else if (!mesh_.is_face_usable(at.face)) {
@@ -39,16 +64,11 @@ std::span<const Points::Near> Points::around(const PointLocation& at, int crossi
   } else if (at.on == PointLocation::On::Interior) {
     add_face(at.face, at.weights);
   } else {
-    const Index h = at.halfedge;
-    Index g = h;
+    Index g = at.halfedge;
     do {
-      const bool same_way = mesh_.from(g) == mesh_.from(h);
-      std::array<double, 3> weights{0, 0, 0};
-      weights[g % 3] = at.weights[(same_way ? h : Mesh::next(h)) % 3];
-      weights[Mesh::next(g) % 3] = at.weights[(same_way ? Mesh::next(h) : h) % 3];
-      add_face(Mesh::face_of(g), weights);
+      add_face(Mesh::face_of(g), at_edge(at, g).weights);
       g = mesh_.opposite(g);
-    } while (g != h);
+    } while (g != at.halfedge);
   }
   if (at.on == PointLocation::On::Vertex) return near_;
   for (const detail::Seed& s : seeds_.in_sight(mesh_, at, crossings, limit)) {
