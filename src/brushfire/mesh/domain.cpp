@@ -71,7 +71,7 @@ OpenPart open_part(const Domain& domain) {
   std::vector<char> on_largest(whole.vertex_count(), false);
   for (Index v = 0; v < open.vertex_count(); ++v) {
     const Index c = components.of_vertex[v];
-    if (c != kNoIndex && c == largest - area.begin()) on_largest[domain.vertex(v)] = true;
+    if (c != kNoIndex && area.begin() + c == largest) on_largest[domain.vertex(v)] = true;
   }
   for (Index v = 0; v < whole.vertex_count(); ++v) {
     if (whole.corners(v).empty()) continue;

@@ -18,12 +18,12 @@ SparseMatrix<double> smoothing_kernel(const Domain& domain, double sigma, const 
   SparseMatrix<double> kernel = distances_within<double>(domain, kKernelReach * sigma, std::nullopt, options);
   for (std::size_t row = 0; row + 1 < kernel.row_start.size(); ++row) {
     double sum = 0;
-    for (std::uint64_t i = kernel.row_start[row]; i < kernel.row_start[row + 1]; ++i) {
+    for (auto i = static_cast<std::size_t>(kernel.row_start[row]); i < kernel.row_start[row + 1]; ++i) {
       const double share = kernel.value[i] / sigma;
       kernel.value[i] = std::exp(-0.5 * share * share) * area[kernel.column[i]];
       sum += kernel.value[i];
     }
-    for (std::uint64_t i = kernel.row_start[row]; i < kernel.row_start[row + 1]; ++i) {
+    for (auto i = static_cast<std::size_t>(kernel.row_start[row]); i < kernel.row_start[row + 1]; ++i) {
       // Faces without area all around: the vertex itself is all there is.
       kernel.value[i] = sum > 0 ? kernel.value[i] / sum : (kernel.column[i] == row ? 1 : 0);
     }
@@ -42,7 +42,7 @@ std::vector<double> smoothed(const SparseMatrix<double>& kernel, std::span<const
     poll();
     if (std::isnan(values[row])) continue;
     double sum = 0, weight = 0;
-    for (std::uint64_t i = kernel.row_start[row]; i < kernel.row_start[row + 1]; ++i) {
+    for (auto i = static_cast<std::size_t>(kernel.row_start[row]); i < kernel.row_start[row + 1]; ++i) {
       const double value = values[kernel.column[i]];
       if (std::isnan(value)) continue;
       sum += kernel.value[i] * value;

@@ -21,9 +21,9 @@ struct MergeOutlook {
 // (docs/decisions/tolerance-speed.md). The least is what merging costs on planes and machine parts, where the typical
 // deficit is 0, but not every one.
 inline double least_tolerance(const MergeOutlook& outlook) {
-  constexpr double kFactor = 0.3, kPower = 2.0 / 3, kLeast = 2e-5;
+  constexpr double kFactor = 0.3, kPower = 2.0 / 3, kOnPlanes = 2e-5;
   const double reach = std::sqrt(outlook.vertices / std::sqrt(outlook.sources));
-  return std::max(kLeast, kFactor * std::pow(outlook.deficit / std::max(reach, 1.0), kPower));
+  return std::max(kOnPlanes, kFactor * std::pow(outlook.deficit / std::max(reach, 1.0), kPower));
 }
 
 // As a share of the length (MergeBudget): an estimate of that tolerance may be off to either side.
