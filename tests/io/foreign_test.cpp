@@ -340,7 +340,7 @@ TEST(Foreign, WhatMeshoptimizerPacksIsUnpackedWhereItIsBuiltIn) {
 }
 
 TEST(Foreign, WhatDracoPacksIsUnpackedWhereItIsBuiltIn) {
-  const char* const sequential = "RFJBQ08CAgEAAAABAwEAAQIBAQAJAwAAAAAAAAAAAAAAAAAAAAAAQEAAAAAAAAAAAAAAQEAAAIBAAAAAAA==";
+  using test::draco::edgebreaker, test::draco::sequential;
   const std::string text = test::draco_gltf(sequential, 61);
   if (mesh_error(text, "a.gltf").find("requires the extension 'KHR_draco_mesh_compression'") != std::string::npos) {
     GTEST_SKIP() << "no Draco";

@@ -66,11 +66,11 @@ struct DistanceOptions {
   Precision precision = Precision::Float;  // methods that have only one ignore it
   double max_distance = kInfinity;         // vertices farther than this read +inf; >= 0, may be +inf
   // Where there are any, the solver may stop once all of them are final; those that are nowhere read +inf.
-  std::vector<SurfacePoint> targets;
+  std::vector<SurfacePoint> targets = {};
   bool keep_paths = false;              // fill DistanceField::windows, for paths to vertices and targets (exact)
   bool keep_windows = false;            // the same for every surface point: all windows are kept, some kB a vertex
   unsigned threads = 1;                 // for this one field; 0: one per processor. The result does not depend on it
-  Progress progress;                    // called now and then; may be empty
+  Progress progress = {};               // called now and then; may be empty
   const CancelToken* cancel = nullptr;  // polled now and then; null: what the thread listens to (see cancel.h)
 };
 
