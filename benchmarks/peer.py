@@ -184,7 +184,7 @@ class Brushfire:
 
     def set_up(self):
         self.solver = self.brushfire.Mesh(self.vertices, self.faces).solver()
-        self.solver.distance(0, max_distance=0, **self.options)  # builds all, reaches the source
+        self.solver.distance(0, radius=0, **self.options)  # builds all, reaches the source
 
     def solve(self, source):
         return self.solver.distance(source, **self.options)

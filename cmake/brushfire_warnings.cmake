@@ -24,7 +24,8 @@ function(brushfire_warnings target)
         -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
     else()
       target_compile_options(${target} PRIVATE -Wno-bitwise-instead-of-logical  # two comparisons without a branch: meant
-        -Wno-bitwise-conditional-parentheses)
+        -Wno-bitwise-conditional-parentheses
+        -Wno-deprecated-declarations)  # within std::stable_sort of libstdc++ 12; what we call ourselves, GCC tells
     endif()
   endif()
 endfunction()

@@ -6,6 +6,7 @@
 #include <brushfire/io/write_lines.h>
 #include <brushfire/io/write_mesh.h>
 
+#include "../tests/support/packed_gltf.h"
 #include "../tests/support/stored_zip.h"
 
 #include <algorithm>
@@ -207,6 +208,12 @@ void scenes(const Seeds& seeds) {
       test::three_mf("<model unit=\"inch\" xmlns:p=\"http://x/production/\" requiredextensions=\"p\"><resources>" +
                      test::three_mf_objects() +
                      "</resources><build><item objectid=\"2\" p:path=\"/3D/3dmodel.model\"/></build></model>"));
+  namespace meshopt = test::meshopt;
+  seeds.text("gltf", "meshopt", test::packed_gltf(meshopt::plain, "NONE", meshopt::triangles, "TRIANGLES"));
+  seeds.text("gltf", "meshopt-filtered",
+             test::packed_gltf(meshopt::filtered, "EXPONENTIAL", meshopt::indices, "INDICES"));
+  seeds.text("gltf", "draco", test::draco_gltf(test::draco::sequential, 61));
+  seeds.text("gltf", "draco-edgebreaker", test::draco_gltf(test::draco::edgebreaker, 70));
   const std::string binary = packed<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}) + packed<std::uint16_t>({0, 1, 2, 0});
   const std::string start =
       "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"children\":[1],"

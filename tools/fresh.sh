@@ -77,6 +77,7 @@ base() {
     echo force-unsafe-io >"$machine/etc/dpkg/dpkg.cfg.d/no-sync"  # a machine that lives for an hour need not sync its disk
     tar -cf "$archive.part" -C "$machine" . && mv "$archive.part" "$archive"
   fi
+  chmod 755 "$machine"  # the user's root, too, which mktemp makes for its own user alone
   if [ -n "$keep" ]; then mv "$machine" "$kept" && machine=$kept; fi
 }
 

@@ -13,4 +13,15 @@ $brushfire render "$scan" --source 0 --isolines 30 --path "$far" --path 20000 --
 $brushfire render "$scan" --source 0 --isolines 30 --bar-title distance "${view[@]}" \
   --method kimmel-sethian --method exact --error --size 440x400 -o docs/images/error.png
 $brushfire render "$scan" --source 0 --wave 60 "${view[@]}" --no-bar --size 420x360 -o docs/images/brushfire.webp
+# Walls and cells (docs/walls-and-cells.md): a mask that leaves out every fourth cell of twelve, and centroidal cells.
+temporary=$(mktemp -d)
+trap 'rm -rf "$temporary"' EXIT
+$brushfire sample "$scan" --count 12 --quiet >"$temporary/seeds.txt"
+$brushfire voronoi "$scan" --sources "$temporary/seeds.txt" -o "$temporary/cells.csv" --quiet >/dev/null
+awk -F, 'NR > 1 { print $3 % 4 == 3 ? 0 : 1 }' "$temporary/cells.csv" >"$temporary/mask.txt"
+$brushfire render "$scan" --source 0 --mask "$temporary/mask.txt" --isolines 30 --bar-title distance "${view[@]}" \
+  --size 560x480 -o docs/images/walls.png
+$brushfire sample "$scan" --count 200 --lloyd --quiet >"$temporary/sites.txt"
+$brushfire render "$scan" --sources "$temporary/sites.txt" --labels --no-bar "${view[@]}" --size 480x420 \
+  -o docs/images/cells.png
 ls -l docs/images/bunny.png docs/images/error.png docs/images/brushfire.webp

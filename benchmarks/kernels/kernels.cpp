@@ -276,6 +276,8 @@ std::vector<Kernel> kernels() {
           {"circular-update-double", kTriangles, circular_updates<double>},
           {"march-float", kVertices, [] { return solve(Method::NovotniKlein, Precision::Float); }},
           {"march-double", kVertices, [] { return solve(Method::NovotniKlein); }},
+          {"carried-float", kVertices, [] { return solve(Method::CarriedSource, Precision::Float); }},
+          {"carried-double", kVertices, [] { return solve(Method::CarriedSource); }},
           {"windows-exact", kVertices, [] { return solve(Method::Exact); }},
           {"windows-1e-2", kVertices, solve_with_tolerance},
           {"window-propagation", kWindows, propagation},
@@ -286,6 +288,7 @@ std::vector<Kernel> kernels() {
           {"mesh-connectivity", kFaces, connectivity},
           {"locality-order", kVertices, order},
           {"set-up-rings", kVertices, [] { return set_up(Method::NovotniKlein, Precision::Float); }},
+          {"set-up-records", kVertices, [] { return set_up(Method::CarriedSource, Precision::Float); }},
           {"isolines", kFaces, lines}};
 }
 

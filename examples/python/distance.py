@@ -13,7 +13,7 @@ print(f"farthest from vertex 0: vertex {d.argmax()} at {d.max():.4f}")
 d, source = mesh.distance([0, 900], offset=[0.0, 0.5], method="exact", return_source=True)
 print(f"vertex 0 is nearest for {(source == 0).sum()} vertices, vertex 900 (starting at 0.5) for {(source == 1).sum()}")
 
-d = mesh.distance(bf.at([3.0, 0.1, 0.2]), max_distance=1.0, method="exact")
+d = mesh.distance(bf.at([3.0, 0.1, 0.2]), radius=1.0, method="exact")
 print(f"{(d <= 1).sum()} vertices lie within 1.0 of that position's nearest surface point")
 
 a, b = mesh.distance(0, targets=[900, bf.Point(17, (0.2, 0.3, 0.5))], method="exact")

@@ -12,7 +12,7 @@ nearest = solver.distance(0)
 while len(points) < 20:
     points.append(int(nearest.argmax()))
     # Nothing farther than the present maximum can change: the run stops there.
-    nearest = np.minimum(nearest, solver.distance(points[-1], max_distance=nearest.max()))
+    nearest = np.minimum(nearest, solver.distance(points[-1], radius=nearest.max()))
 print("sample:", points)
 print(f"every vertex lies within {nearest.max():.3f} of a sample")
 

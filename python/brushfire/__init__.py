@@ -24,6 +24,7 @@ from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireType
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
 from brushfire._io import FileInfo, read
+from brushfire._lines import read_lines
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
@@ -68,6 +69,7 @@ __all__ = [
     "k_medoids",
     "methods",
     "read",
+    "read_lines",
     "render",
     "render_svg",
     "write",

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats, Labels, number, offsets, whole
-from brushfire._curves import OnMesh
+from brushfire._curves import OnMesh, Path
 from brushfire._errors import BrushfireError
 from brushfire._options import options, thread_count
 from brushfire._places import Places, Points
@@ -143,6 +143,33 @@ class Cells(OnMesh):
         """
         return [Boundary(*curve) for curve in _core.boundaries(self._mesh)]
 
+    def curve_along(self, vertices: npt.ArrayLike, *, closed: bool = False) -> Path:
+        """The curve along edges through these vertices, each joined to the next by an edge.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.curve_along([0, 1, 2], closed=True).length
+        12.0
+        """
+        chain = _arrays.integers(vertices, "vertices").reshape(-1)
+        return self._path(_core.curve_along(self._mesh, chain, bool(closed)))
+
+    def project_curve(self, xyz: npt.ArrayLike, *, closed: bool = False) -> tuple[Path, float]:
+        """A polyline in space put onto the surface: nearest points, and shortest paths between them.
+
+        :param xyz: (k, 3).
+        :return: the curve, and how far the polyline is from the surface at most.
+        :raises BrushfireError: for places between which no way leads.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> curve, gap = mesh.project_curve([[0, 0, 1], [3, 0, 2]])
+        >>> round(curve.length, 9), gap
+        (3.0, 2.0)
+        """
+        path, gap, _ = _core.project_curve(self._space, _arrays.triples(xyz, "xyz"), bool(closed))
+        return self._path(path), gap
+
     def nearest_sources(
         self,
         sources: Places,
@@ -151,12 +178,12 @@ class Cells(OnMesh):
         method: str | None = None,
         tolerance: float | None = None,
         offset: npt.ArrayLike = 0.0,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         progress: Progress = None,
     ) -> tuple[Floats, Labels]:
         """The ``count`` nearest sources of every vertex.
 
-        :param sources, method, tolerance, offset, max_distance, progress: as for :meth:`distance`.
+        :param sources, method, tolerance, offset, radius, progress: as for :meth:`distance`.
         :return: distances, (vertex_count, count), ascending along each row, +inf for no more; and which source each is of.
 
         >>> import brushfire as bf
@@ -166,7 +193,7 @@ class Cells(OnMesh):
         ([3.0, 4.0], [2, 0])
         """
         start = self._arrays(sources, "sources")
-        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, max_distance)
+        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, radius)
         with shown(progress, "nearest sources") as report:
             return _core.nearest_sources(
                 self._space, start.index, start.weights, given, whole(count, "count", _MOST), chosen, report

@@ -71,7 +71,7 @@ class Certificates(OnMesh):
         within: float = 0.0,
         tolerance: float = 0.0,
         offset: npt.ArrayLike = 0.0,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         threads: int = 1,
         progress: Progress = None,
     ) -> Certificate:
@@ -82,7 +82,7 @@ class Certificates(OnMesh):
         :param within: what is claimed of the values: they may be off by this share of the distance.
         :param tolerance: how tight the bounds are: within rounding of each other with 0, up to twice the tolerance apart
             otherwise, which is quicker on large meshes; in [0, 0.1].
-        :param max_distance: what is farther than this may read +inf.
+        :param radius: what is farther than this may read +inf.
         :raises BrushfireError: for values of another number than the vertices, options out of range, and as
             :meth:`distance` does.
 
@@ -112,7 +112,7 @@ class Certificates(OnMesh):
                 offsets(offset, len(start.index)),
                 number(tolerance, "tolerance"),
                 number(within, "within"),
-                number(max_distance, "max_distance"),
+                number(radius, "radius"),
                 thread_count(threads),
                 report,
             )

@@ -50,14 +50,21 @@ class LogMap:
     """Polar coordinates of every vertex around a source.
 
     ``radius`` (vertex_count,): the exact distance. ``angle`` (vertex_count,): the direction in which the shortest path
-    leaves the source, NaN where there is none. ``total_angle``: the full turn at the source. ``vertices``: None, or
-    with ``sparse=True`` the numbers of those that are reached, (k,), of which the arrays speak then.
+    leaves the source, NaN where there is none. ``total_angle``: the full turn at the source. ``uv`` (vertex_count, 2):
+    the same in Cartesian coordinates, NaN where there are none: u along the direction that was asked for (or the first
+    edge), v counter-clockwise of it; what is all around a vertex is stretched to 2 pi. ``vertices``: None, or with
+    ``sparse=True`` the numbers of those that are reached, (k,), of which the arrays speak then.
     """
 
     radius: Floats
     angle: Floats
     total_angle: float
+    uv: Floats
     vertices: Labels | None = None
+    _mesh: _core.Mesh | None = field(default=None, repr=False, compare=False)
+
+    def __reduce__(self) -> tuple[type[LogMap], tuple[Any, ...]]:
+        return LogMap, (self.radius, self.angle, self.total_angle, self.uv, self.vertices)
 
     def __repr__(self) -> str:
         return f"LogMap({np.isfinite(self.radius).sum()} of {len(self.radius)} vertices reached)"
@@ -100,12 +107,13 @@ class OnMesh:
 class Curves(OnMesh):
     """The paths of a Mesh."""
 
-    def path(self, *places: Places, closed: bool = False, tighten: bool = False) -> Path:
+    def path(self, *places: Places, closed: bool = False, tighten: bool = False, radius: float = np.inf) -> Path:
         """The shortest path from a place to the next, exactly: ``path(a, b)``, or through all that are given.
 
         :param places: vertices, points, or lists of them, in order.
         :param closed: also from the last back to the first.
         :param tighten: pull the path straight afterwards where it bends at the places between: see :meth:`shorten`.
+        :param radius: a path that is longer is none.
         :return: a :class:`Path`, from the first place to the last; without points and of length +inf where there is none.
         :raises BrushfireError: for no places, and for places in no face.
 
@@ -118,13 +126,16 @@ class Curves(OnMesh):
         (7.0, 5.0)
         """
         index, weights = self._joined(places, "places")
-        return self._path(_core.path(self._run(), index, weights, bool(closed), bool(tighten)))
+        return self._path(_core.path(self._run(), index, weights, bool(closed), bool(tighten), number(radius, "radius")))
 
-    def paths(self, sources: Places, targets: Places, *, offset: npt.ArrayLike = 0.0) -> tuple[list[Path], Any]:
+    def paths(
+        self, sources: Places, targets: Places, *, offset: npt.ArrayLike = 0.0, radius: float = np.inf
+    ) -> tuple[list[Path], Any]:
         """The shortest path to every target from the source that is nearest to it, all off one exact field.
 
         :param sources, offset: as for :meth:`distance`.
         :param targets: vertices or points.
+        :param radius: where the distance is greater there is no path.
         :return: one :class:`Path` per target, from source to target, and the position in ``sources`` of each one's
             source, int32 (targets,), -1 where none reaches.
 
@@ -136,7 +147,13 @@ class Curves(OnMesh):
         """
         start, end = self._arrays(sources, "sources"), self._arrays(targets, "targets")
         source, found = _core.paths(
-            self._run(), start.index, start.weights, offsets(offset, len(start.index)), end.index, end.weights
+            self._run(),
+            start.index,
+            start.weights,
+            offsets(offset, len(start.index)),
+            end.index,
+            end.weights,
+            number(radius, "radius"),
         )
         return [self._path(p) for p in found], source
 
@@ -236,10 +253,19 @@ class Curves(OnMesh):
             raise BrushfireError(f"direction: shape (3,) is needed, not {vector.shape}")
         return _core.angle_of(self._space, arrays.index, arrays.weights, vector.reshape(1, 3))
 
-    def log_map(self, source: Places, max_radius: float = np.inf, *, sparse: bool = False) -> LogMap:
+    def log_map(
+        self,
+        source: Places,
+        radius: float = np.inf,
+        *,
+        direction: npt.ArrayLike | None = None,
+        sparse: bool = False,
+    ) -> LogMap:
         """Polar coordinates around a source: exact distance, and the direction of the shortest path.
 
-        :param max_radius: what is farther reads +inf and NaN.
+        :param radius: what is farther reads +inf and NaN.
+        :param direction: where angle 0 points, in space, (3,), laid onto the surface; angles then run counter-clockwise.
+            Without one they are as :meth:`trace` counts them.
         :param sparse: only of the vertices that are reached: see :class:`LogMap`.
 
         >>> import brushfire as bf
@@ -247,12 +273,21 @@ class Curves(OnMesh):
         >>> polar = mesh.log_map(0)
         >>> polar.radius.round(3).tolist(), (polar.angle / polar.total_angle).round(3).tolist()
         ([0.0, 1.0, 1.414, 1.0], [0.0, 0.0, 0.5, 1.0])
+        >>> (mesh.log_map(0, direction=[0, 1, 0]).uv.round(3) + 0.0).tolist()
+        [[0.0, 0.0], [0.0, -1.0], [1.0, -1.0], [1.0, 0.0]]
         """
         arrays = self._arrays(source, "source")
-        limit = number(max_radius, "max_radius")
-        vertices, radius, angle, total = _core.log_map(self._run(), arrays.index, arrays.weights, limit)
+        limit = number(radius, "radius")
+        along = None if direction is None else _arrays.floats(direction, "direction")
+        if along is not None and along.shape != (3,):
+            raise BrushfireError(f"direction: shape (3,) is needed, not {along.shape}")
+        vertices, r, angle, total, uv = _core.log_map(
+            self._run(), arrays.index, arrays.weights, limit, None if along is None else along.reshape(1, 3)
+        )
         if sparse:
-            return LogMap(radius, angle, total, vertices)
+            return LogMap(r, angle, total, uv, vertices, self._mesh)
         every = np.full((2, self._mesh.vertex_count), ((np.inf,), (np.nan,)))
-        every[:, vertices] = radius, angle
-        return LogMap(every[0], every[1], total)
+        every[:, vertices] = r, angle
+        flat = np.full((self._mesh.vertex_count, 2), np.nan)
+        flat[vertices] = uv
+        return LogMap(every[0], every[1], total, flat, None, self._mesh)

@@ -41,7 +41,7 @@ class Distances:
         precision: str | None = ...,
         threads: int = ...,
         offset: npt.ArrayLike = ...,
-        max_distance: float = ...,
+        radius: float = ...,
         targets: Places | None = ...,
         return_source: Literal[False] = ...,
         return_bound: Literal[False] = ...,
@@ -58,7 +58,7 @@ class Distances:
         precision: str | None = ...,
         threads: int = ...,
         offset: npt.ArrayLike = ...,
-        max_distance: float = ...,
+        radius: float = ...,
         targets: Places | None = ...,
         return_source: Literal[True],
         return_bound: Literal[False] = ...,
@@ -75,7 +75,7 @@ class Distances:
         precision: str | None = ...,
         threads: int = ...,
         offset: npt.ArrayLike = ...,
-        max_distance: float = ...,
+        radius: float = ...,
         targets: None = ...,
         return_source: Literal[False] = ...,
         return_bound: Literal[True],
@@ -92,7 +92,7 @@ class Distances:
         precision: str | None = ...,
         threads: int = ...,
         offset: npt.ArrayLike = ...,
-        max_distance: float = ...,
+        radius: float = ...,
         targets: None = ...,
         return_source: Literal[True],
         return_bound: Literal[True],
@@ -108,7 +108,7 @@ class Distances:
         precision: str | None = None,
         threads: int = 1,
         offset: npt.ArrayLike = 0.0,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         targets: Places | None = None,
         return_source: bool = False,
         return_bound: bool = False,
@@ -129,7 +129,7 @@ class Distances:
         :param threads: that work on this one field, where the mesh is large enough for several; 0 means one per processor.
             The numbers are the same to the bit for any number of threads.
         :param offset: the value that the front starts with, one number or one per source; finite, may be negative.
-        :param max_distance: what is farther reads +inf; the run costs what it reaches.
+        :param radius: what is farther reads +inf; the run costs what it reaches.
         :param targets: where only some distances are needed; the solver may stop as soon as it has them.
         :param return_source: also return which source is nearest: its position in ``sources``, -1 where none is.
         :param return_bound: also return the proven absolute error of each distance, for methods that have one.
@@ -138,7 +138,7 @@ class Distances:
         :return: float64 of shape (vertex_count,) or (targets,), in the units of the vertices; +inf where nothing is
             reached. With ``return_source`` and ``return_bound`` a tuple: distances, int32 sources, float64 bounds.
         :raises BrushfireIndexError: for a vertex or face that does not exist.
-        :raises BrushfireError: for no sources, a source in no face, bad weights, offsets or max_distance, an unknown
+        :raises BrushfireError: for no sources, a source in no face, bad weights, offsets or radius, an unknown
             method or precision, a bad number of threads, or ``return_bound`` with a method that has none.
         :raises TypeError: for what are no vertex numbers or points.
 
@@ -158,7 +158,7 @@ class Distances:
         start = self._arrays(sources, "sources")
         end = None if targets is None else self._arrays(targets, "targets")
         given = offsets(offset, len(start.index))
-        chosen = options(*self._or_defaults(method, tolerance, bound, precision, limit=max_distance), threads)
+        chosen = options(*self._or_defaults(method, tolerance, bound, precision, limit=radius), threads)
         with shown(progress, "distance") as report:
             distance, source, error = self._run().solve(
                 start.index,

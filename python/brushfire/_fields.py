@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -166,12 +166,12 @@ class Fields(OnMesh):
         chord_error: float | None = None,
         tolerance: float = 0.0,
         offset: npt.ArrayLike = 0.0,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         progress: Progress = None,
     ) -> list[Isoline]:
         """The curves at equal distance from the sources: arcs of circles, with corners where two fronts meet.
 
-        :param sources, offset, max_distance, progress: as for :meth:`distance`, which is computed exactly.
+        :param sources, offset, radius, progress: as for :meth:`distance`, which is computed exactly.
         :param levels, every, count: as for :meth:`isolines`.
         :param chord_error: how far pieces may lie from the arcs, > 0; a hundredth of the mean edge if not given.
         :param tolerance: the relative error of the distances; with 0 every node lies on its level to rounding.
@@ -195,7 +195,7 @@ class Fields(OnMesh):
                 start.index,
                 start.weights,
                 offsets(offset, len(start.index)),
-                options("windows", number(tolerance, "tolerance"), max_distance),
+                options("windows", number(tolerance, "tolerance"), radius),
                 None if levels is None else _levels(levels),
                 None if every is None else number(every, "every"),
                 0 if count is None else whole(count, "count", _MOST_LEVELS),
@@ -207,10 +207,12 @@ class Fields(OnMesh):
     def _isolines(self, lines: list[tuple[float, int, _core.PathArrays]]) -> list[Isoline]:
         return [Isoline(level, index, self._path(line)) for level, index, line in lines]
 
-    def gradient(self, values: npt.ArrayLike) -> Floats:
+    def gradient(self, values: npt.ArrayLike, *, on: Literal["faces", "vertices"] = "faces") -> Floats:
         """The gradient of a field that is linear in every face: (face_count, 3), change per unit of length.
 
         :param values: one per vertex, (vertex_count,).
+        :param on: ``"vertices"`` gives one for each vertex instead, (vertex_count, 3): the mean of the faces around,
+            weighted by their area.
         :return: in the plane of each face, uphill; about 1 long for a distance field. 0 for faces without area and faces
             with a value of +inf.
         :raises BrushfireError: for a mesh from lengths, and for values that are NaN or too few.
@@ -220,7 +222,9 @@ class Fields(OnMesh):
         >>> mesh.gradient([0, 2, 2, 0]).tolist()
         [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
         """
-        return _core.face_gradients(self._mesh, _values(values, "values"))
+        if on not in ("faces", "vertices"):
+            raise BrushfireError(f"on: 'faces' or 'vertices' is needed, not {on!r}")
+        return _core.gradients(self._space, _values(values, "values"), on == "vertices")
 
     def steepest_descent(self, values: npt.ArrayLike, place: Places) -> Descent | None:
         """The direction in which a field falls fastest from a place, of all faces around it; None where it falls nowhere.

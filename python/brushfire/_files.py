@@ -14,14 +14,15 @@ import numpy.typing as npt
 
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats, Labels
-from brushfire._curves import OnMesh, Path
-from brushfire._errors import BrushfireError
+from brushfire._curves import LogMap, OnMesh, Path
+from brushfire._errors import BrushfireError, BrushfireTypeError
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
 
 _DSCALAR = ".dscalar.nii"
 _SPARSE = (".npz", ".mtx")
+_UNITS = {"mm": 1.0, "um": 1e-3, "cm": 10.0, "m": 1000.0, "in": 25.4}
 
 
 class Files(OnMesh):
@@ -79,6 +80,9 @@ def write(
     label_name: str = "source",
     format: str | None = None,
     structure: str | None = None,
+    unit: str = "mm",
+    view: str = "",
+    outline: bool = False,
 ) -> None:
     """Whatever was computed, into a file whose extension decides about the format: complete or not at all.
 
@@ -87,12 +91,16 @@ def write(
         - a Mesh: as :meth:`Mesh.save` does;
         - a field, (vertex_count,): npy csv json curv gii dscalar.nii; with ``mesh`` also ply vtk vtp obj;
         - a :class:`Path`, an :class:`Isoline`, a :class:`Border`, or several of them: json obj ply vtp csv svg dxf;
+        - a :class:`LogMap`: npy csv json ply vtk obj, the last three with u and v as texture coordinates;
         - a dense matrix, (rows, columns): npy;
         - a scipy sparse matrix: npz (for ``scipy.sparse.load_npz``), mtx (MatrixMarket).
     :param mesh: to which a field belongs; curves that were made in this process know theirs.
     :param labels, label_name, structure: as for :meth:`Mesh.save`.
     :param name: of the values; ``distance`` of a field, ``length`` or ``level`` of curves if not given.
     :param format: an extension, for names that have none.
+    :param unit: what the mesh is measured in, for curves in svg and dxf, which have the real size: mm um cm m in.
+    :param view: of svg: front, back, left, right, top or bottom; along the shortest side of the curves if not given.
+    :param outline: in svg and dxf draw the outline of the mesh, too.
     :raises BrushfireError: codes ``unknown_format``, ``file_not_writable``, ``invalid_argument``.
     :raises TypeError: for what is none of these.
 
@@ -107,7 +115,9 @@ def write(
     place, kind = _arrays.path_text(path), format or ""
     curves = _curves(what)
     if curves is not None:
-        _write_curves(place, curves, mesh, name, kind)
+        _write_curves(place, curves, mesh, name, kind, (_millimetres(unit), _view(view), bool(outline)))
+    elif isinstance(what, LogMap):
+        _write_map(place, what, mesh, kind)
     elif isinstance(what, Files):
         what.save(path, labels=labels, label_name=label_name, format=format, structure=structure)
     elif hasattr(what, "tocsr"):
@@ -190,7 +200,12 @@ def _curves(what: Any) -> list[tuple[Path, float, str]] | None:
 
 
 def _write_curves(
-    place: str, curves: list[tuple[Path, float, str]], mesh: Mesh | None, name: str | None, kind: str
+    place: str,
+    curves: list[tuple[Path, float, str]],
+    mesh: Mesh | None,
+    name: str | None,
+    kind: str,
+    drawing: tuple[float, str, bool],
 ) -> None:
     cores = [curve._mesh for curve, _, _ in curves] if mesh is None else [mesh._mesh]
     core = cores[0] if cores else _core.make_mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.uint32))
@@ -202,7 +217,30 @@ def _write_curves(
         (_arrays.integers(c.points.face, "face"), _arrays.triples(c.points.weights, "weights"), c.closed, float(value))
         for c, value, _ in curves
     ]
-    _core.write_lines(place, core, lines, name or (curves[0][2] if curves else "length"), kind)
+    _core.write_lines(place, core, lines, name or (curves[0][2] if curves else "length"), kind, *drawing)
+
+
+def _millimetres(unit: Any) -> float:
+    if unit not in _UNITS:
+        raise BrushfireError(f"unit: one of {', '.join(_UNITS)} is needed, not {unit!r}")
+    return _UNITS[unit]
+
+
+def _view(view: Any) -> str:
+    if not isinstance(view, str):
+        raise BrushfireTypeError(f"view: a string is needed, not {view!r}")
+    return view
+
+
+def _write_map(place: str, polar: LogMap, mesh: Mesh | None, kind: str) -> None:
+    core = polar._mesh if mesh is None else mesh._mesh
+    if core is None:
+        raise BrushfireError(f"{place}: this log map does not know its mesh any more: give it as mesh=")
+    sparse = polar.vertices is not None
+    rows = polar.vertices if polar.vertices is not None else np.flatnonzero(np.isfinite(polar.radius)).astype(np.int32)
+    chosen = slice(None) if sparse else rows
+    columns = np.column_stack([polar.uv[chosen], polar.radius[chosen], polar.angle[chosen]])
+    _core.write_map(place, core, rows, np.ascontiguousarray(columns).ravel(), kind)
 
 
 # ---- matrices, and what nibabel writes

@@ -20,7 +20,8 @@ class FileInfo:
     """What a file was besides its mesh.
 
     ``face_origin`` (face_count,) numbers the file's face that each triangle comes from, and ``vertex_map`` (3 * faces of
-    the file,) the vertex that each corner became where corners were welded (STL); both are None where they say nothing.
+    the file,) the vertex that each corner became where corners were welded (STL); both are None where they say nothing. With
+    ``weld=`` the map is that of the file's vertices (STL: corners).
     """
 
     format: str
@@ -33,16 +34,23 @@ Source: TypeAlias = "str | os.PathLike[str] | bytes | bytearray | memoryview | I
 
 
 @overload
-def read(source: Source, *, format: str | None = ..., return_info: Literal[False] = ...) -> Mesh: ...
+def read(
+    source: Source, *, format: str | None = ..., weld: float | None = ..., return_info: Literal[False] = ...
+) -> Mesh: ...
 @overload
-def read(source: Source, *, format: str | None = ..., return_info: Literal[True]) -> tuple[Mesh, FileInfo]: ...
-def read(source: Source, *, format: str | None = None, return_info: bool = False) -> Mesh | tuple[Mesh, FileInfo]:
+def read(
+    source: Source, *, format: str | None = ..., weld: float | None = ..., return_info: Literal[True]
+) -> tuple[Mesh, FileInfo]: ...
+def read(
+    source: Source, *, format: str | None = None, weld: float | None = None, return_info: bool = False
+) -> Mesh | tuple[Mesh, FileInfo]:
     """A mesh from a file: the file's vertex order, indices and double precision are kept.
 
     The content decides about the format where it names one, the extension otherwise.
 
     :param source: a path, the ``bytes`` of a file, or an open file, which is read to its end.
     :param format: an extension ("obj", "ply", ...) that counts in place of the name's.
+    :param weld: join vertices within this of one another, 0 for equal ones: see :meth:`Mesh.weld`.
     :param return_info: also return a :class:`FileInfo`.
     :raises BrushfireError: codes ``file_not_readable``, ``unknown_format``, ``file_malformed`` (with line or byte).
 
@@ -58,9 +66,12 @@ def read(source: Source, *, format: str | None = None, return_info: bool = False
     if isinstance(source, (str, os.PathLike)) and format is None:
         loaded = _core.read(path_text(source))
     else:
-        loaded = _core.read_bytes(*_content(source, format))
+        loaded = _core.read_bytes(*content_of(source, format))
     core, name, remarks, face_origin, vertex_map = loaded
     mesh = Mesh._of(core)
+    if weld is not None:
+        mesh, joined = mesh.weld(weld)
+        vertex_map = joined[vertex_map] if vertex_map.size else joined
     if not return_info:
         return mesh
     return mesh, FileInfo(
@@ -68,7 +79,7 @@ def read(source: Source, *, format: str | None = None, return_info: bool = False
     )
 
 
-def _content(source: Any, format: str | None) -> tuple[bytes, str]:
+def content_of(source: Any, format: str | None) -> tuple[bytes, str]:
     """The bytes, and a name for messages whose extension decides where they do not."""
     name = "bytes"
     if isinstance(source, (str, os.PathLike)):

@@ -35,7 +35,7 @@ class Matrices(OnMesh):
         *,
         method: str | None = None,
         tolerance: float | None = None,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         out: Any = None,
@@ -48,7 +48,7 @@ class Matrices(OnMesh):
         :param rows: places: vertices, points or a mask; all vertices if none are given.
         :param columns: likewise.
         :param method, tolerance, precision: as for :meth:`distance`.
-        :param max_distance: what is farther reads +inf.
+        :param radius: what is farther reads +inf.
         :param dtype: float32 (rounded from float64, 7 digits), float64, or float16 (3 digits, up to 65504: what does not
             fit is an error).
         :param out: of shape (rows, columns), to be filled instead of a new array, its dtype is what counts: a
@@ -69,7 +69,7 @@ class Matrices(OnMesh):
         if symmetric is not None:
             _check_symmetric(symmetric, row, column)
         shape = (self._count(row), self._count(column))
-        chosen = options(method, tolerance, max_distance, precision=precision)
+        chosen = options(method, tolerance, radius, precision=precision)
         team = thread_count(threads)
         result = _new_matrix(shape, dtype) if out is None else out
         array = _memory_of(result)
@@ -178,7 +178,7 @@ class Matrices(OnMesh):
         *,
         method: str | None = None,
         tolerance: float | None = None,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         threads: int = 0,
@@ -199,7 +199,7 @@ class Matrices(OnMesh):
         [[3.0, 0.0, 4.0, 7.0]]
         """
         row, column = self._optional(rows, "rows"), self._optional(columns, "columns")
-        chosen = options(method, tolerance, max_distance, precision=precision)
+        chosen = options(method, tolerance, radius, precision=precision)
         single = bool(float_type(dtype) == np.float32)
         team = thread_count(threads)
         with shown(progress, "matrix") as report:

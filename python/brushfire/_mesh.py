@@ -232,6 +232,9 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pi
             )
         return points
 
+    def _snapped_all(self, xyz: Floats) -> Points:
+        return self._snapped(at(xyz))
+
     def walled(
         self,
         *,
@@ -292,7 +295,7 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pi
         >>> mesh.masked([True, True, True, False]).distance(0, method="exact").tolist()
         [0.0, 3.0, 5.0, inf]
         """
-        return self.walled(mask=open_vertices)
+        return self.walled(faces=self._closed_faces(open_vertices))
 
     @property
     def open_vertices(self) -> npt.NDArray[np.bool_]:
@@ -322,6 +325,22 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pi
     @property
     def _space(self) -> _core.Space:
         return self._mesh if self._domain is None else self._domain
+
+    def weld(self, tolerance: float) -> tuple[Mesh, npt.NDArray[np.int32]]:
+        """The mesh with vertices that are near one another made one, so that faces that only touch are connected.
+
+        :param tolerance: how near, >= 0, in units of the vertices; 0 joins equal positions. No position moves farther.
+        :return: the mesh, and which of its vertices each of these became, (vertex_count,). Faces keep their numbers.
+        :raises BrushfireError: for a mesh from lengths, and for a tolerance that is no number >= 0.
+
+        >>> import brushfire as bf
+        >>> torn = bf.Mesh([[0, 0], [1, 0], [1, 1], [1, 0], [2, 0], [1, 1]], [[0, 1, 2], [3, 4, 5]])
+        >>> mesh, vertex_map = torn.weld(0)
+        >>> mesh, vertex_map.tolist(), mesh.distance(0)[vertex_map].round(6).tolist()
+        (Mesh(4 vertices, 2 faces), [0, 1, 2, 1, 3, 2], [0.0, 1.0, 1.414214, 1.0, 2.0, 1.414214])
+        """
+        core, vertex_map, _ = _core.weld(self._mesh, number(tolerance, "tolerance"))
+        return type(self)._of(core), vertex_map
 
     @property
     def area(self) -> float:

@@ -21,10 +21,10 @@ def thread_count(threads: Any) -> int:
 
 
 def options(
-    method: Any, tolerance: Any, max_distance: Any, bound: Any = None, precision: Any = None, threads: int = 1
+    method: Any, tolerance: Any, radius: Any, bound: Any = None, precision: Any = None, threads: int = 1
 ) -> Options:
     """Those that were given, checked; a tolerance without a method means the one that keeps it."""
-    chosen: Options = {"max_distance": number(max_distance, "max_distance"), "threads": thread_count(threads)}
+    chosen: Options = {"max_distance": number(radius, "radius"), "threads": thread_count(threads)}
     if tolerance is not None or bound is not None:
         if method not in (None, TOLERANT):
             raise BrushfireError(f"tolerance and bound are for method {TOLERANT!r}: {method!r} has none")

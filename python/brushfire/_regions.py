@@ -137,12 +137,12 @@ class Regions(OnMesh):
         method: str | None = None,
         tolerance: float | None = None,
         offset: npt.ArrayLike = 0.0,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         progress: Progress = None,
     ) -> Voronoi:
         """The geodesic Voronoi diagram: which source is nearest where, the borders in between, the area of each cell.
 
-        :param sources, method, tolerance, offset, max_distance, progress: as for :meth:`distance`.
+        :param sources, method, tolerance, offset, radius, progress: as for :meth:`distance`.
         :raises BrushfireError: as :meth:`distance` does.
 
         >>> import brushfire as bf
@@ -152,7 +152,7 @@ class Regions(OnMesh):
         ([0, 1, 1, 0], 4.0, (0, 1))
         """
         start = self._arrays(sources, "sources")
-        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, max_distance)
+        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, radius)
         with shown(progress, "voronoi") as report:
             found = _core.voronoi(self._space, start.index, start.weights, given, chosen, report)
         distance, source, area, borders, dual = found
@@ -165,14 +165,14 @@ class Regions(OnMesh):
         *,
         method: str | None = None,
         tolerance: float | None = None,
-        max_distance: float = np.inf,
+        radius: float = np.inf,
         progress: Progress = None,
     ) -> Samples:
         """Farthest-point sampling: again and again the vertex that is farthest from all samples so far.
 
         :param count: how many; fewer where every vertex is a sample before.
         :param first: vertices to begin with; the lowest vertex that is in a face if none are given.
-        :param method, tolerance, max_distance, progress: as for :meth:`distance`.
+        :param method, tolerance, radius, progress: as for :meth:`distance`.
         :raises BrushfireError: for a first vertex that is in no face or repeats, and for more of them than ``count``.
 
         Runs are limited to what still matters: all together they cost about log(count) whole fields.
@@ -190,7 +190,7 @@ class Regions(OnMesh):
                 raise BrushfireError("first: vertices are needed, not points of faces")
             index = arrays.index
         taken = whole(count, "count", np.iinfo(np.int32).max)
-        chosen = options(method, tolerance, max_distance)
+        chosen = options(method, tolerance, radius)
         with shown(progress, "farthest points") as report:
             return Samples(*_core.farthest_points(self._space, taken, index, chosen, report))
 

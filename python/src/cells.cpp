@@ -10,6 +10,7 @@
 #include <brushfire/queries/nearest_sources.h>
 #include <brushfire/queries/parcels.h>
 #include <brushfire/queries/smoothing.h>
+#include <brushfire/queries/surface_curves.h>
 #include <brushfire/queries/vertex_measures.h>
 
 #include <span>
@@ -167,6 +168,26 @@ nb::list boundary_curves(const Mesh& mesh) {
   return list;
 }
 
+nb::tuple chain(const Mesh& mesh, const Vector<std::int64_t>& vertices, bool closed) {
+  std::vector<Index> numbers;
+  for (std::size_t i = 0; i < vertices.shape(0); ++i) {
+    const std::int64_t v = vertices.data()[i];
+    numbers.push_back(v >= 0 && v < std::int64_t{mesh.vertex_count()} ? static_cast<Index>(v) : kNoIndex);
+  }
+  return path_to_numpy(curve_along(mesh, numbers, closed));
+}
+
+// (path, largest gap, where).
+nb::tuple project(const Domain& domain, const Triples<double>& xyz, bool closed) {
+  Computation computation{nb::none()};
+  const ProjectedCurve c = computation.run(false, [&] {
+    return project_curve(domain, {reinterpret_cast<const Vec3*>(xyz.data()), xyz.shape(0)}, closed,
+                         computation.cancel());
+  });
+  return nb::make_tuple(path_to_numpy(c.path), c.largest_gap,
+                        nb::make_tuple(c.gap_position.x, c.gap_position.y, c.gap_position.z));
+}
+
 template <std::vector<double> (*kMeasure)(const Domain&, Places, const MatrixOptions&)>
 void bind_measure(nb::module_& m, const char* name) {
   m.def(name, per_place<kMeasure>, nb::arg("domain"), nb::arg("index").none(), nb::arg("weights").none(),
@@ -195,6 +216,8 @@ void bind_cells(nb::module_& m) {
         nb::arg("options"), nb::arg("threads"), nb::arg("progress").none());
   m.def("smoothing_kernel", kernel, nb::arg("domain"), nb::arg("sigma"), nb::arg("options"), nb::arg("threads"),
         nb::arg("progress").none());
+  m.def("curve_along", chain, nb::arg("mesh"), nb::arg("vertices").noconvert(), nb::arg("closed"));
+  m.def("project_curve", project, nb::arg("domain"), nb::arg("xyz").noconvert(), nb::arg("closed"));
   m.def("boundaries", boundary_curves, nb::arg("mesh"));
 }
 

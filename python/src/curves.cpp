@@ -5,6 +5,7 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/nearest_point.h>
+#include <brushfire/queries/log_coordinates.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/shorten.h>
 #include <brushfire/queries/straightest.h>
@@ -34,13 +35,15 @@ using OptionalWeights = std::optional<Triples<double>>;
 
 // No points and +inf where there is no path. `tighten`: pulled straight where it bends at waypoints.
 nb::tuple path(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights, bool closed,
-               bool tighten) {
+               bool tighten, double max_distance) {
   const Mesh& mesh = solver.mesh();
   Computation computation{nb::none()};
   return path_to_numpy(computation.run(false, [&] {
     const std::vector<SurfacePoint> places = targets_from(mesh, {index, weights});
-    SurfacePath found =
-        solver.with([&](DistanceSolver& s) { return path_through(s, places, closed, computation.cancel()); });
+    DistanceOptions how;
+    how.max_distance = max_distance;
+    how.cancel = computation.cancel();
+    SurfacePath found = solver.with([&](DistanceSolver& s) { return path_through(s, places, closed, how); });
     if (tighten && !found.points.empty()) found = shorten(solver.domain(), found.points, closed);
     return found;
   }));
@@ -59,23 +62,24 @@ double length(const Mesh& mesh, const Vector<std::int64_t>& index, const Optiona
 // From the nearest source to every target, off one field: (source, paths).
 nb::tuple paths(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
                 const Vector<double>& offsets, const Vector<std::int64_t>& target_index,
-                const OptionalWeights& target_weights) {
+                const OptionalWeights& target_weights, double max_distance) {
   const Mesh& mesh = solver.mesh();
   Computation computation{nb::none()};
   const std::vector<SourcePath> found = computation.run(false, [&] {
-    DistanceOptions options;
-    options.cancel = computation.cancel();
+    DistanceOptions how;
+    how.max_distance = max_distance;
+    how.cancel = computation.cancel();
     const std::vector<SurfacePoint> targets = targets_from(mesh, {target_index, target_weights});
     const std::vector<Source> sources = sources_from(mesh, {index, weights}, offsets);
-    return solver.with([&](DistanceSolver& s) { return paths_to(s, sources, targets, options); });
+    return solver.with([&](DistanceSolver& s) { return paths_to(s, sources, targets, how); });
   });
   nb::list list;
-  std::vector<Index> source;
+  std::vector<Index> nearest;
   for (const SourcePath& p : found) {
     list.append(path_to_numpy(p));
-    source.push_back(p.source);
+    nearest.push_back(p.source);
   }
-  return nb::make_tuple(to_numpy_signed(std::move(source)), list);
+  return nb::make_tuple(to_numpy_signed(std::move(nearest)), list);
 }
 
 // Along edges, from the nearest source's vertex.
@@ -133,16 +137,31 @@ nb::tuple angle_at(const Domain& domain, const Vector<std::int64_t>& index, cons
   return nb::make_tuple(angle_of(mesh, at, {d[0], d[1], d[2]}), total_angle(mesh, at));
 }
 
-// Of the vertices that are reached: (vertex, radius, angle, total angle).
+// Of the vertices that are reached: (vertex, radius, angle, total angle, uv). With a direction angles count from there.
 nb::tuple logarithmic(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
-                      double max_radius) {
+                      double max_radius, const std::optional<Triples<double>>& direction) {
   const SurfacePoint source = single_point_from(solver.mesh(), {index, weights});
+  std::optional<Vec3> first;
+  if (direction) {
+    if (direction->shape(0) != 1) throw Error(ErrorCode::InvalidArgument, "a direction has three components");
+    first = {direction->data()[0], direction->data()[1], direction->data()[2]};
+  }
   Computation computation{nb::none()};
+  std::vector<double> flat;
   SparseLogMap map = computation.run(false, [&] {
-    return solver.with([&](DistanceSolver& s) { return log_map(s, source, max_radius, computation.cancel()); });
+    SparseLogMap found =
+        solver.with([&](DistanceSolver& s) { return log_map(s, source, max_radius, computation.cancel()); });
+    // Directions are those in what is open; a source that has several sides was refused.
+    const Mesh& open = solver.domain().open();
+    const SurfacePoint side = solver.domain().on_open(source).front();
+    SparseLogMap turned = found;
+    turn(open, side, first, turned);
+    for (const auto& [u, v] : flat_coordinates(open, side, turned)) flat.insert(flat.end(), {u, v});
+    return first ? turned : found;
   });
+  const std::size_t count = map.vertex.size();
   return nb::make_tuple(to_numpy_signed(std::move(map.vertex)), to_numpy(std::move(map.radius)),
-                        to_numpy(std::move(map.angle)), map.total_angle);
+                        to_numpy(std::move(map.angle)), map.total_angle, to_numpy(std::move(flat), {count, 2}));
 }
 
 }  // namespace
@@ -152,14 +171,14 @@ void bind_curves(nb::module_& m) {
       .def(nb::init<const Mesh&>(), nb::arg("mesh"), nb::call_guard<nb::gil_scoped_release>())
       .def("nearest", nearest, nb::arg("xyz").noconvert());
   m.def("path", path, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-        nb::arg("closed"), nb::arg("tighten"));
+        nb::arg("closed"), nb::arg("tighten"), nb::arg("max_distance"));
   m.def("shorten", shortened, nb::arg("domain"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"));
   m.def("length_of", length, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"));
   m.def("paths", paths, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert(),
-        nb::arg("target_weights").noconvert().none());
+        nb::arg("target_weights").noconvert().none(), nb::arg("max_distance"));
   m.def("edge_path", edge_path, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("offsets").noconvert(), nb::arg("target"));
   m.def("angle_of", angle_at, nb::arg("domain"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
@@ -167,7 +186,7 @@ void bind_curves(nb::module_& m) {
   m.def("trace", trace, nb::arg("domain"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("angle"), nb::arg("direction").noconvert().none(), nb::arg("length"));
   m.def("log_map", logarithmic, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-        nb::arg("max_radius"));
+        nb::arg("max_radius"), nb::arg("direction").noconvert().none());
 }
 
 }  // namespace brushfire::python

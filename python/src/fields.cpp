@@ -55,8 +55,10 @@ nb::list curved(Solver& solver, const Vector<std::int64_t>& index, const std::op
   }));
 }
 
-Result<double> gradients(const Mesh& mesh, const Vector<double>& values) {
-  const std::vector<Vec3> found = listening(false, [&] { return face_gradients(mesh, span_of(values)); });
+Result<double> gradients(const Domain& domain, const Vector<double>& values, bool on_vertices) {
+  const std::vector<Vec3> found = listening(false, [&] {
+    return on_vertices ? vertex_gradients(domain, span_of(values)) : face_gradients(domain, span_of(values));
+  });
   std::vector<double> flat;
   flat.reserve(3 * found.size());
   for (const Vec3& g : found) flat.insert(flat.end(), {g.x, g.y, g.z});
@@ -122,7 +124,7 @@ void bind_fields(nb::module_& m) {
       "levels_between",
       [](const Vector<double>& values, Index count) { return to_numpy(levels_between(span_of(values), count)); },
       nb::arg("values").noconvert(), nb::arg("count"));
-  m.def("face_gradients", gradients, nb::arg("mesh"), nb::arg("values").noconvert());
+  m.def("gradients", gradients, nb::arg("domain"), nb::arg("values").noconvert(), nb::arg("on_vertices"));
   m.def("steepest_descent", descent, nb::arg("domain"), nb::arg("values").noconvert(), nb::arg("index").noconvert(),
         nb::arg("weights").noconvert().none());
   m.def("compare_fields", compare, nb::arg("field").noconvert(), nb::arg("reference").noconvert(),

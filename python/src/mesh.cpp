@@ -6,6 +6,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/mesh/report.h>
+#include <brushfire/mesh/weld.h>
 
 #include <nanobind/stl/vector.h>
 
@@ -127,6 +128,12 @@ nb::tuple read_bytes(const nb::bytes& content, const std::string& name) {
   return to_tuple(listening(false, [&] { return read_mesh(bytes, name); }));
 }
 
+// (mesh, vertex map, joined).
+nb::tuple welded(const Mesh& mesh, double tolerance) {
+  Welded w = listening(false, [&] { return weld(mesh, tolerance); });
+  return nb::make_tuple(std::move(w.mesh), to_numpy_signed(std::move(w.vertex_map)), w.joined);
+}
+
 }  // namespace
 
 void bind_mesh(nb::module_& m) {
@@ -143,6 +150,7 @@ void bind_mesh(nb::module_& m) {
   m.def("make_mesh", make_mesh, nb::arg("vertices").noconvert(), nb::arg("faces").noconvert());
   m.def("make_from_lengths", make_from_lengths, nb::arg("vertex_count"), nb::arg("faces").noconvert(),
         nb::arg("lengths").noconvert());
+  m.def("weld", welded, nb::arg("mesh"), nb::arg("tolerance"));
   m.def("read", read, nb::arg("path"));
   m.def("read_bytes", read_bytes, nb::arg("content"), nb::arg("name"));
 }

@@ -143,7 +143,7 @@ def calls_with_numbers(mesh: bf.Mesh) -> list[Any]:
     d = mesh.distance(0)
     return [
         lambda x: mesh.distance(0, tolerance=x),
-        lambda x: mesh.distance(0, max_distance=x),
+        lambda x: mesh.distance(0, radius=x),
         lambda x: mesh.distances_within(x, [0]),
         lambda x: mesh.distance_matrix([0], tolerance=x),
         lambda x: mesh.isolines(d, every=x),

@@ -60,9 +60,9 @@ def test_nan_and_missing_values_are_wrong(hills):
     d[[5, 6, 7]] = [np.nan, np.inf, -1]
     c = hills.certify(d, 3)
     assert [finding(c, v) for v in (5, 6, 7)] == ["not a number", "not reached", "too short"]
-    near = hills.distance(3, method="exact", max_distance=0.4)
+    near = hills.distance(3, method="exact", radius=0.4)
     assert np.isinf(near).any()
-    assert hills.certify(near, 3, max_distance=0.4).proven_wrong == 0
+    assert hills.certify(near, 3, radius=0.4).proven_wrong == 0
     assert hills.certify(near, 3).not_reached > 0
 
 
@@ -99,7 +99,7 @@ def test_gdist_is_judged(hills):
 
 def test_bad_arguments_are_refused(hills):
     d = hills.distance(3)
-    for bad in ({"within": -1}, {"tolerance": 0.5}, {"max_distance": -1}, {"threads": -1}):
+    for bad in ({"within": -1}, {"tolerance": 0.5}, {"radius": -1}, {"threads": -1}):
         with pytest.raises(bf.BrushfireError):
             hills.certify(d, 3, **bad)
     with pytest.raises(bf.BrushfireError, match="the field has 3 values"):

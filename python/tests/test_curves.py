@@ -60,7 +60,7 @@ def test_where_there_is_no_path_there_are_no_points():
 
 
 def test_the_log_map_is_undone_by_straightest_geodesics(bumpy):
-    polar = bumpy.log_map(bf.Point(100, (0.3, 0.3, 0.4)), max_radius=2.0)
+    polar = bumpy.log_map(bf.Point(100, (0.3, 0.3, 0.4)), radius=2.0)
     reached = np.flatnonzero(np.isfinite(polar.radius))
     assert len(reached) > 5
     hits = 0

@@ -41,9 +41,9 @@ def test_offsets_shift_the_field(bumpy, method):
     assert np.allclose(bumpy.distance([3], offset=[-1.0], method=method), d - 1, atol=1e-12)
 
 
-def test_beyond_max_distance_reads_infinity_and_no_source(bumpy, method):
+def test_beyond_the_radius_reads_infinity_and_no_source(bumpy, method):
     full = bumpy.distance(0, method=method)
-    d, label = bumpy.distance(0, max_distance=4.0, method=method, return_source=True)
+    d, label = bumpy.distance(0, radius=4.0, method=method, return_source=True)
     near = full <= 4
     assert_same(d[near], full[near], method)
     assert np.isinf(d[~near]).all()
@@ -73,8 +73,8 @@ def test_a_solver_gives_what_the_mesh_gives(bumpy, method):
     solver = bumpy.solver()
     for source in (0, 77, 0):
         for limit in (np.inf, 3.0):
-            expected = bumpy.distance(source, max_distance=limit, method=method)
-            assert np.array_equal(solver.distance(source, max_distance=limit, method=method), expected)
+            expected = bumpy.distance(source, radius=limit, method=method)
+            assert np.array_equal(solver.distance(source, radius=limit, method=method), expected)
 
 
 def test_the_bound_is_returned_where_there_is_one(bumpy, method):

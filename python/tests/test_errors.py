@@ -148,8 +148,8 @@ def test_a_vertex_that_does_not_exist_is_an_index_error_that_names_it():
 @pytest.mark.parametrize(
     "arguments",
     [
-        {"method": "no-such-method"}, {"method": 7}, {"max_distance": -1}, {"max_distance": float("nan")},
-        {"max_distance": "far"}, {"max_distance": None}, {"offset": [1, 2]}, {"offset": float("nan")},
+        {"method": "no-such-method"}, {"method": 7}, {"radius": -1}, {"radius": float("nan")},
+        {"radius": "far"}, {"radius": None}, {"offset": [1, 2]}, {"offset": float("nan")},
         {"offset": float("inf")}, {"offset": "x"}, {"offset": None}, {"offset": [[0]]}, {"progress": 7, "method": "dijkstra"},
     ],
     ids=str,

@@ -47,6 +47,13 @@ def test_every_public_function_and_method_has_an_example():
         "Samples",
         "Voronoi",
         "Cut",
+        "Boundary",
+        "Centroidal",
+        "Discs",
+        "Extent",
+        "Mean",
+        "Medoids",
+        "Parcels",
         "BrushfireWarning",
     }  # what is returned: shown where it is
     for name in bf.__all__:

@@ -33,6 +33,7 @@
 #include <brushfire/queries/gradient.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/karcher_mean.h>
+#include <brushfire/queries/log_coordinates.h>
 #include <brushfire/queries/nearest_sources.h>
 #include <brushfire/queries/parcels.h>
 #include <brushfire/queries/path.h>
@@ -40,6 +41,7 @@
 #include <brushfire/queries/shorten.h>
 #include <brushfire/queries/smoothing.h>
 #include <brushfire/queries/straightest.h>
+#include <brushfire/queries/surface_curves.h>
 #include <brushfire/queries/surface_path.h>
 #include <brushfire/queries/vertex_measures.h>
 #include <brushfire/queries/voronoi.h>

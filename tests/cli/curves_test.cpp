@@ -185,6 +185,7 @@ TEST_F(Curves, RenderRefusesMalformedOptionsBeforeReading) {
   const std::vector<std::vector<std::string>> bad{{"-o", "p.gif"},
                                                   {"-o", "p.png", "--size", "100"},
                                                   {"-o", "p.png", "--size", "0x10"},
+                                                  {"-o", "p.png", "--size", "64.5x48"},
                                                   {"-o", "p.png", "--range", "1"},
                                                   {"-o", "p.png", "--view", "above"},
                                                   {"-o", "p.png", "--samples", "2.5"},

@@ -98,6 +98,8 @@ TEST_F(Program, InfoTellsTheCounts) {
             "  Euler characteristic  2\n"
             "  edge length           1 .. 1.41421, mean 1.10355\n"
             "  area                  1.5\n"
+            "  boundary:0            closed, 4 long, from vertex 0\n"
+            "  boundary:1            closed, 3.41421 long, from vertex 4\n"
             "  - 2 components: distances between them are infinite\n"
             "  - 1 vertex is in no face and cannot be reached\n"
             "  - 7 boundary edges\n");
@@ -133,6 +135,7 @@ TEST_F(Program, InfoJsonHasStableKeys) {
                                                           "mean_edge_length",
                                                           "max_edge_length",
                                                           "area",
+                                                          "boundaries",
                                                           "remarks"}));
 }
 

@@ -4,7 +4,8 @@
 # and by pkg-config, and compiles each installed header alone and all of them together.
 # fetch: builds the consumer with brushfire as a part of it, shared; installs that and builds a second consumer against
 # the shared library with find_package.
-# core: builds a consumer of the solvers alone, with brushfire as a part of it that neither reads files nor draws.
+# core: builds a consumer of the solvers alone, with brushfire as a part of it that neither reads files nor draws, and
+# tells what that costs.
 cmake_minimum_required(VERSION 3.22)
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
@@ -14,10 +15,31 @@ function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-function(configure_and_build name)
+function(configure name)
   run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CMAKE_CURRENT_LIST_DIR}/project -B ${SCRATCH}/${name}
     -DCMAKE_BUILD_TYPE=Release ${ARGN})
+endfunction()
+
+function(configure_and_build name)
+  configure(${name} ${ARGN})
   run(${CMAKE_COMMAND} --build ${SCRATCH}/${name})
+endfunction()
+
+# build_telling_time(NAME): builds what is configured, and says what it took, of all processors together.
+function(build_telling_time name)
+  find_program(shell sh)
+  if(NOT shell)
+    run(${CMAKE_COMMAND} --build ${SCRATCH}/${name})
+    return()
+  endif()
+  # `times`: of the shell itself on one line, of what it ran on the next; user and system.
+  execute_process(COMMAND ${shell} -c "\"$@\" >&2 && times" sh ${CMAKE_COMMAND} --build ${SCRATCH}/${name}
+    OUTPUT_VARIABLE times COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT times MATCHES "\n([0-9]+)m([0-9]+)[.0-9]*s")
+    message(FATAL_ERROR "no times: ${times}")
+  endif()
+  math(EXPR seconds "60 * ${CMAKE_MATCH_1} + ${CMAKE_MATCH_2}")
+  message(STATUS "${name}: compiled in ${seconds} s of processor time")
 endfunction()
 
 # run_consumer(program): runs it and looks at what it says.
@@ -88,8 +110,10 @@ if(WAY STREQUAL "find_package")
   build_consumer(consumer -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix -DEACH_HEADER=${SCRATCH}/prefix/include)
   build_by_pkg_config(${SCRATCH}/prefix)
 elseif(WAY STREQUAL "core")
-  configure_and_build(core -DBRUSHFIRE_SOURCE=${SOURCE} -DBRUSHFIRE_QUERIES=OFF -DBRUSHFIRE_IO=OFF
-    -DBRUSHFIRE_FIGURE=OFF)
+  # As it is for somebody who does that for the first time: no compiler cache.
+  set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} "")
+  configure(core -DBRUSHFIRE_SOURCE=${SOURCE} -DBRUSHFIRE_QUERIES=OFF -DBRUSHFIRE_IO=OFF -DBRUSHFIRE_FIGURE=OFF)
+  build_telling_time(core)
   run(${SCRATCH}/core/core_consumer)
 else()
   build_consumer(fetching -DBRUSHFIRE_SOURCE=${SOURCE} -DBUILD_SHARED_LIBS=ON)

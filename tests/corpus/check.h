@@ -52,7 +52,7 @@ class Examination {
  private:
   void turn_to(std::uint64_t index, std::size_t start);
   const oracle::Truth& truth();
-  bool more_digits_differ();
+  bool more_digits_differ(std::uint64_t most_windows);
 
   Outcome exact(const DistanceOptions& options);
   Outcome paths();

@@ -19,6 +19,9 @@ struct Once {
 constexpr Once kWrongOnce[] = {
     {"soup", 2, 2, "paths", "source and target in one face with a repeated vertex"},
     {"far-point", 2, 47, "paths", "a search for a leg that wound round a spike"},
+    {"collinear", 2, 44, "targets", "an oracle whose light turned back in a face without area"},
+    {"soup", 20261130, 167, "targets", "a source and a target in one face, next to its corner"},
+    {"components", 20261129, 86, "paths", "legs that explain a value to a share of other sources' offsets"},
     {"mutilated", 2, 76, "exact", "no bound where every face has an edge without length"},
     {"tiny-clusters", 2, 14, "dijkstra", "distances to corners from three lengths"},
 };

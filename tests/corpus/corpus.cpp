@@ -258,7 +258,7 @@ constexpr const char* kFooter =
 that makes it again. Exit code 1 where a promise is broken: any of the columns but the last two.
 
   beyond         farther from the truth than max(1e-12 of the value, its error_bound): exact, at vertices and targets
-  bound broken   farther than error_bound
+  bound broken   farther than half of error_bound: an early warning
   off the field  paths whose length is off the field's value, or the truth, by more than 1e-11 of it and the error_bound
   windows        bounds that do not hold, or are wider than the tolerance
   lower, upper   on the wrong side of the truth, to the last bit

@@ -67,10 +67,25 @@ std::vector<Index> inverse(const std::vector<Index>& order) {
 }  // namespace
 
 std::string name_of_law(Law law) {
-  constexpr const char* kNames[kLaws] = {
-      "exact", "symmetry", "scaling",       "renumbering",        "radius",         "targets",
-      "rows",  "threads",  "windows 0.01",  "windows 0.001",      "windows 1e-05",  "lower",
-      "upper", "paths",    "novotni-klein", "novotni-klein-2002", "kimmel-sethian", "dijkstra"};
+  constexpr const char* kNames[kLaws] = {"exact",
+                                         "symmetry",
+                                         "scaling",
+                                         "renumbering",
+                                         "radius",
+                                         "targets",
+                                         "rows",
+                                         "threads",
+                                         "windows 0.01",
+                                         "windows 0.001",
+                                         "windows 1e-05",
+                                         "lower",
+                                         "upper",
+                                         "paths",
+                                         "carried-source",
+                                         "novotni-klein",
+                                         "novotni-klein-2002",
+                                         "kimmel-sethian",
+                                         "dijkstra"};
   return kNames[static_cast<std::size_t>(law)];
 }
 
@@ -108,6 +123,8 @@ Outcome Trial::run(std::size_t subject, Law law) {
         return windows(law);
       case Law::Paths:
         return paths();
+      case Law::CarriedSource:
+        return other(Method::CarriedSource);
       case Law::NovotniKlein:
         return other(Method::NovotniKlein);
       case Law::NovotniKlein2002:

@@ -40,12 +40,13 @@ enum class Law : std::uint8_t {
   Lower,  // on its side of exact, at 1e-3
   Upper,
   Paths,  // as long as the field says
+  CarriedSource,
   NovotniKlein,
   NovotniKlein2002,
   KimmelSethian,
   Dijkstra,  // not below exact
 };
-inline constexpr std::size_t kLaws = 18;
+inline constexpr std::size_t kLaws = 19;
 std::string name_of_law(Law law);
 
 class Trial {

@@ -5,6 +5,7 @@
 #include <brushfire/io/read_field.h>
 #include <brushfire/mesh/report.h>
 
+#include "support/packed_gltf.h"
 #include "support/stored_zip.h"
 
 #include <algorithm>
@@ -312,50 +313,25 @@ TEST(Foreign, GltfThatRequiresWhatIsNotKnownIsRefusedByName) {
   EXPECT_NE(mesh_error("{\"asset\":{\"version\":\"1.0\"}}", "a.gltf").find("glTF 1.0 is not read"), std::string::npos);
 }
 
-// One triangle, its vertices and corners packed by meshoptimizer into buffer views of their own.
-std::string packed_gltf(const char* points, const char* filter, const char* corners, const char* mode) {
-  const auto buffer = [](const char* base64, std::size_t size) {
-    return "{\"byteLength\":" + std::to_string(size) + ",\"uri\":\"data:;base64," + base64 + "\"}";
-  };
-  const auto view = [](int number, std::size_t size, std::size_t packed_size, int stride, const std::string& rest) {
-    const std::string n = std::to_string(number);
-    return "{\"buffer\":2,\"byteLength\":" + std::to_string(size) +
-           ",\"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":" + n +
-           ",\"byteLength\":" + std::to_string(packed_size) + ",\"byteStride\":" + std::to_string(stride) +
-           ",\"count\":3," + rest + "}}}";
-  };
-  const auto size_of = [](std::string_view text) {
-    return text.size() / 4 * 3 - static_cast<std::size_t>(std::count(text.begin(), text.end(), '='));
-  };
-  return "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"EXT_meshopt_compression\"],\"nodes\":[{\"mesh\":0}"
-         "],"
-         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}],\"accessors\":[{"
-         "\"bufferView\":0,"
-         "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":1,\"componentType\":5125,\"count\":3,"
-         "\"type\":\"SCALAR\"}],\"bufferViews\":[" +
-         view(0, 36, size_of(points), 12, "\"mode\":\"ATTRIBUTES\",\"filter\":\"" + std::string(filter) + "\"") + "," +
-         view(1, 12, size_of(corners), 4, "\"mode\":\"" + std::string(mode) + "\"") + "],\"buffers\":[" +
-         buffer(points, size_of(points)) + "," + buffer(corners, size_of(corners)) + ",{\"byteLength\":48}]}";
-}
-
 TEST(Foreign, WhatMeshoptimizerPacksIsUnpackedWhereItIsBuiltIn) {
   const char* const plain = "oAAAATAAAACAATAAAACAAAABDAAAAP8BDAAAAIAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA=";
   const char* const filtered =
       "oAABPAAAAGAvAAE4AAAABAABDAAAAEAAATgAAAAEAAAAATgAAAAEAAAAAAAAAAAAAAAAAAAAAAAAAAAAAADyAAAA8gAAAPI=";
   const char *const triangles = "4PAAdodWZ3iphmWJaJgBaQAA", *const indices = "0AAEBAAAAAA=";
-  const std::string text = packed_gltf(plain, "NONE", triangles, "TRIANGLES");
+  const std::string text = test::packed_gltf(plain, "NONE", triangles, "TRIANGLES");
   if (mesh_error(text, "a.gltf").find("requires the extension 'EXT_meshopt_compression'") != std::string::npos) {
     GTEST_SKIP() << "no meshoptimizer";
   }
   expect_triangle(text, "a.gltf", "triangles");
-  expect_triangle(packed_gltf(plain, "NONE", indices, "INDICES"), "a.gltf", "indices");
-  expect_triangle(packed_gltf(filtered, "EXPONENTIAL", triangles, "TRIANGLES"), "a.gltf", "filtered");
-  EXPECT_NE(
-      mesh_error(packed_gltf(plain, "QUATERNION", triangles, "TRIANGLES"), "a.gltf").find("has a filter that does not"),
-      std::string::npos);
-  EXPECT_NE(mesh_error(packed_gltf(plain, "NONE", triangles, "STRIPS"), "a.gltf").find("packed in a way that does not"),
+  expect_triangle(test::packed_gltf(plain, "NONE", indices, "INDICES"), "a.gltf", "indices");
+  expect_triangle(test::packed_gltf(filtered, "EXPONENTIAL", triangles, "TRIANGLES"), "a.gltf", "filtered");
+  EXPECT_NE(mesh_error(test::packed_gltf(plain, "QUATERNION", triangles, "TRIANGLES"), "a.gltf")
+                .find("has a filter that does not"),
             std::string::npos);
-  EXPECT_NE(mesh_error(packed_gltf(indices, "NONE", triangles, "TRIANGLES"), "a.gltf").find("cannot be unpacked"),
+  EXPECT_NE(
+      mesh_error(test::packed_gltf(plain, "NONE", triangles, "STRIPS"), "a.gltf").find("packed in a way that does not"),
+      std::string::npos);
+  EXPECT_NE(mesh_error(test::packed_gltf(indices, "NONE", triangles, "TRIANGLES"), "a.gltf").find("cannot be unpacked"),
             std::string::npos);
   EXPECT_NE(
       mesh_error(replaced(text, "\"byteStride\":12,\"count\":3", "\"byteStride\":12,\"count\":300000000"), "a.gltf")
@@ -363,39 +339,24 @@ TEST(Foreign, WhatMeshoptimizerPacksIsUnpackedWhereItIsBuiltIn) {
       std::string::npos);
 }
 
-// One triangle, packed by Draco, with the numbers of points and triangles that the stream holds itself.
-std::string draco_gltf(const char* base64, std::size_t size) {
-  return "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"nodes\":[{"
-         "\"mesh\":0}],"
-         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"extensions\":{"
-         "\"KHR_draco_mesh_compression\":{\"bufferView\":0,\"attributes\":{\"POSITION\":0}}}}]}],\"accessors\":[{"
-         "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"componentType\":5125,\"count\":3,\"type\":"
-         "\"SCALAR\"}],"
-         "\"bufferViews\":[{\"buffer\":0,\"byteLength\":" +
-         std::to_string(size) + "}],\"buffers\":[{\"byteLength\":" + std::to_string(size) + ",\"uri\":\"data:;base64," +
-         base64 + "\"}]}";
-}
-
 TEST(Foreign, WhatDracoPacksIsUnpackedWhereItIsBuiltIn) {
   const char* const sequential = "RFJBQ08CAgEAAAABAwEAAQIBAQAJAwAAAAAAAAAAAAAAAAAAAAAAQEAAAAAAAAAAAAAAQEAAAIBAAAAAAA==";
-  const std::string text = draco_gltf(sequential, 61);
+  const std::string text = test::draco_gltf(sequential, 61);
   if (mesh_error(text, "a.gltf").find("requires the extension 'KHR_draco_mesh_compression'") != std::string::npos) {
     GTEST_SKIP() << "no Draco";
   }
   expect_triangle(text, "a.gltf", "sequential");
-  const LoadedMesh walked = read_text(
-      draco_gltf("RFJBQ08CAgEBAAAAAwEAAQAAAQf/AREB/wAAAQAJAwAAAAAAQEAAAAAAAAAAAAAAQEAAAIBAAAAAAAAAAAAAAAAAAAAAAA==",
-                 70),
-      "a.gltf");
+  const LoadedMesh walked = read_text(test::draco_gltf(edgebreaker, 70), "a.gltf");
   EXPECT_EQ(walked.mesh.face_count(), 1u);
   EXPECT_EQ(walked.mesh.report().area, 6) << "Draco's edgebreaker renumbers the points";
-  EXPECT_NE(mesh_error(draco_gltf(sequential, 40), "a.gltf").find("packed by Draco cannot be unpacked"),
+  EXPECT_NE(mesh_error(test::draco_gltf(sequential, 40), "a.gltf").find("packed by Draco cannot be unpacked"),
             std::string::npos);
   EXPECT_NE(mesh_error(replaced(text, "RFJBQ08C", "RFJBQ08D"), "a.gltf").find("is no mesh of Draco 2.2"),
             std::string::npos);
   const std::string many = std::string("DRACO\2\2\1\0\0\0", 11) + "\xff\xff\xff\xff\x0f\3" + std::string(40, '\0');
-  EXPECT_NE(mesh_error(draco_gltf(detail::encode_base64(many).c_str(), many.size()), "a.gltf").find("far more than"),
-            std::string::npos);
+  EXPECT_NE(
+      mesh_error(test::draco_gltf(detail::encode_base64(many).c_str(), many.size()), "a.gltf").find("far more than"),
+      std::string::npos);
 }
 
 std::string vtu(const std::string& cells, const std::string& offsets, const std::string& types, int count) {

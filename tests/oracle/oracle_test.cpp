@@ -39,6 +39,19 @@ TEST(Oracle, RhombusOfTwoTrianglesIsCrossedStraight) {
   EXPECT_LT(relative_error(d[1], std::sqrt(5.0L)), 1e-18);
 }
 
+// Light along an edge enters a face without area whose third corner lies on the source's side of the edge.
+TEST(Oracle, LightAlongALineDoesNotTurnBackInAFaceWithoutArea) {
+  const Mesh mesh(std::vector<Vec3>{{-3, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, -2, 0}, {-2, 0, 0}, {0, 2, 0}},
+                  std::vector<Face>{{0, 3, 1}, {3, 2, 1}, {1, 2, 4}, {1, 4, 5}});
+  const Source source{vertex_point(mesh, 0), 0};
+  const std::vector<SurfacePoint> targets{{3, {0.5, 0.5, 0}}, {2, {0.25, 0, 0.75}}};
+  for (const Arithmetic arithmetic : {Arithmetic::LongDouble, Arithmetic::Quad, Arithmetic::Octuple}) {
+    const Truth truth = polyhedral_distance(mesh, std::span(&source, 1), kFar, targets, arithmetic);
+    EXPECT_EQ(truth.target[0], 4);
+    EXPECT_EQ(truth.target[1], 4.5L);
+  }
+}
+
 TEST(Oracle, PathBendsAtTheReflexCornerOfASheet) {
   // An L of three unit squares: from one end around the inner corner (1,1) to the other.
   const Mesh mesh(

@@ -323,6 +323,7 @@ class Solver {
   bool prune(Window& w) {
     const Corner& c = complex_.corner[w.halfedge];
     if (c.length == 0) return false;  // its two ends are one point, and emit into every corner (settle)
+    if (grazes(w, c.length)) return false;
     if (cross(w.right, w.left) < 0 || (cross(w.right, w.left) == 0 && dot(w.right, w.left) > 0)) return false;
     const R end_a = distance_[c.from], end_b = distance_[c.to];
     R a = meets(w, w.left, c.length), b = std::max(a, meets(w, w.right, c.length));
@@ -347,6 +348,13 @@ class Solver {
     }
     w.key = w.sigma + norm(Point{std::clamp(w.source.x, a, b), 0} - w.source);
     return w.key <= radius_;
+  }
+
+  // Along the edge from beyond one of its ends: all that this lights is lit by that end as well, straight on. (In a
+  // face without area the other edges may lie between the source and this one.)
+  static bool grazes(const Window& w, R length) {
+    const R doubtful = kLateral * epsilon<R>() * (abs(w.source.x) + length);
+    return -w.source.y <= doubtful && (w.source.x <= 0 || w.source.x >= length);
   }
 
   // The x up to which `other` + x is less than |x - source| by the margin; whatever rounding makes of it, the caller
@@ -375,6 +383,13 @@ class Solver {
            (dot(w.left, d) >= -doubtful || dot(w.right, d) >= -doubtful);
   }
 
+  // The way to a point that is seen, by where the ray meets the edge: on one line with the edge, in a face without
+  // area, the point may lie on the source's side of it.
+  R through_edge(const Window& w, Point p) const {
+    const Point at{meets(w, p - w.source, complex_.corner[w.halfedge].length), 0};
+    return w.sigma + norm(at - w.source) + norm(p - at);
+  }
+
   // How far (times 1, across a unit direction) rounding may have moved p against a ray from the source.
   static R doubt(const Window& w, Point p) {
     return epsilon<R>() * (kAngle * norm(p - w.source) + kLateral * (norm(w.source) + norm(p)));
@@ -390,7 +405,7 @@ class Solver {
     if (sees(w, c.apex)) arrive_at_apex(w, to_apex);
     for (const Target& t : targets_in_[w.halfedge / 3]) {
       const Point p = place_in(w.halfedge, t);
-      if (sees(w, p)) reach_target(t.index, w.sigma + norm(p - w.source));
+      if (sees(w, p)) reach_target(t.index, through_edge(w, p));
     }
     const Point split = norm(to_apex) > 0 ? unit(to_apex) : Point{0, 1};
     const R left_length = complex_.corner[behind].length, right_length = complex_.corner[ahead].length;
@@ -423,7 +438,7 @@ class Solver {
 
   void arrive_at_apex(const Window& w, Point to_apex) {
     const Corner& c = complex_.corner[w.halfedge];
-    const R d = w.sigma + norm(to_apex);
+    const R d = through_edge(w, c.apex);
     const Index at = Mesh::previous(w.halfedge);  // the corner at the apex: its halfedge runs to `from`
     if (norm(to_apex) == 0 || complex_.corner[at].length == 0) {
       reach({d, c.apex_vertex, Arrival::By::Start, 0, 0});

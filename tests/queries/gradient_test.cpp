@@ -31,6 +31,17 @@ TEST(Gradient, OfALinearFieldIsExactInEveryFace) {
   }
 }
 
+TEST(Gradient, AtVerticesIsTheMeanOfTheFacesAroundByTheirArea) {
+  const std::vector<Vec3> p{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  const std::vector<Face> faces{{0, 1, 2}, {0, 2, 3}, {0, 4, 1}};
+  const std::vector<double> values{0, 2, 0, 3, kInfinity};
+  const std::vector<Vec3> g = vertex_gradients(Mesh(p, faces), values);
+  EXPECT_NEAR(norm(g[1] - Vec3{1, 0, 0}), 0, 1e-15);
+  EXPECT_NEAR(norm(g[3] - Vec3{-3, 0, 0}), 0, 1e-15);
+  EXPECT_NEAR(norm(g[0] - Vec3{(2 * 1.0 - 3) / 3, 0, 0}), 0, 1e-15);  // areas 1 and 0.5
+  EXPECT_EQ(g[4], Vec3{});
+}
+
 TEST(Gradient, FacesWithoutAreaOrWithUnreachedVerticesHaveNone) {
   const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}};
   const std::vector<Face> faces{{0, 1, 2}, {0, 0, 1}, {0, 1, 3}, {1, 4, 3}};

@@ -190,5 +190,38 @@ TEST(Path, OffASparseFieldIsThatOffAFullOne) {
   }
 }
 
+TEST(Path, ToSeveralTargetsComesFromTheNearestSource) {
+  const Mesh mesh = shapes::plane(8, 8, 4, 4).mesh();
+  const std::vector<Source> sources{{vertex_point(mesh, 0)}, {vertex_point(mesh, 80), 1.0}};
+  const std::vector<SurfacePoint> targets{vertex_point(mesh, 1), vertex_point(mesh, 79), vertex_point(mesh, 40)};
+  DistanceSolver solver(mesh);
+  const std::vector<SourcePath> paths = paths_to(solver, sources, targets);
+  const double half = std::sqrt(8.0);
+  EXPECT_EQ(paths[0].source, 0u);
+  EXPECT_NEAR(paths[0].length, 0.5, 1e-15);
+  EXPECT_EQ(paths[1].source, 1u);
+  EXPECT_NEAR(paths[1].length, 0.5, 1e-15);  // without the offset
+  EXPECT_EQ(paths[2].source, 0u);
+  EXPECT_NEAR(paths[2].length, half, 1e-14);
+  DistanceOptions near;
+  near.max_distance = 2;
+  const std::vector<SourcePath> within = paths_to(solver, sources, targets, near);
+  EXPECT_EQ(within[0].length, paths[0].length);
+  EXPECT_TRUE(within[2].points.empty());
+  EXPECT_EQ(within[2].source, kNoIndex);
+}
+
+TEST(Path, ThroughWaypointsIsNoneBeyondTheLimitOfTheWhole) {
+  const Mesh mesh = shapes::plane(8, 8, 4, 4).mesh();
+  DistanceSolver solver(mesh);
+  const std::vector<SurfacePoint> waypoints{vertex_point(mesh, 0), vertex_point(mesh, 2), vertex_point(mesh, 5)};
+  DistanceOptions how;
+  how.max_distance = 2.5;
+  EXPECT_NEAR(path_through(solver, waypoints, false, how).length, 2.5, 1e-14);
+  how.max_distance = 2.4;
+  EXPECT_TRUE(path_through(solver, waypoints, false, how).points.empty());
+  EXPECT_EQ(path_through(solver, waypoints, false, how).length, kInfinity);
+}
+
 }  // namespace
 }  // namespace brushfire

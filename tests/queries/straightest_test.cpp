@@ -1,6 +1,7 @@
 // Straightest geodesics and the logarithmic map.
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
+#include <brushfire/queries/log_coordinates.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/straightest.h>
 
@@ -273,6 +274,45 @@ TEST(LogMap, AnglesAreThoseOfTheShortestPaths) {
   }
 }
 
+// From points inside, on edges, on the border and in corners, with faces either way round.
+TEST(LogMap, OfAPlaneIsFlatFromEveryPlaceAndDirection) {
+  Shape s = shapes::plane(6, 6, 6, 6);
+  for (const bool turned : {false, true}) {
+    if (turned) {
+      for (Face& f : s.faces) std::swap(f[1], f[2]);
+    }
+    const Mesh mesh = s.mesh();
+    std::vector<SurfacePoint> places{{17, {0.2, 0.3, 0.5}}, {17, {0.5, 0.5, 0}}};
+    for (const Index v : {0, 6, 42, 48, 3, 21, 24}) places.push_back(vertex_point(mesh, v));
+    DistanceSolver solver(mesh);
+    for (const SurfacePoint& source : places) {
+      const Vec3 at = position(mesh, source);
+      const bool in_corner = (at.x == 0 || at.x == 6) && (at.y == 0 || at.y == 6);
+      const Vec3 along = in_corner ? Vec3{3, 3, 0} - at : Vec3{0.6, 0.8, 0};  // onto the surface
+      const Vec3 u = (1 / norm(along)) * along;
+      SparseLogMap map = log_map(solver, source, 2.5);
+      turn(mesh, source, along, map);
+      const std::vector<std::array<double, 2>> flat = flat_coordinates(mesh, source, map);
+      for (std::size_t i = 0; i < map.vertex.size(); ++i) {
+        const Vec3 d = mesh.positions()[map.vertex[i]] - at;
+        EXPECT_NEAR(flat[i][0], u.x * d.x + u.y * d.y, 1e-13);
+        EXPECT_NEAR(flat[i][1], (turned ? -1 : 1) * (u.x * d.y - u.y * d.x), 1e-13);
+      }
+    }
+  }
+}
+
+TEST(Straightest, ADirectionAtRightAnglesToTheSurfaceIsRefused) {
+  const Mesh mesh = shapes::plane(2, 2, 4, 4).mesh();
+  EXPECT_THROW(angle_of(mesh, vertex_point(mesh, 4), {0, 0, 3}), Error);
+  EXPECT_THROW(angle_of(mesh, {0, {0.2, 0.3, 0.5}}, {0, 0, 3}), Error);
+  EXPECT_NO_THROW(angle_of(mesh, vertex_point(mesh, 4), {0.001, 0, 3}));
+  for (const double scale : {1e300, 1e-300, 5e-324}) {
+    EXPECT_EQ(angle_of(mesh, vertex_point(mesh, 4), {scale, scale, 0}),
+              angle_of(mesh, vertex_point(mesh, 4), {1, 1, 0}));
+  }
+}
+
 // Beyond an edge of many faces, two sheets may see the source in the same place by different ways.
 TEST(LogMap, AnglesAreThoseOfTheShortestPathsOnManySheets) {
   for (const Index pages : {3u, 4u}) {
@@ -286,7 +326,8 @@ TEST(LogMap, AnglesAreThoseOfTheShortestPathsOnManySheets) {
 }
 
 TEST(LogMap, AnglesLieWithinTheFullTurn) {
-  const std::vector<Mesh> meshes{shapes::plane(8, 8).mesh(), shapes::cone(8, 12, 1, 0.5).mesh(), shapes::saddle(8).mesh()};
+  const std::vector<Mesh> meshes{shapes::plane(8, 8).mesh(), shapes::cone(8, 12, 1, 0.5).mesh(),
+                                 shapes::saddle(8).mesh()};
   for (const Mesh& mesh : meshes) {
     for (Index v = 0; v < mesh.vertex_count(); v += 5) {
       const LogMap map = log_map(mesh, vertex_point(mesh, v));

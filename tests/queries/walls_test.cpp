@@ -31,6 +31,7 @@ namespace {
 struct ByHand {
   Mesh mesh;
   std::vector<Index> vertex;   // original of each
+  std::vector<Index> slits;    // halfedges of blocked edges
   std::vector<Index> face_of;  // of each original face; kNoIndex: blocked
 
   ByHand(const Mesh& whole, const Barriers& barriers) : face_of(whole.face_count(), kNoIndex) {
@@ -60,7 +61,6 @@ struct ByHand {
     std::map<Index, Index> number;
     std::vector<Vec3> positions;
     std::vector<Face> faces;
-    std::vector<Index> slits;
     for (Index f = 0; f < whole.face_count(); ++f) {
       if (blocked.contains(f)) continue;
       face_of[f] = static_cast<Index>(faces.size());
@@ -91,12 +91,9 @@ struct ByHand {
       if (b == kNoIndex) b = mesh.from(h);
       EXPECT_TRUE(a == other.from(h) && b == mesh.from(h)) << "corner " << h;
     }
-    std::vector<Index> slits;
-    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-      EXPECT_EQ(mesh.opposite()[h], other.opposite()[h]) << h;
-      if (mesh.opposite()[h] == h) slits.push_back(h);
-    }
-    result.mesh = Mesh(other.positions(), other.faces()).with_slits(slits);
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) EXPECT_EQ(mesh.opposite()[h], other.opposite()[h]) << h;
+    result.mesh = Mesh(other.positions(), other.faces());
+    if (!slits.empty()) result.mesh = result.mesh.with_slits(slits);
     result.vertex.assign(other.vertex_count(), kNoIndex);
     for (Index v = 0; v < mesh.vertex_count(); ++v) result.vertex[there[v]] = vertex[v];
     return result;

@@ -24,8 +24,9 @@ namespace {
 constexpr Index kFaces = 100'000;
 constexpr double kSeconds = 10;
 
-constexpr std::array kMethods{Method::Exact,         Method::Windows,          Method::NovotniKlein,
-                              Method::KimmelSethian, Method::NovotniKlein2002, Method::Dijkstra};
+constexpr std::array kMethods{Method::Exact,        Method::Windows,       Method::CarriedSource,
+                              Method::NovotniKlein, Method::KimmelSethian, Method::NovotniKlein2002,
+                              Method::Dijkstra};
 
 struct Crowd {
   std::string name;
@@ -170,6 +171,7 @@ TEST(Crowds, ALegFromTheHubIsFoundByLength) {
                                                   value,
                                                   locate(mesh, vertex_point(mesh, 0)),
                                                   straight * (1 - 1e-3),
+                                                  0,
                                                   kNoIndex,
                                                   kNoIndex,
                                                   {}});

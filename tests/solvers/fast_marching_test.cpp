@@ -17,8 +17,8 @@
 namespace brushfire {
 namespace {
 
-constexpr std::array kMarchingMethods{Method::NovotniKlein, Method::NovotniKlein2002, Method::KimmelSethian,
-                                      Method::Dijkstra};
+constexpr std::array kMarchingMethods{Method::CarriedSource, Method::NovotniKlein, Method::NovotniKlein2002,
+                                      Method::KimmelSethian, Method::Dijkstra};
 
 DistanceField field_from(const Mesh& mesh, std::vector<Source> sources, Method method = Method::NovotniKlein,
                          Precision precision = Precision::Double) {
@@ -105,7 +105,7 @@ TEST(FastMarching, NoVertexComesUpMoreThanThreeTimesInTheMeanOnAnyMesh) {
   BRUSHFIRE_NEEDS_SHARED_DATA();
   for (const std::string& name : test::shared_mesh_names()) {
     const Mesh mesh = test::shared_mesh(name);
-    for (const Method method : {Method::NovotniKlein, Method::KimmelSethian}) {
+    for (const Method method : {Method::CarriedSource, Method::NovotniKlein, Method::KimmelSethian}) {
       for (const Index face : {0u, mesh.face_count() / 2}) {
         const DistanceField field = field_from(mesh, {at_vertex(mesh, mesh.faces()[face][0])}, method);
         EXPECT_LE(field.updates, 3u * mesh.vertex_count()) << name;
@@ -313,7 +313,8 @@ TEST(FastMarching, ASetTokenCancels) {
   const Mesh mesh = shapes::icosphere(4).mesh();
   CancelToken token;
   token.cancel();
-  for (const Method method : {Method::NovotniKlein, Method::NovotniKlein2002, Method::KimmelSethian}) {
+  for (const Method method :
+       {Method::CarriedSource, Method::NovotniKlein, Method::NovotniKlein2002, Method::KimmelSethian}) {
     DistanceOptions options;
     options.method = method;
     options.cancel = &token;

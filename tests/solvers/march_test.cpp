@@ -29,7 +29,7 @@ MarchState<T> marched(const Rings<T>& rings, Index vertices, FrontModel model, b
   const MarchPart<T> march = march_part<T>(model, labelled, variant);
   state.begin_run();
   while (state.next_round()) {
-    for (const Index part : state.work) march(rings, state, part);
+    for (const partition::Due& d : state.due) march(rings, state, d.part);
   }
   return state;
 }

@@ -2,7 +2,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/compare.h>
-#include <brushfire/solvers/fast_marching/detail/parts.h>
+#include <brushfire/solvers/partition/vertex_partition.h>
 
 #include <gtest/gtest.h>
 
@@ -157,7 +157,7 @@ TEST(Parts, AreLeftAndTakenUpAgainAfterACancelledRun) {
 
 // What a part names of others: each ghost once, told of by its owner, and telling it.
 TEST(Parts, KnowEachOther) {
-  fast_marching::PartsBuilder builder(8, fast_marching::part_shift(4));
+  partition::VertexPartitionBuilder builder(8, partition::part_shift(4));
   builder.add(2, 5);
   builder.add(3, 5);
   builder.add(3, 4);
@@ -165,7 +165,7 @@ TEST(Parts, KnowEachOther) {
   builder.add(4, 3);
   builder.add(5, 3);
   builder.finish_part(1);
-  const fast_marching::Parts parts = builder.take();
+  const partition::VertexPartition parts = builder.take();
   ASSERT_EQ(parts.count(), 2u);
   EXPECT_EQ(parts.places(), 12u);
   EXPECT_EQ(parts.owner, (std::vector<Index>{4, 5, 3}));

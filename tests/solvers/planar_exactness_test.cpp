@@ -1,4 +1,5 @@
-// On a Delaunay triangulation of a convex region novotni-klein is the Euclidean distance, wherever the source is.
+// On a Delaunay triangulation of a convex region novotni-klein and carried-source are the Euclidean distance, wherever
+// the source is.
 #include <brushfire/mesh/delaunay.h>
 #include <brushfire/solvers/distance.h>
 
@@ -81,13 +82,16 @@ TEST(PlanarExactness, DelaunayTriangulationsOfConvexRegionsAreExactFromSourcesAn
     if (mesh.face_count() == 0) continue;
     DistanceSolver solver(mesh);
     DistanceOptions fast;
-    fast.method = Method::NovotniKlein;
     fast.precision = Precision::Double;
     for (int run = 0; run < 3; ++run) {
       const Source source{random_source(mesh, random)};
-      const DistanceField field = solver.distance({&source, 1}, fast);
-      ASSERT_LE(worst_excess(mesh, source.point, field), 1) << "seed " << seed << ", run " << run;
-      ASSERT_LE(field.updates, 3u * mesh.vertex_count()) << "seed " << seed;
+      for (const Method method : {Method::NovotniKlein, Method::CarriedSource}) {
+        fast.method = method;
+        const DistanceField field = solver.distance({&source, 1}, fast);
+        ASSERT_LE(worst_excess(mesh, source.point, field), 1)
+            << name_of(method) << ", seed " << seed << ", run " << run;
+        ASSERT_LE(field.updates, 3u * mesh.vertex_count()) << name_of(method) << ", seed " << seed;
+      }
     }
   }
 }
@@ -99,7 +103,7 @@ DistanceOptions in_double() {
   return options;
 }
 
-// Parts learn of each other by letters, and late.
+// Parts learn of each other by messages, and late.
 TEST(PlanarExactness, PartsAreExactToo) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
@@ -120,7 +124,7 @@ TEST(PlanarExactness, PartsAreExactToo) {
   }
 }
 
-// Parts of one vertex and some: what a vertex learns of its neighbours it learns by letters, and the number of its
+// Parts of one vertex and some: what a vertex learns of its neighbours it learns by messages, and the number of its
 // turns is limited.
 TEST(PlanarExactness, TinyPartsAreHardlyEverInexact) {
   int inexact = 0, runs = 0;
@@ -144,12 +148,14 @@ TEST(PlanarExactness, FloatLanesAreExactToFloatPrecision) {
     std::mt19937 random(seed);
     const Mesh mesh = random_convex_triangulation(random);
     if (mesh.face_count() == 0) continue;
-    DistanceOptions options;
-    options.method = Method::NovotniKlein;
-    options.precision = Precision::Float;
-    const Source source{vertex_point(mesh, mesh.faces()[0][0])};
-    const DistanceField field = distance(mesh, {&source, 1}, options);
-    EXPECT_LE(worst_excess(mesh, source.point, field) * kRelative, 1e-4) << "seed " << seed;
+    for (const Method method : {Method::NovotniKlein, Method::CarriedSource}) {
+      DistanceOptions options;
+      options.method = method;
+      options.precision = Precision::Float;
+      const Source source{vertex_point(mesh, mesh.faces()[0][0])};
+      const DistanceField field = distance(mesh, {&source, 1}, options);
+      EXPECT_LE(worst_excess(mesh, source.point, field) * kRelative, 1e-4) << name_of(method) << ", seed " << seed;
+    }
   }
 }
 
@@ -163,10 +169,14 @@ TEST(PlanarExactness, TargetsInsideFacesAndOnEdgesAreExactToo) {
     options.precision = Precision::Double;
     for (int i = 0; i < 20; ++i) options.targets.push_back(random_source(mesh, random));
     const Source source{random_source(mesh, random)};
-    const DistanceField field = distance(mesh, {&source, 1}, options);
-    for (std::size_t i = 0; i < options.targets.size(); ++i) {
-      const double euclid = norm(position(mesh, options.targets[i]) - position(mesh, source.point));
-      EXPECT_NEAR(field.target_distance[i], euclid, 1e-9 * euclid + kCoordinateRounding) << "seed " << seed;
+    for (const Method method : {Method::NovotniKlein, Method::CarriedSource}) {
+      options.method = method;
+      const DistanceField field = distance(mesh, {&source, 1}, options);
+      for (std::size_t i = 0; i < options.targets.size(); ++i) {
+        const double euclid = norm(position(mesh, options.targets[i]) - position(mesh, source.point));
+        EXPECT_NEAR(field.target_distance[i], euclid, 1e-9 * euclid + kCoordinateRounding)
+            << name_of(method) << ", seed " << seed;
+      }
     }
   }
 }

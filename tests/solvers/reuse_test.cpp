@@ -112,7 +112,7 @@ TEST(ReuseOfMarching, ShortRunsCostWhatTheyReach) {
   EXPECT_LT(updates[0], 200u);
 }
 
-// In parts that write letters to each other, by several threads.
+// In parts that send messages to each other, by several threads.
 TEST(ReuseOfMarching, AllocatesNothingInParts) {
   const Mesh mesh = shapes::folded_sphere(4).mesh();
   const std::vector<Source> sources = some_sources(mesh);
@@ -141,7 +141,8 @@ TEST(ReuseOfMarching, AllocatesNothingInParts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Reuse,
-                         testing::Values(Way{Method::NovotniKlein}, Way{Method::NovotniKlein, Precision::Double},
+                         testing::Values(Way{Method::CarriedSource}, Way{Method::CarriedSource, Precision::Double},
+                                         Way{Method::NovotniKlein}, Way{Method::NovotniKlein, Precision::Double},
                                          Way{Method::KimmelSethian}, Way{Method::Windows}, Way{Method::Exact},
                                          Way{Method::Dijkstra}),
                          [](const auto& each) {

@@ -72,7 +72,9 @@ std::string name_of(Bound bound) {
       std::find_if(kBounds.begin(), kBounds.end(), [&](const auto& entry) { return entry.second == bound; })->first);
 }
 
-bool has_precision(Method method) { return method == Method::NovotniKlein || method == Method::KimmelSethian; }
+bool has_precision(Method method) {
+  return method == Method::CarriedSource || method == Method::NovotniKlein || method == Method::KimmelSethian;
+}
 
 std::vector<DistanceOptions> computations(const SharedArguments& a, const std::vector<Method>& otherwise) {
   const DistanceOptions all = common(a);

@@ -59,28 +59,27 @@ std::vector<double> field_of(const Arguments& a, const Surface& surface, PlaceFi
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// At a wall, on the side where the value is least.
 std::vector<Vec3> on_vertices(const Domain& domain, const std::vector<double>& field) {
-  const std::vector<Vec3> found = vertex_gradients(domain.open(), field);
-  std::vector<Vec3> vectors(domain.mesh().vertex_count(), Vec3{kNone, kNone, kNone});
-  std::vector<double> least(domain.mesh().vertex_count(), kInfinity);
-  for (Index v = 0; v < found.size(); ++v) {
-    const Index original = domain.vertex(v);
-    if (!std::isfinite(field[v]) || !(field[v] < least[original])) continue;
-    least[original] = field[v];
-    vectors[original] = found[v];
+  std::vector<Vec3> vectors = vertex_gradients(domain, field);
+  std::vector<std::uint8_t> has_value(vectors.size(), 0);
+  for (Index v = 0; v < field.size(); ++v) {
+    if (std::isfinite(field[v])) has_value[domain.vertex(v)] = 1;
+  }
+  for (Index v = 0; v < vectors.size(); ++v) {
+    if (!has_value[v] || (domain.has_walls() && !domain.is_open(v))) vectors[v] = {kNone, kNone, kNone};
   }
   return vectors;
 }
 
 std::vector<Vec3> on_faces(const Domain& domain, const std::vector<double>& field) {
-  const std::vector<Vec3> found = face_gradients(domain.open(), field);
-  std::vector<Vec3> vectors(domain.mesh().face_count(), Vec3{kNone, kNone, kNone});
-  for (Index f = 0; f < found.size(); ++f) {
+  std::vector<Vec3> vectors = face_gradients(domain, field);
+  std::vector<std::uint8_t> has_value(vectors.size(), 0);
+  for (Index f = 0; f < domain.open().face_count(); ++f) {
     const Face& face = domain.open().faces()[f];
-    if (std::all_of(face.begin(), face.end(), [&](Index v) { return std::isfinite(field[v]); })) {
-      vectors[domain.face(f)] = found[f];
-    }
+    has_value[domain.face(f)] = std::all_of(face.begin(), face.end(), [&](Index v) { return std::isfinite(field[v]); });
+  }
+  for (Index f = 0; f < vectors.size(); ++f) {
+    if (!has_value[f]) vectors[f] = {kNone, kNone, kNone};
   }
   return vectors;
 }

@@ -7,12 +7,11 @@
 
 #include <brushfire/io/write_columns.h>
 #include <brushfire/mesh/reachable.h>
-#include <brushfire/queries/straightest.h>
+#include <brushfire/queries/log_coordinates.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <memory>
-#include <numbers>
 #include <optional>
 
 namespace brushfire::tool {
@@ -54,32 +53,13 @@ std::optional<Vec3> direction_of(const Arguments& a) {
   return Vec3{(*xyz)[0], (*xyz)[1], (*xyz)[2]};
 }
 
-bool is_on_border(const Mesh& mesh, const SurfacePoint& point) {
-  const PointLocation at = locate(mesh, point);
-  return at.on == PointLocation::On::Vertex && mesh.links()[at.vertex] != Link::Circle;
-}
-
-// Angles counter-clockwise and from the direction on, or from the first edge. Around a point they go from 0 to the full
-// turn; at the mesh's border they stay between its two edges.
-void turn(const Mesh& mesh, const SurfacePoint& source, const std::optional<Vec3>& direction, bool on_border,
-          SparseLogMap& map) {
-  const bool mirrored = !is_counter_clockwise(mesh, source);
-  const double first = direction ? angle_of(mesh, source, *direction) : mirrored ? map.total_angle : 0;
-  for (std::size_t i = 0; i < map.angle.size(); ++i) {
-    double& angle = map.angle[i];
-    if (map.radius[i] == 0) continue;
-    angle = mirrored ? first - angle : angle - first;
-    if (!on_border && angle < 0) angle += map.total_angle;
-  }
-}
-
-std::vector<double> rows_of(const SparseLogMap& map, bool on_border) {
-  const double stretch = on_border ? 1 : 2 * std::numbers::pi / map.total_angle;
+// u, v, radius and angle of each.
+std::vector<double> rows_of(const Mesh& mesh, const SurfacePoint& source, const SparseLogMap& map) {
+  const std::vector<std::array<double, 2>> flat = flat_coordinates(mesh, source, map);
   std::vector<double> rows;
-  rows.reserve(kColumns * map.vertex.size());
-  for (std::size_t i = 0; i < map.vertex.size(); ++i) {
-    const double r = map.radius[i], flat = stretch * map.angle[i];
-    rows.insert(rows.end(), {r == 0 ? 0 : r * std::cos(flat), r == 0 ? 0 : r * std::sin(flat), r, map.angle[i]});
+  rows.reserve(kColumns * flat.size());
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    rows.insert(rows.end(), {flat[i][0], flat[i][1], map.radius[i], map.angle[i]});
   }
   return rows;
 }
@@ -149,12 +129,11 @@ int log_map_verb(const Arguments& a, const Talk& talk) {
   // Directions are those in what is open; a source that has several sides was refused.
   const Mesh& open = surface.domain().open();
   const SurfacePoint side = surface.domain().on_open(source).front();
-  const bool on_border = is_on_border(open, side);
-  turn(open, side, direction, on_border, map);
+  turn(open, side, direction, map);
   map = on_file(surface, std::move(map));
 
   if (!a.output.empty()) {
-    const std::vector<double> rows = rows_of(map, on_border);
+    const std::vector<double> rows = rows_of(open, side, map);
     write_columns(a.output, surface.file().mesh,
                   {.names = {"u", "v", "radius", "angle"},
                    .values = rows,

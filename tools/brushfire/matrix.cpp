@@ -172,7 +172,7 @@ void add_matrix(CommandLine& command_line) {
   command_line.add("matrix", "Distances from many places to many places", [&](Verb& verb) {
     add_surface(verb, arguments->file);
     verb.option("--rows", arguments->rows, "PLACES", "all, a list of vertices, or a file with one place per line");
-    verb.option("--cols", arguments->columns, "PLACES", "The same for the columns");
+    verb.option("--cols,--columns", arguments->columns, "PLACES", "The same for the columns");
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
     verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy, with --radius also .npz .mtx");
     verb.talks();

@@ -141,7 +141,7 @@ void add_parcels(CommandLine& command_line) {
     verb.talks();
     add_shared(
         verb, a->shared,
-        {.without = {{kStarting, "distances run from every parcel"}, {{Shared::Scalar}, "the labels are LABELS"}}});
+        {.without = {{kStarting, "distances run from every parcel"}, {{Shared::Scalar}, "the labels that part it are LABELS"}}});
     verb.examples(kExamples);
     verb.run([a](Talk& talk) { return parcels_verb(*a, talk); });
   });

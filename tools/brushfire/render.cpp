@@ -69,6 +69,7 @@ void set_range(const std::string& text, const char* what, ColorScale& scale) {
 RenderOptions options_of(const Arguments& a) {
   RenderOptions options;
   const auto [width, height] = two_numbers(a.size, 'x', "a size is written as 1024x768");
+  if (width != std::floor(width) || height != std::floor(height)) refuse("a size is written as 1024x768");
   constexpr double kAnyInt = 1e6;  // render() itself says what it takes
   if (std::abs(width) > kAnyInt || std::abs(height) > kAnyInt) refuse("'" + a.size + "' is too large a picture");
   options.width = static_cast<int>(width);

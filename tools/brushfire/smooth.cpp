@@ -81,7 +81,7 @@ void add_smooth(CommandLine& command_line) {
     add_shared(verb, a->shared,
                {.without = {{kStarting, "every vertex has a kernel of its own"},
                             {{Shared::Radius}, "the kernel ends at 4 sigma"},
-                            {{Shared::Scalar}, "the values are FIELD"}}});
+                            {{Shared::Scalar}, "the values to smooth are FIELD"}}});
     verb.examples(kExamples);
     verb.run([a](Talk& talk) { return smooth_verb(*a, talk); });
   });

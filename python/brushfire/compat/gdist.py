@@ -63,7 +63,7 @@ def compute_gdist(
     if sources.size == 0:
         return np.full(mesh.vertex_count if targets is None else targets.size, np.inf)
     if targets is None:
-        return mesh.distance(sources, max_distance=max_distance, method=METHOD)
+        return mesh.distance(sources, radius=max_distance, method=METHOD)
     distances = np.full(targets.size, np.inf)
     reachable = joined[targets]
     if reachable.any():

@@ -157,6 +157,27 @@ SurfaceDirection steepest_descent(const Mesh& mesh, std::span<const double> valu
   return best;
 }
 
+std::vector<Vec3> face_gradients(const Domain& domain, std::span<const double> values) {
+  const std::vector<Vec3> on_open = face_gradients(domain.open(), domain.spread(values));
+  std::vector<Vec3> gradients(domain.mesh().face_count());
+  for (Index f = 0; f < on_open.size(); ++f) gradients[domain.face(f)] = on_open[f];
+  return gradients;
+}
+
+std::vector<Vec3> vertex_gradients(const Domain& domain, std::span<const double> values) {
+  const std::vector<double> field = domain.spread(values);
+  const std::vector<Vec3> on_open = vertex_gradients(domain.open(), field);
+  std::vector<Vec3> gradients(domain.mesh().vertex_count());
+  std::vector<double> least(domain.mesh().vertex_count(), kInfinity);
+  for (Index v = 0; v < on_open.size(); ++v) {
+    const Index original = domain.vertex(v);
+    if (!(field[v] < least[original])) continue;
+    least[original] = field[v];
+    gradients[original] = on_open[v];
+  }
+  return gradients;
+}
+
 SurfaceDirection steepest_descent(const Domain& domain, std::span<const double> values, const SurfacePoint& point) {
   const std::vector<double> on_open = domain.spread(values);
   const Mesh& open = domain.open();

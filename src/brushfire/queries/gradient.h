@@ -38,7 +38,13 @@ struct SurfaceDirection {
 // locate() does. O(faces at the point) after a check of the values' number.
 SurfaceDirection steepest_descent(const Mesh& mesh, std::span<const double> values, const SurfacePoint& point);
 
-// The same within walls: at a point of a wall, on the side where the value is least. `values` as for isolines().
+// The same within walls: [face_count] and [vertex_count] of the whole mesh; at a wall, on the side where the value is
+// least, and zero for faces and vertices behind one. `values` as for isolines().
+std::vector<Vec3> face_gradients(const Domain& domain, std::span<const double> values);
+std::vector<Vec3> vertex_gradients(const Domain& domain, std::span<const double> values);
+
+// And the way down within walls: at a point of a wall, on the side where the value is least. `values` as for
+// isolines().
 SurfaceDirection steepest_descent(const Domain& domain, std::span<const double> values, const SurfacePoint& point);
 
 // The direction as a unit vector in space. The mesh must have positions.

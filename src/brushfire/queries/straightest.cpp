@@ -224,17 +224,19 @@ double angle_in_face(const Mesh& mesh, Index f, Index k, const Vec3& direction, 
 
 }  // namespace
 
-double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& direction) {
+double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& given) {
   if (!mesh.has_positions()) throw Error(ErrorCode::InvalidArgument, "a mesh from lengths has no directions in space");
-  const double size = norm(direction);
-  if (!(size > 0) || !std::isfinite(size)) {
+  // Divided by its largest component, so that no square is out of range.
+  const double largest = std::max({std::abs(given.x), std::abs(given.y), std::abs(given.z)});
+  if (!(largest > 0) || !std::isfinite(largest)) {
     throw Error(ErrorCode::InvalidArgument, "a direction must have a finite length > 0");
   }
+  const Vec3 direction{given.x / largest, given.y / largest, given.z / largest};
   const PointLocation at = locate(mesh, point);
   // A shadow on the surface that is shorter than this share of the direction is made of rounding.
   constexpr double kShortest = 1e-12;
   const auto check_shadow = [&](double length) {
-    if (length <= kShortest * size) {
+    if (length <= kShortest) {
       throw Error(ErrorCode::InvalidArgument, "the direction is at right angles to the surface there");
     }
   };

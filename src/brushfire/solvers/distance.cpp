@@ -5,6 +5,7 @@
 #include <brushfire/core/detail/prefault.h>
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
+#include <brushfire/solvers/carried_source/engine.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/offsets.h>
@@ -22,8 +23,9 @@
 namespace brushfire {
 namespace {
 
-constexpr std::array kMethods{Method::Windows,          Method::Exact,         Method::NovotniKlein,
-                              Method::NovotniKlein2002, Method::KimmelSethian, Method::Dijkstra};
+constexpr std::array kMethods{
+    Method::Windows,          Method::Exact,         Method::CarriedSource, Method::NovotniKlein,
+    Method::NovotniKlein2002, Method::KimmelSethian, Method::Dijkstra};
 
 // Methods that share one engine go by the name of the first.
 Method engine_of(Method method) {
@@ -35,6 +37,8 @@ std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
   switch (method) {
     case Method::Windows:
       return windows::make_windows(mesh);
+    case Method::CarriedSource:
+      return carried_source::make_engine(mesh);
     case Method::NovotniKlein:
       return fast_marching::make_engine(mesh);
     case Method::Dijkstra:
@@ -181,6 +185,8 @@ std::string_view name_of(Method method) {
       return "windows";
     case Method::Exact:
       return "exact";
+    case Method::CarriedSource:
+      return "carried-source";
     case Method::NovotniKlein:
       return "novotni-klein";
     case Method::NovotniKlein2002:

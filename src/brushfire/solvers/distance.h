@@ -24,13 +24,16 @@ namespace brushfire {
 enum class Method : std::uint8_t {
   Windows,           // window propagation with merging: relative error <= DistanceOptions::tolerance, proven
   Exact,             // window propagation: the polyhedral distance, to rounding
-  NovotniKlein,      // fast marching, circular update with the visibility test: the fastest; measured error stated
+  CarriedSource,     // fast marching in which every vertex carries the pseudo-source it is seen from; measured error
+                     // stated. On one thread so far, whatever DistanceOptions::threads says
+  NovotniKlein,      // fast marching, circular update with the visibility test; measured error stated
   NovotniKlein2002,  // the update literally as printed in the paper, to show what it does
   KimmelSethian,     // fast marching, planar update: the paper's baseline
   Dijkstra,          // edge graph: an upper bound
 };
 
-// "windows", "exact", "novotni-klein", "novotni-klein-2002", "kimmel-sethian", "dijkstra": as on the command line.
+// "windows", "exact", "carried-source", "novotni-klein", "novotni-klein-2002", "kimmel-sethian", "dijkstra": as on the
+// command line.
 std::string_view name_of(Method method);
 // Throws Error(InvalidArgument) that lists the names.
 Method method_named(std::string_view name);

@@ -14,7 +14,7 @@ namespace windows {
 inline namespace in_doubles {  // see windows/algebra/real.h
 struct WindowFieldData;
 class Departures;
-}
+}  // namespace in_doubles
 }  // namespace windows
 
 // Made by a run with DistanceOptions::keep_paths or keep_windows (DistanceField::windows). Immutable; safe to read from

@@ -67,7 +67,8 @@ TEST(SheetCopies, OfTheSharedCaseAndOfAScanAreTheSingleOne) {
   EXPECT_EQ(prism.distance, exact(in_cases("01-single-prism.obj"), 0).distance);
   EXPECT_NEAR(*std::max_element(prism.distance.begin(), prism.distance.end()), 10.481198390235813, 1e-12);
   const Mesh bunny = test::shared_mesh("stanford-bunny"), doubled = copies_of(bunny, 2);
-  for (const Method method : {Method::Exact, Method::Windows, Method::NovotniKlein, Method::KimmelSethian}) {
+  for (const Method method :
+       {Method::Exact, Method::Windows, Method::CarriedSource, Method::NovotniKlein, Method::KimmelSethian}) {
     DistanceOptions options;
     options.method = method;
     const Source source{vertex_point(bunny, 0)};

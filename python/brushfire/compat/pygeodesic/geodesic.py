@@ -74,7 +74,7 @@ class PyGeodesicAlgorithmExact:
             where = slice(None) if goal is None else goal
             if goal is None or goal.size:
                 distances[where], source = self._solver.distance(
-                    sources[kept], targets=goal, max_distance=max_distance, method=METHOD, return_source=True
+                    sources[kept], targets=goal, radius=max_distance, method=METHOD, return_source=True
                 )
                 best[where] = np.where(source < 0, -1, kept[source]).astype(np.int32)
         return (distances, best) if targets is None else (distances[targets], best[targets])

@@ -45,9 +45,9 @@ struct DoubleDouble {
   }
 
   friend constexpr DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
-    const DoubleDouble upper = sum(a.high, b.high), lower = sum(a.low, b.low);
-    const DoubleDouble once = quick_sum(upper.high, upper.low + lower.high);
-    return quick_sum(once.high, once.low + lower.low);
+    const DoubleDouble highs = sum(a.high, b.high), lows = sum(a.low, b.low);
+    const DoubleDouble once = quick_sum(highs.high, highs.low + lows.high);
+    return quick_sum(once.high, once.low + lows.low);
   }
   friend constexpr DoubleDouble operator-(const DoubleDouble& a) { return {-a.high, -a.low}; }
   friend constexpr DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }

@@ -58,28 +58,28 @@ BRUSHFIRE_INLINE std::uint32_t bits_of(M mask) {
   return bits;
 }
 
-// The numbers as those of another type; the lanes with these numbers of two registers.
+// The numbers as those of another type.
+template <class To, class R>
+BRUSHFIRE_INLINE Register<To, kCountOf<R>> converted_of(R a) {
 #ifdef BRUSHFIRE_HAS_VECTORS
-template <class To, class R>
-BRUSHFIRE_INLINE Register<To, kCountOf<R>> converted_of(R a) {
   return __builtin_convertvector(a, Register<To, kCountOf<R>>);
-}
-template <int... kLane, class R>
-BRUSHFIRE_INLINE Register<NumberOf<R>, static_cast<int>(sizeof...(kLane))> shuffled(R a, R b) {
-  return __builtin_shufflevector(a, b, kLane...);
-}
 #else
-template <class To, class R>
-BRUSHFIRE_INLINE Register<To, kCountOf<R>> converted_of(R a) {
   Register<To, kCountOf<R>> result{};
   for (int k = 0; k < kCountOf<R>; ++k) result[k] = static_cast<To>(a[k]);
   return result;
+#endif
 }
+// The lanes with these numbers, counted over two registers.
 template <int... kLane, class R>
 BRUSHFIRE_INLINE Register<NumberOf<R>, static_cast<int>(sizeof...(kLane))> shuffled(R a, R b) {
-  return {{(kLane < kCountOf<R> ? a[kLane % kCountOf<R>] : b[kLane % kCountOf<R>])...}};
-}
+#if defined(BRUSHFIRE_HAS_VECTORS) && (defined(__clang__) || __GNUC__ >= 12)
+  return __builtin_shufflevector(a, b, kLane...);
+#else
+  constexpr int kCount = kCountOf<R>;
+  return Register<NumberOf<R>, static_cast<int>(sizeof...(kLane))>{
+      (kLane < kCount ? a[kLane % kCount] : b[kLane % kCount])...};
 #endif
+}
 
 #if !defined(BRUSHFIRE_HAS_VECTORS)
 // All in loops.

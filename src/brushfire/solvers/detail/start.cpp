@@ -161,7 +161,10 @@ std::span<const Seed> SeedSearch::in_sight(const Mesh& mesh, const PointLocation
       const double distance = norm(to_apex);  // in mesh.unit(): squares neither vanish nor overflow
       if (!(to_apex.y > 0) || distance > limit) continue;
       if (cross(s.left, to_apex) <= 0 && cross(to_apex, s.right) <= 0) {
-        seeds_.push_back({net.from(Mesh::previous(g)), distance});
+        // The corner's halfedge leads to from(g), which is one end of the edge.
+        const Vec2 side = (net.from(g) == s.first ? Vec2{0, 0} : Vec2{length, 0}) - apex;
+        const double turn = std::atan2(std::abs(cross(side, to_apex)), -dot(side, to_apex));
+        seeds_.push_back({net.from(Mesh::previous(g)), distance, Mesh::previous(g), turn});
       }
       look_through(net, s, g, apex, sights_);
     }

@@ -12,6 +12,10 @@ namespace brushfire::detail {
 struct Seed {
   Index vertex = kNoIndex;
   double distance = 0;  // in mesh.unit()
+  // Of vertices that are seen across edges: the corner, as a halfedge, through which the point is seen from there, and
+  // the angle from that halfedge to the point.
+  Index corner = kNoIndex;
+  double turn = 0;
 };
 
 // What a point sees of an edge: the point lies at `start`, on or below the edge, in the frame of the edge from its

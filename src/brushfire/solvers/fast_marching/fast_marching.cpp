@@ -3,13 +3,13 @@
 
 #include <brushfire/core/detail/planar.h>
 #include <brushfire/core/detail/prefetch.h>
-#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
-#include <brushfire/mesh/detail/locality_order.h>
+#include <brushfire/solvers/detail/local_mesh.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
 #include <brushfire/solvers/fast_marching/detail/fronts.h>
+#include <brushfire/solvers/fast_marching/detail/local_mesh.h>
 #include <brushfire/solvers/fast_marching/detail/march.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
 #include <brushfire/solvers/partition/worker_team.h>
@@ -25,6 +25,8 @@
 
 namespace brushfire::fast_marching {
 namespace {
+
+using detail::LocalMesh;
 
 FrontModel front_model(Method method) {
   if (method == Method::KimmelSethian) return FrontModel::Planar;
@@ -47,42 +49,8 @@ double update(FrontModel model, double length, Vec2 at, double t1, double t2) {
   return update<CircularFront>(length, at, t1, t2);
 }
 
-// The mesh in an order that keeps neighbours close.
-class LocalMesh {
- public:
-  explicit LocalMesh(const Mesh& mesh) : mesh_(mesh) {
-    if (is_local(mesh)) return;
-    VertexOrder order = vertex_locality_order(mesh);
-    face_rank_ = face_ranks(mesh.faces(), order.vertex_rank);
-    mesh_ = mesh.renumbered(order.vertices, order.vertex_rank, face_rank_);
-    vertex_ = std::move(order.vertices);
-  }
-
-  const Mesh& mesh() const { return mesh_; }
-
-  // From numbers of this mesh to the caller's, and back.
-  Index vertex(Index local) const { return vertex_.empty() ? local : vertex_[local]; }
-  PointLocation location(PointLocation at) const {
-    if (vertex_.empty()) return at;
-    const Index face = at.face;
-    at.face = face_rank_[face];
-    if (at.halfedge != kNoIndex) at.halfedge = 3 * at.face + (at.halfedge - 3 * face);
-    if (at.vertex != kNoIndex) {
-      Index k = 0;  // a point at a vertex weighs that alone
-      while (k < 2 && !(at.weights[k] > 0)) ++k;
-      at.vertex = mesh_.from(3 * at.face + k);
-    }
-    return at;
-  }
-
- private:
-  Mesh mesh_;
-  UninitializedArray<Index> vertex_;     // [vertex_count] the caller's numbers; empty: the same
-  UninitializedArray<Index> face_rank_;  // [face_count] the number here of each of the caller's faces
-};
-
 // Rounds are as short as it would take to wait for another thread, and a part is soon in another cache.
-constexpr std::chrono::microseconds kPatience{0};
+constexpr std::chrono::microseconds kStealAfter{0};
 
 // The methods in one precision.
 template <class T>
@@ -163,12 +131,10 @@ class Marcher {
   void work(const CancelToken* cancel) {
     constexpr std::size_t kWorthSharing = 64;
     if (!workers_.team() || state_.load < kWorthSharing) {
-      for (const Index part : state_.work) march_part_(rings_, state_, part);
+      for (const partition::Due& d : state_.due) march_part_(rings_, state_, d.part);
       return;
     }
-    due_.clear();
-    for (const Index part : state_.work) due_.push_back({part, state_.outlook[part].load});
-    workers_.work(due_, [this, cancel](unsigned, Index part) {
+    workers_.work(state_.due, [this, cancel](unsigned, Index part) {
       if (!(cancel && cancel->cancelled())) march_part_(rings_, state_, part);
     });
   }
@@ -332,10 +298,9 @@ class Marcher {
   mutable detail::SeedSearch seeds_;
   MarchState<T> state_;
   MarchPart<T> march_part_ = nullptr;  // of this run
-  partition::WorkerTeam workers_{kPatience};
-  std::vector<partition::Due> due_;  // the parts that work in this round
-  double base_ = 0;                  // the lowest offset: values are kept relative to it
-  double final_ = kInfinity;         // where the front stopped
+  partition::WorkerTeam workers_{kStealAfter};
+  double base_ = 0;           // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;  // where the front stopped
 };
 
 class FastMarching final : public detail::Engine {

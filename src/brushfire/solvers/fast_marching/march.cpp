@@ -7,8 +7,8 @@
 #include <brushfire/core/detail/lanes.h>
 #include <brushfire/solvers/fast_marching/detail/candidate_updates.h>
 #include <brushfire/solvers/fast_marching/detail/fronts.h>
-#include <brushfire/solvers/fast_marching/detail/letters.h>
 #include <brushfire/solvers/fast_marching/detail/march_prefetch.h>
+#include <brushfire/solvers/fast_marching/detail/messages.h>
 #include <brushfire/solvers/fast_marching/detail/relax.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Who works in a round, and what is handed over between two rounds.
+// Who works in a round, and which messages are delivered between two rounds.
 #include <brushfire/solvers/fast_marching/detail/march_state.h>
 
 #include <brushfire/core/detail/prefault.h>
@@ -10,7 +10,7 @@
 namespace brushfire::fast_marching {
 
 template <class T>
-MarchState<T>::MarchState(const Parts& shared_out)
+MarchState<T>::MarchState(const partition::VertexPartition& shared_out)
     : layout(&shared_out),
       front_at(shared_out.places()),
       open(shared_out.places()),
@@ -32,7 +32,7 @@ void MarchState<T>::reset() {
   }
   used.clear();
   awake.clear();
-  work.clear();
+  due.clear();
   bucket = -1;
 }
 
@@ -54,14 +54,10 @@ void MarchState<T>::reset_part(Index p) {
   part.queue.reset();
   part.touched.clear();
   part.news.clear();
-  for (const Pile* box : {&part.inbox, &part.outbox}) {
-    for (const Index c : *box) {
-      for (auto& letters : channels[c].letters) letters.clear();
-      channels[c].waits = false;
-    }
+  for (Pile* in_use : {&part.incoming, &part.outgoing}) {
+    for (const Index c : *in_use) channels[c].clear();
+    in_use->clear();
   }
-  part.inbox.clear();
-  part.outbox.clear();
   part.pops = 0;
   part.used = part.awake = false;
   outlook[p] = {};
@@ -81,7 +77,7 @@ void MarchState<T>::seed(Index place, T v, Index source) {
   wake(layout->of(place));
 }
 
-// Those that are woken by the start of a run are told about by `work`, too.
+// Those that are woken by the start of a run send what they start with, too.
 template <class T>
 void MarchState<T>::wake(Index p) {
   Part& part = parts[p];
@@ -95,69 +91,63 @@ void MarchState<T>::wake(Index p) {
 template <class T>
 void MarchState<T>::begin_run() {
   ++round;
-  for (const Index p : awake) tell(p);
-  work = awake;
+  due.clear();
+  for (const Index p : awake) {
+    send_news(p);
+    due.push_back({p, outlook[p].load});
+  }
 }
 
 template <class T>
 bool MarchState<T>::next_round() {
-  hand_over();
+  deliver();
   ++round;
-  lowest = BucketQueue::kNever;
-  for (const Index p : awake) lowest = std::min(lowest, outlook[p].next);
-  work.clear();
-  if (lowest == BucketQueue::kNever) return false;
+  lowest = partition::next_round(awake, bucket, [&](Index p) { return outlook[p]; }, due);
+  if (due.empty()) return false;
   bucket = std::max(bucket, lowest);
   load = 0;
-  std::size_t still_awake = 0;
-  for (const Index p : awake) {
-    if (outlook[p].next <= bucket) {
-      work.push_back(p);
-      load += outlook[p].load;
-      for (const Index c : parts[p].inbox) channels[c].writes ^= 1;
-    }
-    parts[p].awake = outlook[p].next != BucketQueue::kNever;
-    awake[still_awake] = p;
-    still_awake += parts[p].awake;
+  for (const partition::Due& d : due) {
+    load += d.load;
+    for (const Index c : parts[d.part].incoming) channels[c].flip();
   }
-  awake.resize(still_awake);
+  std::erase_if(awake, [&](Index p) {
+    parts[p].awake = outlook[p].bucket != partition::Outlook::kNever;
+    return !parts[p].awake;
+  });
   return true;
 }
 
 template <class T>
-void MarchState<T>::hand_over() {
-  for (const Index p : work) {
-    for (const Index c : parts[p].outbox) {
+void MarchState<T>::deliver() {
+  for (const partition::Due& d : due) {
+    for (const Index c : parts[d.part].outgoing) {
       const Index to = layout->channels[c].receiver;
       wake(to);
-      if (!std::exchange(channels[c].waits, true)) parts[to].inbox.push(c);
-      Outlook& waits = outlook[to];
-      if (channels[c].lowest < waits.next) waits = {channels[c].lowest, 0};
-      if (channels[c].lowest == waits.next) waits.load += channels[c].letters[channels[c].writes].size();
+      if (channels[c].announce()) parts[to].incoming.push(c);
+      partition::Outlook& waits = outlook[to];
+      if (channels[c].lowest_bucket() < waits.bucket) waits = {channels[c].lowest_bucket(), 0};
+      if (channels[c].lowest_bucket() == waits.bucket) waits.load += channels[c].sent();
     }
-    parts[p].outbox.clear();
+    parts[d.part].outgoing.clear();
   }
 }
 
 template <class T>
-void MarchState<T>::tell(Index p) {
+void MarchState<T>::send_news(Index p) {
   Part& part = parts[p];
   for (const Index place : part.news) prefetch(layout->links_of(place).data());
-  for (const Index place : part.news) write_letters(part, place);
+  for (const Index place : part.news) send(part, place);
   const Bucket next = part.queue.next();
   outlook[p] = {next, part.queue.in(next).size()};
 }
 
 template <class T>
-void MarchState<T>::write_letters(Part& part, Index place) {
+void MarchState<T>::send(Part& part, Index place) {
   const Front& at = front_at[place];
   const Bucket falls_into = bucket_of(at.value);
   for (const auto [to, c] : layout->links_of(place)) {
-    Channel& channel = channels[c];
-    std::vector<Letter>& letters = channel.letters[channel.writes];
-    if (std::exchange(channel.last_round, round) != round) part.outbox.push(c);
-    channel.lowest = letters.empty() ? falls_into : std::min(channel.lowest, falls_into);
-    letters.push_back({to, labelled ? label[place] : 0, at.value, at.sigma});
+    const Message message{to, labelled ? label[place] : 0, at.value, at.sigma};
+    if (channels[c].send(message, falls_into, round)) part.outgoing.push(c);
   }
 }
 

@@ -35,7 +35,7 @@ class RingBuilder {
                1 / mesh.unit(),
                mesh.vertex_count(),
                mesh.has_positions() && !mesh.has_slits()},
-        part_shift_(part_shift(part_size)),
+        part_shift_(partition::part_shift(part_size)),
         lanes_(mesh.vertex_count()),
         unfolded_(mesh, variant) {}
 
@@ -74,7 +74,7 @@ class RingBuilder {
         lanes_.begin(v);
         if (!regular.regular[v - first]) fill_any(v);
       }
-      if (part_shift_ != kWholeMesh) note_border(first, begun_);
+      if (part_shift_ != partition::kWholeMesh) note_border(first, begun_);
       if (obtuse_.size() >= kUnfoldAtOnce) unfold_obtuse_corners();
     }
     unfold_obtuse_corners();
@@ -257,7 +257,7 @@ class RingBuilder {
   // Puts ghosts in place of vertices of other parts.
   void separate_parts() {
     RingLayout& layout = rings_.layout;
-    PartsBuilder builder(shape_.none, part_shift_);
+    partition::VertexPartitionBuilder builder(shape_.none, part_shift_);
     std::sort(at_border_.begin(), at_border_.end());
     at_border_.erase(std::unique(at_border_.begin(), at_border_.end()), at_border_.end());
     for (std::size_t begin = 0, end = 0; begin < at_border_.size(); begin = end) {

@@ -18,9 +18,9 @@ struct Outlook {
   std::size_t load = 0;
 };
 
-// The parts among `active` that have something in the lowest bucket in which any has, or up to `at_least` where that is
-// higher, in the order of `active`: `due`. Returns up to which bucket they work; Outlook::kNever, and none are due,
-// where nothing waits. `outlook_of(part)` is an Outlook.
+// The lowest bucket in which any of the parts `active` has something: Outlook::kNever where nothing waits. `due`: those
+// that have something up to there, or up to `at_least` where that is higher, in the order of `active`.
+// `outlook_of(part)` is an Outlook.
 template <class OutlookOf>
 std::int64_t next_round(const std::vector<Index>& active, std::int64_t at_least, const OutlookOf& outlook_of,
                         std::vector<Due>& due) {
@@ -33,7 +33,7 @@ std::int64_t next_round(const std::vector<Index>& active, std::int64_t at_least,
     lowest = std::min(lowest, outlook.bucket);
     due.push_back({p, outlook.load});
   }
-  return due.empty() ? Outlook::kNever : std::max(lowest, at_least);
+  return lowest;
 }
 
 }  // namespace brushfire::partition

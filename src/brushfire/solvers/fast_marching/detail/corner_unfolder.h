@@ -20,8 +20,8 @@ class CornerUnfolder {
   CornerUnfolder(const Mesh& mesh, Variant variant)
       : mesh_(mesh), unfolder_(mesh), variant_(variant), scale_(1 / mesh.unit()) {}
 
-  // Unfolds those of some corners that are obtuse. rings.add_unfolded(v, Corner): a triangle that offers values to v,
-  // whose sides at v go to the unfolded corner (a) and to the third vertex (b); rings.prefetch(v): it will soon be
+  // Unfolds those of some corners that are obtuse. rings.add_unfolded(v, Corner): a triangle over which v updates the
+  // corner; its sides at v go to that (a) and to the third vertex (b). rings.prefetch(v): the former will soon be
   // called for v. The order does not depend on the variant.
   template <class Rings>
   void unfold(std::span<const Index> corners, Rings& rings) {

@@ -89,8 +89,8 @@ BRUSHFIRE_INLINE void find_updates(const RingBlock<T>& block, const LaneLinks& l
   }
 }
 
-// Vertex v updates its neighbours. A ghost has no blocks and updates nothing: its front is bent, as that of the vertex
-// for which it stands.
+// Vertex v updates its neighbours. A ghost has no blocks and updates nothing: its front is corrected, as that of the
+// vertex for which it stands.
 template <class Front, bool kLabelled, class T>
 BRUSHFIRE_INLINE void update_neighbours(const Rings<T>& rings, MarchState<T>& s, Part<T>& part, Index v,
                                         CandidateUpdates<T>& updates) {
@@ -135,14 +135,14 @@ BRUSHFIRE_INLINE void empty_bucket(const Rings<T>& rings, MarchState<T>& s, Part
 template <class Front, bool kLabelled, class T>
 void march(const Rings<T>& rings, MarchState<T>& s, Index number) {
   Part<T>& part = s.parts[number];
-  read_letters<Front, kLabelled>(s, part);
+  receive_messages<Front, kLabelled>(s, part);
   for (auto next = part.queue.next(); next <= s.bucket; next = part.queue.next()) {
     part.queue.move_to(next);
     empty_bucket<Front, kLabelled>(rings, s, part);
   }
   const Pile& waiting = part.queue.in(part.queue.next());
   for (std::size_t i = 0; i < std::min(waiting.size(), kStatesAhead); ++i) prefetch_state(rings, s, waiting[i]);
-  s.tell(number);
+  s.send_news(number);
   for (std::size_t i = 0; i < std::min(waiting.size(), kBlocksAhead); ++i) prefetch_blocks(rings, waiting[i]);
 }
 

@@ -1,17 +1,18 @@
 // The state of a march, in parts, and the rounds in which the parts work.
 //
 // Every part of the mesh has a queue of its own and empties its buckets by itself. A round: each part that has work in
-// the current bucket reads its letters, empties the bucket, and writes letters about what concerns others. There are as
-// many rounds for a bucket as it takes until no letter falls into it. What a part does in a round depends on nothing
-// that others do in the same round, so it does not matter who works on which part, and when.
+// the current bucket receives its messages, empties the bucket, and sends messages about what concerns others. There
+// are as many rounds for a bucket as it takes until no message falls into it. What a part does in a round depends on
+// nothing that others do in the same round, so it does not matter who works on which part, and when.
 #pragma once
 
 #include <brushfire/core/detail/bucket_queue.h>
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/types.h>
-#include <brushfire/solvers/fast_marching/detail/parts.h>
+#include <brushfire/solvers/partition/message_buffer.h>
+#include <brushfire/solvers/partition/rounds.h>
+#include <brushfire/solvers/partition/vertex_partition.h>
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -53,8 +54,8 @@ struct MarchState {
     BucketQueue queue;
     Pile touched;                  // places with a value, ghosts among them
     Pile news;                     // shared places whose value fell in its last round
-    Pile inbox;                    // channels with letters for it
-    Pile outbox;                   // channels that it wrote into in its last round
+    Pile incoming;                 // channels with messages for it
+    Pile outgoing;                 // channels through which it sent something in its last round
     std::uint64_t last_round = 0;  // that it took part in
     std::uint64_t pops = 0;
     bool used = false;   // in this run
@@ -62,41 +63,28 @@ struct MarchState {
   };
 
   // A value that fell.
-  struct Letter {
+  struct Message {
     Index place, label;  // of the receiver
     T value, sigma;
   };
-  // Its sender writes into one half while its receiver reads, and empties, the other one.
-  struct alignas(64) Channel {
-    std::array<std::vector<Letter>, 2> letters;
-    std::uint64_t last_round = 0;  // that it was written in
-    Bucket lowest = 0;             // of the letters that wait
-    std::uint8_t writes = 0;       // half
-    bool waits = false;            // stands in the receiver's inbox
-  };
-  // What waits for a part, in its queue and in letters.
-  struct Outlook {
-    Bucket next = BucketQueue::kNever;  // the lowest bucket
-    std::size_t load = 0;               // about how much is in it
-  };
 
-  explicit MarchState(const Parts& parts);
+  explicit MarchState(const partition::VertexPartition& parts);
 
-  const Parts* layout;
+  const partition::VertexPartition* layout;
   UninitializedArray<Front> front_at;     // [places]
   UninitializedArray<std::uint8_t> open;  // [places] see Openness
   std::vector<Index> label;               // [places] where labelled
   std::vector<T> start;                   // [labels] the value that each label's front started with
   std::vector<T> fixed_value;             // [places], label-setting only: the value once it is fixed
   std::vector<Part> parts;
-  std::vector<Channel> channels;
-  std::vector<Outlook> outlook;    // [parts]
-  std::vector<Index> used, awake;  // parts; `awake` ascending
-  std::vector<Index> work;         // parts that take part in the current round, ascending
-  std::uint64_t round = 1;         // never begins anew
-  Bucket bucket = -1;              // up to which parts work in the current round
-  Bucket lowest = 0;               // bucket in which something waits
-  std::size_t load = 0;            // about how much work there is in the round
+  std::vector<partition::MessageBuffer<Message>> channels;
+  std::vector<partition::Outlook> outlook;  // [parts] what waits for a part, in its queue and in messages
+  std::vector<Index> used, awake;           // parts; `awake` ascending
+  std::vector<partition::Due> due;          // the parts that work in the current round, ascending
+  std::uint64_t round = 1;                  // never begins anew
+  Bucket bucket = -1;                       // up to which parts work in the current round
+  Bucket lowest = 0;                        // bucket in which something waits
+  std::size_t load = 0;                     // about how much work there is in the round
   T buckets_per_unit = 1;
   bool labelled = false;  // several sources or offsets: fronts of different labels do not mix
 
@@ -111,9 +99,9 @@ struct MarchState {
   void seed(Index place, T v, Index source);  // from outside the march: keeps the lowest (value, label)
 
   void begin_run();  // when all seeds are in
-  // Hands letters over and chooses who works in the next round; false where nothing is left.
+  // Delivers messages and chooses who works in the next round; false where nothing is left.
   bool next_round();
-  void tell(Index part);  // writes letters about its news
+  void send_news(Index part);  // to those whom they concern
 
   // Whether going through all vertices of a part costs less than through those that were touched.
   bool touched_most(Index part) const;
@@ -124,8 +112,8 @@ struct MarchState {
   std::uint64_t pops() const;
 
  private:
-  void hand_over();
-  void write_letters(Part& part, Index place);
+  void deliver();
+  void send(Part& part, Index place);
   void wake(Index part);
 };
 

@@ -45,8 +45,8 @@ BRUSHFIRE_INLINE void relax(MarchState<T>& s, Part<T>& part, Index w, T candidat
   part.queue.push_if(!waits, w, bucket);
 }
 
-// Gaussian curvature bends the front that passes over it: its curvature 1/r falls by the curvature on the way (the
-// Riccati equation of geodesic circles). Bounded so that no vertex turns it over, and it stays a circle.
+// Gaussian curvature flattens the front that passes over it: its curvature 1/r falls by that of the way (the
+// Riccati equation of geodesic circles). Bounded so that no vertex makes it hollow, and it stays a circle.
 template <class T>
 BRUSHFIRE_INLINE void correct_curvature(const Rings<T>& rings, MarchState<T>& s, Index v) {
   const T correction = rings.heads[v].correction;

@@ -5,7 +5,7 @@
 #include <brushfire/core/detail/targets.h>
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/solvers/fast_marching/detail/parts.h>
+#include <brushfire/solvers/partition/vertex_partition.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +46,7 @@ struct RingLayout {
   std::vector<Index> next;              // [blocks beyond the first ones] the vertex's next one; 0: none
   double mean_edge = 1;                 // in mesh.unit()
   int longest_unfolding = 1;            // faces that the longest unfolding of a corner crosses
-  Parts parts;
+  partition::VertexPartition parts;
 };
 
 // Block v is the first one of vertex v; further ones follow those of all vertices.

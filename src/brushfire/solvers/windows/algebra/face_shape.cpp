@@ -12,6 +12,7 @@ Vec3 scaled(const brushfire::Vec3& p, double scale) {
   return {Real{p.x * scale}, Real{p.y * scale}, Real{p.z * scale}};
 }
 
+// (These two: of wider numbers.)
 [[maybe_unused]] FaceShape shape_from_positions(const Mesh& mesh, const Face& t) {
   const double scale = 1 / mesh.unit();  // a power of two: nothing is rounded
   const auto p = mesh.positions();
@@ -66,7 +67,8 @@ Real distance_in(const FaceShape& shape, const std::array<Real, 3>& from, const 
   std::array<Vec2, 3> corner;
   corner[(base + 1) % 3] = {l[base], 0};
   corner[(base + 2) % 3] = {foot_of(shape, base), shape.double_area / l[base]};
-  return norm((to[1] - from[1]) * (corner[1] - corner[0]) + (to[2] - from[2]) * (corner[2] - corner[0]));
+  const std::array<Real, 3> step = step_between(from, to);
+  return norm(step[1] * (corner[1] - corner[0]) + step[2] * (corner[2] - corner[0]));
 }
 
 std::array<Real, 3> weights_from(const std::array<double, 3>& weights) {

@@ -4,6 +4,7 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/windows/algebra/real.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -60,6 +61,18 @@ std::array<Real, 3> corner_distances_in(const F& shape, const std::array<Real, 3
     result[k] = hypot(wa * la + wb * b.x, wb * b.y);
   }
   return result;
+}
+
+// By how much the weights of one point of a face differ from those of another. They sum to zero, and the two that are
+// not the heaviest keep their digits.
+inline std::array<Real, 3> step_between(const std::array<Real, 3>& from, const std::array<Real, 3>& to) {
+  const auto heaviest = static_cast<std::size_t>(std::max_element(from.begin(), from.end()) - from.begin());
+  const std::size_t i = (heaviest + 1) % 3, j = (heaviest + 2) % 3;
+  std::array<Real, 3> step;
+  step[i] = to[i] - from[i];
+  step[j] = to[j] - from[j];
+  step[heaviest] = -(step[i] + step[j]);
+  return step;
 }
 
 // Between two points of a face.

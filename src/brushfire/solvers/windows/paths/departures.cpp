@@ -27,7 +27,7 @@ bool is_explained(const WindowFieldData& data, const PointRecord& record) {
       pseudo_source < n ? data.vertices[pseudo_source].value : data.sources[pseudo_source - n].offset + data.shift;
   const Vec2 apex = frame_of(shape_of(data.mesh, h / 3), h % 3).apex;
   return start < record.value &&
-         std::abs(start + norm(apex - record.ray.source) - record.value) <= kAgreement * record.value;
+         std::abs(start + norm(apex - record.ray.source) - record.value) <= data.room_for(record);
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ std::optional<Departures::Departure> Departures::follow(Index vertex) {
   std::optional<TracedRays::Angle> known;
   FaceWeights at{Mesh::face_of(ray.halfedge), {0, 0, 0}};
   at.weights[Mesh::previous(ray.halfedge) % 3] = 1;
-  const WindowField::Leg leg = trace_leg(data, at, ray, record.value, [&](const RayCrossing& crossing) {
+  const WindowField::Leg leg = trace_leg(data, at, record, [&](const RayCrossing& crossing) {
     trail_.push_back(crossing);
     known = rays_.find(crossing, ray.pseudo_source);
     return known.has_value();

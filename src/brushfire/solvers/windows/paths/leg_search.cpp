@@ -40,7 +40,7 @@ class LegSearch {
       : ask_(question),
         mesh_(question.mesh),
         value_(question.value),
-        room_(kAgreement * question.value),
+        room_(question.room),
         origins_(question.mesh, question.at, question.value) {
     for (Index s = 0; s < ask_.sources.size(); ++s) {
       const PointLocation& place = ask_.sources[s].at;

@@ -20,6 +20,7 @@ struct LegQuestion {
   const std::function<double(Index)>& vertex_value;  // NaN: not known
   PointLocation at;
   double value = 0;
+  double room = 0;  // by which the leg and the value where it starts may miss that
   // Where the value seems to have come from. It is looked at first, and no more than that.
   Index pseudo_source = kNoIndex;  // vertex, or vertex count + position of the source
   Index halfedge =
@@ -28,12 +29,9 @@ struct LegQuestion {
 };
 
 // The leg that ends at the point: straight to a vertex or a source from which it explains the value; proven by its
-// length, in numbers of 106 bits. Where nothing explains the value to kAgreement, the shortest that was found. No
+// length, in numbers of 106 bits. Where nothing explains the value (to `room`), the shortest that was found. No
 // points where there is none. Its length is in mesh.unit().
 WindowField::Leg find_leg(const LegQuestion& question);
-
-// What a leg and the value where it starts may miss the value at its end by, as a share of it.
-inline constexpr double kAgreement = 1e-12;
 
 // A leg that passes a vertex at this share of the way to the nearer of its ends goes through it: the bend that this
 // makes cannot be told from straight.

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -58,6 +59,14 @@ struct WindowFieldData {
   std::vector<PointRecord> target;     // [targets]
   std::shared_ptr<const PointValues> all_points;  // where all windows were kept
   std::shared_ptr<const detail::SheetView> view;  // where `mesh` is a single mesh (sheets.h): of the caller's
+
+  // What a leg and the value where it starts may miss the value at its end by: a share of the whole path, and what
+  // values are rounded by, which offsets make larger.
+  Real room_for(const PointRecord& record) const {
+    constexpr double kAgreement = 1e-12, kRounding = 8 * std::numeric_limits<double>::epsilon();
+    const Real start = record.label < sources.size() ? sources[record.label].offset + shift : 0;
+    return kAgreement * (record.value - start) + kRounding * record.value;
+  }
 };
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

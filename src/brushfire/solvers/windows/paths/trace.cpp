@@ -26,15 +26,16 @@ struct Position {
 
 class Tracer {
  public:
-  Tracer(const WindowFieldData& data, const Ray& ray, Real value, const CrossingListener& knows_the_rest)
+  Tracer(const WindowFieldData& data, const PointRecord& record, const CrossingListener& knows_the_rest)
       : data_(data),
         mesh_(data.mesh),
         faces_(mesh_.faces()),
         lengths_(mesh_.lengths()),
         opposite_(mesh_.opposite()),
-        ray_(ray),
-        value_(value),
-        start_(ray.pseudo_source < mesh_.vertex_count() ? value_of(ray.pseudo_source) : 0),
+        ray_(record.ray),
+        value_(record.value),
+        room_(data.room_for(record)),
+        start_(ray_.pseudo_source < mesh_.vertex_count() ? value_of(ray_.pseudo_source) : 0),
         knows_the_rest_(knows_the_rest) {}
 
   WindowField::Leg run(const FaceWeights& at) {
@@ -68,7 +69,7 @@ class Tracer {
   bool is_explained() const {
     const Real start =
         leg_.vertex != kNoIndex ? value_of(leg_.vertex) : data_.sources[leg_.source].offset + data_.shift;
-    return abs(start + leg_.length - value_) <= kAgreement * value_;
+    return abs(start + leg_.length - value_) <= room_;
   }
 
   // Over the position's edge into the face beyond, or to a vertex in the way.
@@ -127,8 +128,7 @@ class Tracer {
     const Real way = length_of(before.x, before.y);
     const Real nearer = std::min(leg_.length + way, length_of(after.x, after.y));
     if (!(miss <= kThrough * nearer)) return false;
-    if (!(value_of(v) < value_) || !(abs(value_of(v) + leg_.length + way - value_) <= kAgreement * value_))
-      return false;
+    if (!(value_of(v) < value_) || !(abs(value_of(v) + leg_.length + way - value_) <= room_)) return false;
     std::array<Real, 3> weights{0, 0, 0};
     weights[at.corner] = 1;
     leg_.vertex = v;
@@ -176,7 +176,7 @@ class Tracer {
   const std::span<const double> lengths_;
   const std::span<const Index> opposite_;
   const Ray& ray_;
-  const Real value_;
+  const Real value_, room_;
   const Real start_;  // the pseudo-source's value, where that is a vertex
   const CrossingListener& knows_the_rest_;
   WindowField::Leg leg_;
@@ -184,9 +184,9 @@ class Tracer {
 
 }  // namespace
 
-WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, Real value,
+WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const PointRecord& record,
                            const CrossingListener& knows_the_rest) {
-  return Tracer(data, ray, value, knows_the_rest).run(at);
+  return Tracer(data, record, knows_the_rest).run(at);
 }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -17,11 +17,11 @@ struct RayCrossing {
 };
 using CrossingListener = std::function<bool(const RayCrossing&)>;
 
-// The leg that ends at the point `at` of the face of ray.halfedge and came along `ray`; value: of the point. No points
+// The leg that ends at the point `at` of the face of its halfedge and came along the record's ray. No points
 // where rounding could have decided anything about it, or where it is not as long as the values at its ends say:
 // find_leg() then has to look. `knows_the_rest`, where given, hears of each crossing and may end the trace there: no
 // points either.
-WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const Ray& ray, Real value,
+WindowField::Leg trace_leg(const WindowFieldData& data, const FaceWeights& at, const PointRecord& record,
                            const CrossingListener& knows_the_rest = {});
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

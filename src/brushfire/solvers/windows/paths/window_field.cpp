@@ -99,12 +99,12 @@ WindowField::Leg last_leg_of(const windows::WindowFieldData& data, const Found& 
   const Ray& ray = found.record.ray;
   WindowField::Leg leg;
   if (ray.halfedge == kNoIndex) leg = leg_without_ray(data, found, vertex);
-  if (ray.halfedge != kNoIndex) leg = windows::trace_leg(data, found.at, ray, found.record.value);
+  if (ray.halfedge != kNoIndex) leg = windows::trace_leg(data, found.at, found.record);
   if (leg.points.empty()) {
     const std::function<double(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
     const PointLocation at = locate(data.mesh, {found.at.face, found.at.weights});
     leg = windows::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value,
-                             ray.pseudo_source, ray.halfedge, ray.source});
+                             data.room_for(found.record), ray.pseudo_source, ray.halfedge, ray.source});
   }
   leg.length *= data.mesh.unit();
   return leg;

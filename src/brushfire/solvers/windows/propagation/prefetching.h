@@ -20,15 +20,15 @@ class Prefetching {
     for (std::size_t i = 0; i < kAroundAhead; ++i) fetch_around(queue_.peek_list(i));
     for (std::size_t i = 0; i < kWindowsAhead; ++i) fetch_windows(queue_.peek_list(i));
   }
-  // While windows or a list take their turn: the faces of later ones; then their windows and the faces beyond; then the
+  // While windows or a list are propagated: the faces of later ones; then their windows and the faces beyond; then the
   // vertices there.
   [[gnu::always_inline]] void next_lists() const {
     fetch_face(queue_.peek_list(kFacesAhead));
     fetch_around(queue_.peek_list(kAroundAhead));
     fetch_windows(queue_.peek_list(kWindowsAhead));
   }
-  // While a vertex takes its turn: what later ones know of their light, the face that it came through, and the faces
-  // around.
+  // While windows go on from a vertex: what later ones know of their light, the face that it came through, and the
+  // faces around.
   [[gnu::always_inline]] void next_vertices() const {
     if (part_.run->in_lists) return;  // exact runs gain nothing by it
     if (const Index v = queue_.peek_vertex(kLightAhead); v != kNoIndex) {

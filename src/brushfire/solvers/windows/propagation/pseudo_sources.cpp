@@ -64,8 +64,7 @@ void reach_targets(PartState& part, const FaceWeights& at, Real sigma, Index pse
   part.run->targets.for_each_in(at.face, [&](const TargetInFace& t) {
     const Index k = f.length[0] > 0 ? 0 : 1;
     if (!(f.length[k] > 0)) return;
-    std::array<Real, 3> step;
-    for (std::size_t i = 0; i < 3; ++i) step[i] = t.weights[i] - at.weights[i];
+    const std::array<Real, 3> step = step_between(at.weights, t.weights);
     const Vec2 d = in_frame(frame_of(f, k), k, step);
     const Vec2 source = in_frame(frame_of(f, k), k, at.weights);
     reach_target(part, t.target, sigma + length_of(d.x, d.y), 0, 0,

@@ -33,7 +33,7 @@ inline bool leads_on(const PartState& part, Index h) { return part.face(h).beyon
 [[gnu::noinline]] void pass_at_once(PartState& part, Index h, const Window& w);
 [[gnu::noinline]] bool ends_here(const PartState& part, const WindowFace& f, Index k, const Window& w);
 
-// Until the turn of its halfedge, in the face of h.
+// In the face of h, until h comes up in the queue.
 [[gnu::always_inline]] inline void wait(PartState& part, WindowFace& f, Index h, const Window& w) {
   const RunState& run = *part.run;
   const Index k = h % 3;
@@ -48,7 +48,7 @@ inline bool leads_on(const PartState& part, Index h) { return part.face(h).beyon
   if (part.activity->windows.push(f.waiting, h, w, bucket)) queue.push_list(h, to_double(at_apex.value), bucket);
 }
 
-// A window is about to enter the face of h: unless it is of no use, it waits there for its turn.
+// A window is about to enter the face of h: unless it is of no use, it waits there.
 [[gnu::always_inline]] inline void enter_face(PartState& part, Index h, const Window& w, Origin origin) {
   if (!part.is_here(h / 3)) return send(part, h, w, origin);
   WindowFace& f = part.face(h);

@@ -5,7 +5,7 @@
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
-// The turn of halfedge h: what waits there goes on as one list.
+// Halfedge h has come up in the queue: what waits there goes on as one list.
 void propagate_list(PartState& part, Index h);
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -11,12 +11,12 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // All windows that wait on one face are in one list, whose head is in the face's record (WindowFace::waiting); they are
-// few. Those of a halfedge are taken together when its turn has come. Freed places are used again, last one first, so
-// that a run in steady state allocates nothing.
+// few. Those of a halfedge are taken together when it comes up in the queue. Freed places are used again, last one
+// first, so that a run in steady state allocates nothing.
 class WindowLists {
  public:
-  // `turn`: when the window wants to be taken (EventQueue::turn_of). Returns true where no window of the halfedge has
-  // waited for a turn as early.
+  // `bucket`: in which the window is to be taken (EventQueue::turn_of). Returns true where no window of the halfedge
+  // has waited for a bucket as early.
   [[gnu::always_inline]] bool push(Index& first, Index h, const Window& w, std::int64_t bucket) {
     std::int64_t earliest = std::numeric_limits<std::int64_t>::max();
     for (Index i = first; i != kNoIndex; i = pool_[i].next) {

@@ -132,8 +132,8 @@ class EventQueue {
   };
 
   std::int64_t number(double key) const {
-    constexpr double kLastKey = 4e18;  // keys beyond what 64 bits count share the last bucket
-    return static_cast<std::int64_t>(std::min(key * inverse_width_, kLastKey));
+    constexpr double kLastBucket = 4e18;  // keys beyond what 64 bits count share the last bucket
+    return static_cast<std::int64_t>(std::min(key * inverse_width_, kLastBucket));
   }
 
   [[gnu::always_inline]] void push(const Event& e, std::int64_t bucket) {

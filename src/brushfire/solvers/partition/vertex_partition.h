@@ -1,8 +1,8 @@
-// Parts of a mesh that march by themselves, and whom they tell what.
+// The vertices of a mesh cut into parts that work by themselves, and who sends messages to whom.
 //
 // A part is a run of consecutive places of a local order. Where its blocks name a vertex of another part they name a
 // ghost of it: a place of the part's own, beyond the vertices. So a part reads and writes its own places only, and
-// parts can march side by side; what concerns others is written into channels and read when all are done.
+// parts can work side by side; what concerns others is sent through channels and received when all are done.
 #pragma once
 
 #include <brushfire/core/detail/inline.h>
@@ -15,13 +15,13 @@
 #include <span>
 #include <vector>
 
-namespace brushfire::fast_marching {
+namespace brushfire::partition {
 
 inline constexpr int kWholeMesh = 31;  // the shift of a part that has all vertices
 
 // Of places: the vertices first, then one that stands for "no vertex", then the ghosts, part by part.
-struct Parts {
-  // Where a value is to be told: at a place of the receiver, through a channel.
+struct VertexPartition {
+  // Where the value of a place is to be sent: to a place of the receiver, through a channel.
   struct Link {
     Index place, channel;
   };
@@ -52,7 +52,7 @@ struct Parts {
   std::size_t places() const { return first_ghost() + owner.size(); }
   bool is_ghost(Index place) const { return place > vertex_count; }
 
-  // To whom the news of a place goes that is a ghost or has some.
+  // To whom messages about a place go that is a ghost or has some.
   std::span<const Link> links_of(Index place) const {
     if (is_ghost(place)) return {&to_owner[place - first_ghost()], 1};
     const Index i = rank(place);
@@ -90,16 +90,16 @@ struct Parts {
 int part_shift(Index part_size);
 
 // Collects which vertices of a part name which ones of other parts, part by part, in ascending order of the vertices.
-class PartsBuilder {
+class VertexPartitionBuilder {
  public:
-  PartsBuilder(Index vertex_count, int shift);
+  VertexPartitionBuilder(Index vertex_count, int shift);
 
   // A vertex of the part at hand, and an end of one of its sides that lies in another part.
   void add(Index vertex, Index end) { names_.push_back({vertex, end}); }
   // Completes part `part`; those before it that were not completed name no vertex of others. The ghosts of the ends
   // that were added, in the same order, until the next call.
   std::span<const Index> finish_part(Index part);
-  Parts take();
+  VertexPartition take();
 
  private:
   struct Name {
@@ -111,10 +111,10 @@ class PartsBuilder {
   void share();
   void open_channels();
 
-  Parts parts_;
+  VertexPartition parts_;
   std::vector<Name> names_;
   std::vector<Index> ghosts_, next_;
   std::vector<std::uint64_t> seen_;  // a bit for every vertex
 };
 
-}  // namespace brushfire::fast_marching
+}  // namespace brushfire::partition

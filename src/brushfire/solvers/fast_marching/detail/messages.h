@@ -1,4 +1,4 @@
-// What a part is told of by the others before its round.
+// What a part receives from the others before its round.
 #pragma once
 
 #include <brushfire/core/detail/inline.h>
@@ -11,7 +11,7 @@
 
 namespace brushfire::fast_marching {
 
-// A part's news are told; who saw them is free to have others.
+// A part's news have been sent; who saw them is free to have others.
 template <class T>
 void forget_news(MarchState<T>& s, Part<T>& part) {
   for (const Index v : part.news) s.open[v] &= static_cast<std::uint8_t>(~Openness::kNews);
@@ -40,55 +40,54 @@ void see_each_other(MarchState<T>& s, Part<T>& part, Index ghost, T fell_to) {
 
 // A ghost's vertex fell.
 template <class Front, bool kLabelled, class T>
-BRUSHFIRE_INLINE void hear(MarchState<T>& s, Part<T>& part, const typename MarchState<T>::Letter& letter) {
-  const Index ghost = letter.place;
+BRUSHFIRE_INLINE void receive(MarchState<T>& s, Part<T>& part, const typename MarchState<T>::Message& message) {
+  const Index ghost = message.place;
   auto& at = s.front_at[ghost];
-  bool falls = letter.value < at.value;
-  if constexpr (kLabelled) falls |= letter.value == at.value && letter.label < s.label[ghost];
+  bool falls = message.value < at.value;
+  if constexpr (kLabelled) falls |= message.value == at.value && message.label < s.label[ghost];
   if (!falls) return;  // it fell further by a candidate of this part, or this is where its value came from
   part.touched.push_if(at.value == MarchState<T>::kUnreached, ghost);
-  at = {letter.value, letter.sigma};
-  if constexpr (kLabelled) s.label[ghost] = letter.label;
+  at = {message.value, message.sigma};
+  if constexpr (kLabelled) s.label[ghost] = message.label;
   if constexpr (Front::kHasRadius) {
     s.open[ghost] |= Openness::kOpen;
-    part.queue.push(ghost, s.bucket_of(letter.value));
+    part.queue.push(ghost, s.bucket_of(message.value));
   }
 }
 
-// The letters about ghosts first: which values of this part fell in the last round is still known.
+// The messages about ghosts first: which values of this part fell in the last round is still known.
 template <class Front, bool kLabelled, class T>
-void read_letters(MarchState<T>& s, Part<T>& part) {
+void receive_messages(MarchState<T>& s, Part<T>& part) {
   if (part.last_round + 1 != s.round) forget_news(s, part);
   part.last_round = s.round;
-  for (const Index c : part.inbox) {
+  for (const Index c : part.incoming) {
     const auto& channel = s.channels[c];
-    for (const auto& letter : channel.letters[1 - channel.writes]) {
-      prefetch(&s.front_at[letter.place]);
-      prefetch(&s.open[letter.place]);
+    for (const auto& message : channel.received()) {
+      prefetch(&s.front_at[message.place]);
+      prefetch(&s.open[message.place]);
     }
   }
   const bool rash = std::any_of(part.news.begin(), part.news.end(), [&](Index v) { return was_rash(s, v); });
-  for (const Index c : part.inbox) {
+  for (const Index c : part.incoming) {
     const auto& channel = s.channels[c];
-    for (const auto& letter : channel.letters[1 - channel.writes]) {
-      if (!s.layout->is_ghost(letter.place)) continue;
-      hear<Front, kLabelled>(s, part, letter);
-      if (rash && s.bucket_of(letter.value) <= s.bucket) see_each_other(s, part, letter.place, letter.value);
+    for (const auto& message : channel.received()) {
+      if (!s.layout->is_ghost(message.place)) continue;
+      receive<Front, kLabelled>(s, part, message);
+      if (rash && s.bucket_of(message.value) <= s.bucket) see_each_other(s, part, message.place, message.value);
     }
   }
   forget_news(s, part);
-  for (const Index c : part.inbox) {
+  for (const Index c : part.incoming) {
     auto& channel = s.channels[c];
-    for (const auto& letter : channel.letters[1 - channel.writes]) {
-      if (s.layout->is_ghost(letter.place)) continue;
-      std::uint8_t& state = s.open[letter.place];
-      if (letter.value < s.front_at[letter.place].value) state = Openness::forgiven(state);
-      relax<Front, kLabelled>(s, part, letter.place, letter.value, letter.sigma, letter.label);
+    for (const auto& message : channel.received()) {
+      if (s.layout->is_ghost(message.place)) continue;
+      std::uint8_t& state = s.open[message.place];
+      if (message.value < s.front_at[message.place].value) state = Openness::forgiven(state);
+      relax<Front, kLabelled>(s, part, message.place, message.value, message.sigma, message.label);
     }
-    channel.letters[1 - channel.writes].clear();
-    channel.waits = false;
+    channel.clear_received();
   }
-  part.inbox.clear();
+  part.incoming.clear();
 }
 
 }  // namespace brushfire::fast_marching

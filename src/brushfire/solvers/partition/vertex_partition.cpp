@@ -1,22 +1,22 @@
 // Finds ghosts, and who is to be told about whom.
-#include <brushfire/solvers/fast_marching/detail/parts.h>
+#include <brushfire/solvers/partition/vertex_partition.h>
 
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
-namespace brushfire::fast_marching {
+namespace brushfire::partition {
 
 int part_shift(Index part_size) {
   return std::min(kWholeMesh, static_cast<int>(std::bit_width(std::max<Index>(1, part_size) - 1)));
 }
 
-PartsBuilder::PartsBuilder(Index vertex_count, int shift) : seen_(vertex_count / 64 + 1) {
+VertexPartitionBuilder::VertexPartitionBuilder(Index vertex_count, int shift) : seen_(vertex_count / 64 + 1) {
   parts_.vertex_count = vertex_count;
   parts_.shift = shift;
 }
 
-std::span<const Index> PartsBuilder::finish_part(Index part) {
+std::span<const Index> VertexPartitionBuilder::finish_part(Index part) {
   parts_.ghost_offset.resize(part + 1, parts_.ghost_offset.back());
   const Index first = parts_.ghost_offset.back();
   find_ghosts(first);
@@ -27,7 +27,7 @@ std::span<const Index> PartsBuilder::finish_part(Index part) {
 }
 
 // One for each vertex that is named, in ascending order.
-void PartsBuilder::find_ghosts(Index first) {
+void VertexPartitionBuilder::find_ghosts(Index first) {
   std::vector<Index>& owner = parts_.owner;
   for (const Name& n : names_) {
     std::uint64_t& bits = seen_[n.end / 64];
@@ -45,7 +45,7 @@ void PartsBuilder::find_ghosts(Index first) {
   }
 }
 
-void PartsBuilder::surround_ghosts(Index first) {
+void VertexPartitionBuilder::surround_ghosts(Index first) {
   std::vector<Index>& offset = parts_.near_offset;
   const Index none = parts_.first_ghost();
   offset.resize(parts_.owner.size() + 1, 0);
@@ -56,7 +56,7 @@ void PartsBuilder::surround_ghosts(Index first) {
   for (std::size_t i = 0; i < names_.size(); ++i) parts_.near[next_[ghosts_[i] - none - first]++] = names_[i].vertex;
 }
 
-Parts PartsBuilder::take() {
+VertexPartition VertexPartitionBuilder::take() {
   const Index count = parts_.vertex_count == 0 ? 1 : parts_.of(parts_.vertex_count - 1) + 1;
   parts_.ghost_offset.resize(count + 1, parts_.ghost_offset.back());
   share();
@@ -65,20 +65,20 @@ Parts PartsBuilder::take() {
 }
 
 // The vertices that have ghosts, and their ghosts in the order of the parts.
-void PartsBuilder::share() {
-  Parts& p = parts_;
+void VertexPartitionBuilder::share() {
+  VertexPartition& p = parts_;
   p.shared.resize(p.vertex_count / 64 + 1);
   for (const Index w : p.owner) p.shared[w / 64].bits |= std::uint64_t{1} << w % 64;
   Index count = 0;
-  for (Parts::Shared& around : p.shared) {
+  for (VertexPartition::Shared& around : p.shared) {
     around.before = count;
     count += static_cast<Index>(std::popcount(around.bits));
   }
 }
 
-void PartsBuilder::open_channels() {
-  Parts& p = parts_;
-  const auto by_receiver = [](const Parts::Channel& a, const Parts::Channel& b) {
+void VertexPartitionBuilder::open_channels() {
+  VertexPartition& p = parts_;
+  const auto by_receiver = [](const VertexPartition::Channel& a, const VertexPartition::Channel& b) {
     return std::pair(a.receiver, a.sender) < std::pair(b.receiver, b.sender);
   };
   // Calls act(ghost, part of the ghost, part of its vertex), in ascending order.
@@ -87,7 +87,7 @@ void PartsBuilder::open_channels() {
       for (Index g = p.ghost_offset[part]; g < p.ghost_offset[part + 1]; ++g) act(g, part, p.of(p.owner[g]));
     }
   };
-  Parts::Channel last{kNoIndex, kNoIndex};
+  VertexPartition::Channel last{kNoIndex, kNoIndex};
   for_each_ghost([&](Index, Index part, Index home) {
     if (part == last.sender && home == last.receiver) return;
     last = {part, home};
@@ -95,13 +95,13 @@ void PartsBuilder::open_channels() {
     p.channels.push_back({home, part});
   });
   std::sort(p.channels.begin(), p.channels.end(), by_receiver);
-  const auto same = [](const Parts::Channel& a, const Parts::Channel& b) {
+  const auto same = [](const VertexPartition::Channel& a, const VertexPartition::Channel& b) {
     return a.receiver == b.receiver && a.sender == b.sender;
   };
   p.channels.erase(std::unique(p.channels.begin(), p.channels.end(), same), p.channels.end());
   const auto channel = [&](Index sender, Index receiver) {
     const auto at =
-        std::lower_bound(p.channels.begin(), p.channels.end(), Parts::Channel{sender, receiver}, by_receiver);
+        std::lower_bound(p.channels.begin(), p.channels.end(), VertexPartition::Channel{sender, receiver}, by_receiver);
     return static_cast<Index>(at - p.channels.begin());
   };
 
@@ -125,4 +125,4 @@ void PartsBuilder::open_channels() {
   });
 }
 
-}  // namespace brushfire::fast_marching
+}  // namespace brushfire::partition

@@ -1,0 +1,31 @@
+// Curves on the surface from what people have: chains of vertices, and polylines drawn in space.
+#pragma once
+
+#include <brushfire/core/progress.h>
+#include <brushfire/core/types.h>
+#include <brushfire/mesh/domain.h>
+#include <brushfire/queries/surface_path.h>
+
+#include <span>
+
+namespace brushfire {
+
+// The curve along edges through these vertices. Throws Error(IndexOutOfRange) for one that does not exist, and
+// Error(InvalidArgument) for none at all, and for two neighbours that no edge joins, with their places in the list.
+SurfacePath curve_along(const Mesh& mesh, std::span<const Index> vertices, bool closed = false);
+
+struct ProjectedCurve {
+  SurfacePath path;
+  double largest_gap = 0;  // how far the polyline is from the surface at most, of the places that were looked at
+  Vec3 gap_position;       // of the polyline, where that is
+};
+
+// A polyline in space, put onto the surface: its corners and, along pieces that are longer than the mesh's mean edge,
+// points so often that no piece is longer, each at the nearest point of the surface; between them the shortest paths.
+// Whether a curve that lies far off the surface means anything is for the caller to say: largest_gap tells. Throws
+// Error(InvalidArgument) for no points, a mesh without positions, and places between which no way leads; what
+// NearestPointFinder throws. O(points log faces) and a short exact run for each.
+ProjectedCurve project_curve(const Domain& domain, std::span<const Vec3> positions, bool closed = false,
+                             const CancelToken* cancel = nullptr);
+
+}  // namespace brushfire

@@ -1,0 +1,262 @@
+// Turns of vertices in buckets of their values.
+#include <brushfire/solvers/carried_source/detail/march.h>
+
+#include <brushfire/core/detail/prefetch.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace brushfire::carried_source {
+namespace {
+
+// In mean edges. Order inside the front does not matter much: half an edge measured best for the other methods, too.
+constexpr double kBucketWidth = 0.5;
+// Fronts are not quite as round as their carried sources say.
+constexpr double kSlack = 0.02;
+// Of two sources that give the same value the one that is farther by this foretells more vertices rightly: a ray that
+// passes a vertex closely ties, in rounding, with the way through that vertex.
+constexpr double kFarther = 0.1;
+// How far the front is ahead of values that no longer change. Near sources, and where edges are long, a vertex may be
+// reached over an edge one end of which is farther than itself, and so late. Flat meshes stay exact with this.
+constexpr double kSettling = 2;
+
+template <class T>
+constexpr T kNews = 1 - 4 * kEpsilon<T>;
+template <class T>
+constexpr T kTie = 1 + 8 * kEpsilon<T>;
+
+// Without a branch: which it is cannot be foreseen.
+template <class T>
+BRUSHFIRE_INLINE T minus_if(Index one) {
+  return T(1) - T(2) * static_cast<T>(static_cast<int>(one));
+}
+
+constexpr std::size_t kFrontAhead = 16, kRecordAhead = 10, kEndsAhead = 5, kRecordLines = 9, kCacheLine = 64;
+constexpr Index kUsualSides = 8;
+
+}  // namespace
+
+template <class T>
+struct March<T>::Turn {
+  const Front& front;
+  const Record<T>& record;
+  const SideEnd<T>* ends;
+  const Side<T>* sides;
+  const DarkSets* dark;       // null: none
+  const LensNumbers* lenses;  // null: none
+};
+
+template <class T>
+March<T>::March(const Records<T>& records) : records_(records), fronts_(records.vertex_count) {
+  for (Index v = 0; v < records.vertex_count; ++v) fronts_[v].around = records.around[v];
+  // One more than there can be: the last one is written and not counted.
+  lists_.ahead.resize(records.most_sides + 1), lists_.alongs.resize(records.most_sides + 1);
+  lists_.closed.resize(records.most_sides), lists_.offers.resize(records.most_updates + 1);
+  per_unit_ = static_cast<T>(1 / (kBucketWidth * records.mean_edge));
+  slack_ = static_cast<T>(kSlack * records.mean_edge);
+  settling_ = static_cast<T>(kSettling * records.mean_edge);
+  farther_ = static_cast<T>(kFarther * records.mean_edge);
+}
+
+template <class T>
+void March<T>::reset() {
+  for (const Index v : touched_) {
+    Front& f = fronts_[v];
+    const Around<T> around = f.around;
+    f = {};
+    f.around = around;
+  }
+  touched_.clear();
+  queue_.reset();
+  turns_ = updates_ = 0;
+  settled_ = 0;
+}
+
+template <class T>
+void March<T>::begin_at(const Start<T>& s) {
+  accept<true>(s.vertex, {s.value, s.sigma, s.x, s.y}, s.sector, s.label);
+}
+
+template <class T>
+typename March<T>::Carried March<T>::carried(Index v) const {
+  const Front& f = fronts_[v];
+  return {f.sigma, f.x, f.y, static_cast<Index>(std::countr_zero(f.sector))};
+}
+
+template <class T>
+BucketQueue::Bucket March<T>::bucket_of(T value) const {
+  constexpr T kLast = T(0x1p60);
+  const T bucket = value * per_unit_;
+  return static_cast<BucketQueue::Bucket>(bucket < kLast ? bucket : kLast);
+}
+
+template <class T>
+template <bool kLabelled>
+BRUSHFIRE_INLINE void March<T>::accept(Index v, const Offer<T>& o, Index sector, Index label) {
+  Front& f = fronts_[v];
+  if (f.value < settled_) return;
+  const bool news = o.value < f.value * kNews<T>;
+  const bool tie = (o.value < f.value * kTie<T>)&(o.sigma < f.sigma - farther_);
+  bool lower_label = false;
+  if constexpr (kLabelled) lower_label = (o.value <= f.value) & (label < f.label) & (o.value < kUnreached);
+  if constexpr (kLabelled) {
+    if (!news && !(tie && label == f.label) && !lower_label) return;
+  } else {
+    if (!(news | tie)) return;
+  }
+  const T old = f.value;
+  f.value = lesser(o.value, old), f.sigma = o.sigma, f.x = o.x, f.y = o.y;
+  f.sector = static_cast<SectorSet>(1u << sector);
+  f.label = label;
+  const BucketQueue::Bucket bucket = bucket_of(f.value);
+  const bool waits = (f.state == kWaiting) & (bucket == bucket_of(old));
+  touched_.push_if(f.state == kAway, v);
+  if (f.turns >= kMostTurns) return;
+  f.state = kWaiting;
+  queue_.push_if(!waits, v, bucket);
+}
+
+// A vertex's source in the frame of a side, from the vertex (or the side's end) on.
+template <class T>
+BRUSHFIRE_INLINE SourceAt<T> March<T>::see(const Front& f, const Side<T>& side, bool at_end, Index hand, Index lenses,
+                                           SectorSet dark) const {
+  if (lenses != kNoIndex) [[unlikely]] {
+    const Lens& lens = records_.lenses[lenses][static_cast<std::size_t>(std::countr_zero(f.sector))];
+    const T x = static_cast<T>(lens.xx) * f.x + static_cast<T>(lens.xy) * f.y;
+    const T y = static_cast<T>(lens.yx) * f.x + static_cast<T>(lens.yy) * f.y;
+    return source_below<T, bool>(f.value, f.sigma, x, y, false, !lens.lit, 1, 0, 1, 0, 1, side.length);
+  }
+  const T c = at_end ? side.end_c : side.c, s = at_end ? side.end_s : side.s, sign = minus_if<T>(hand);
+  const SectorSet turned = at_end ? side.end_turned[hand] : side.turned[hand];
+  const T turn = sign * f.around.s;
+  return source_below<T, bool>(f.value, f.sigma, f.x, f.y, (f.sector & turned) != 0, (f.sector & dark) != 0, c, s,
+                               c * f.around.c - s * turn, s * f.around.c + c * turn, sign, side.length);
+}
+
+template <class T>
+template <bool kLabelled>
+BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, Update u, const Side<T>& to) {
+  const Index support = u.support(), hand = u.hand(), there = u.hand_there();
+  const Side<T>& by = at.sides[support];
+  const Front& other = fronts_[at.ends[support].end];
+  const auto dark_here = at.dark ? at.dark[support].here[hand] : SectorSet{0};
+  const auto dark_there = at.dark ? at.dark[support].end[there] : SectorSet{0};
+  const SourceAt<T> a = see(at.front, by, false, hand, at.lenses ? at.lenses[support].here[hand] : kNoIndex, dark_here);
+  SourceAt<T> b = see(other, by, true, there, at.lenses ? at.lenses[support].end[there] : kNoIndex, dark_there);
+  b.x = by.length - b.x;
+  // The target in the frame of the edge.
+  const T right = minus_if<T>(hand), own_turn = right * at.front.around.s;
+  const T tc = u.across() ? to.c * at.front.around.c - to.s * own_turn : to.c;
+  const T ts = u.across() ? to.s * at.front.around.c + to.c * own_turn : to.s;
+  const T x = to.length * (tc * by.c + ts * by.s), y = to.length * magnitude(ts * by.c - tc * by.s);
+  const Offer<T> o = offer_over<T>(by.length, x, y, to.length, at.front.value, other.value, a, b);
+  // Into the target's frame, where the way back to the vertex has a known direction.
+  const Around<T> around = fronts_[target.end].around;
+  const T c = u.seam() ? around.c : to.end_c, s = u.seam() ? around.s : to.end_s;
+  const T sign = minus_if<T>(u.same_turn() ? 0 : 1), inverse = T(-1) / to.length, sy = sign * y;
+  const T turn_c = (c * x + s * sy) * inverse, turn_s = (s * x - c * sy) * inverse, oy = sign * o.y;
+  accept<kLabelled>(target.end, {o.value, o.sigma, o.x * turn_c - oy * turn_s, o.x * turn_s + oy * turn_c}, u.sector(),
+                    at.front.label);
+  ++updates_;
+}
+
+template <class T>
+template <bool kLabelled>
+BRUSHFIRE_INLINE void March<T>::turn(Index v) {
+  constexpr T kAnywhere = T(0x1p100);
+  Front& f = fronts_[v];
+  f.state = kClosed;
+  ++f.turns, ++turns_;
+  const Record<T> record = records_[v];
+  const RecordHead<T>& head = record.head();
+  const Front front = f;
+  const Turn at{front,
+                record,
+                record.ends(),
+                record.sides(),
+                head.has_dark ? record.dark() : nullptr,
+                head.has_lenses ? record.lenses() : nullptr};
+  const Update* const updates = record.updates();
+  const T r = front.value - front.sigma, later = r > head.reach ? 1 / (r - head.reach) : kAnywhere;
+  const T now = front.value - slack_;
+  // Lists are made without branches: which sides lead ahead and which ends are closed cannot be foreseen.
+  Index ahead = 0, offers = 0, alongs = 0;
+  for (Index k = 0; k < head.sides; ++k) {
+    const SideEnd<T>& e = at.ends[k];
+    const Front& end = fronts_[e.end];
+    lists_.ahead[ahead] = k;
+    ahead += end.value > now + e.need - e.bulge * later ? 1u : 0u;
+    bool closed = end.state == kClosed;
+    if constexpr (kLabelled) closed &= end.label == front.label;
+    lists_.closed[k] = closed ? 1 : 0;
+  }
+  for (Index i = 0; i < ahead; ++i) {
+    const Index k = lists_.ahead[i], before = offers;
+    for (Index u = at.ends[k].first_update; u < at.ends[k + 1].first_update; ++u) {
+      lists_.offers[offers] = {k, updates[u]};
+      offers += lists_.closed[updates[u].support()];
+    }
+    lists_.alongs[alongs] = k;
+    alongs += offers == before ? 1u : 0u;
+  }
+  for (Index i = 0; i < offers; ++i) {
+    const auto [k, update] = lists_.offers[i];
+    offer<kLabelled>(at, at.ends[k], update, at.sides[k]);
+  }
+  for (Index i = 0; i < alongs; ++i) {
+    const Index k = lists_.alongs[i];
+    const Side<T>& side = at.sides[k];
+    const T x = side.length * side.end_c, y = side.length * side.end_s, value = front.value + side.length;
+    const bool conduit = (side.end_c == 0) & (side.end_s == 0);
+    accept<kLabelled>(at.ends[k].end, {value, conduit ? value : front.value, x, y}, side.sector, front.label);
+  }
+}
+
+// In passes: what falls into the bucket while it is worked on has its turn afterwards, by its value. Where edges are
+// much shorter than the bucket is wide, corrections run through it in order then, instead of chasing each other.
+template <class T>
+template <bool kLabelled>
+void March<T>::work_labelled() {
+  for (std::size_t begin = 0, end = 0; (end = queue_.current().size()) > begin; begin = end) {
+    pass_.assign(queue_.current().begin() + begin, queue_.current().end());
+    if (begin > 0) {
+      std::sort(pass_.begin(), pass_.end(), [&](Index v, Index w) {
+        return fronts_[v].value != fronts_[w].value ? fronts_[v].value < fronts_[w].value : v < w;
+      });
+    }
+    for (std::size_t i = 0; i < pass_.size(); ++i) {
+      // Written here: compilers take a function that only asks ahead for one that does nothing.
+      if (i + kFrontAhead < pass_.size()) {
+        prefetch(&fronts_[pass_[i + kFrontAhead]]);
+        prefetch(&records_.offset[pass_[i + kFrontAhead]]);
+      }
+      if (i + kRecordAhead < pass_.size()) {
+        const std::byte* const at = records_.base() + records_.offset[pass_[i + kRecordAhead]];
+        for (std::size_t k = 0; k < kRecordLines; ++k) prefetch(at + k * kCacheLine);
+      }
+      if (i + kEndsAhead < pass_.size()) {
+        const Record<T> record = records_[pass_[i + kEndsAhead]];
+        const Index sides = std::min(kUsualSides, record.head().sides);
+        for (Index k = 0; k < sides; ++k) prefetch(&fronts_[record.ends()[k].end]);
+      }
+      if (fronts_[pass_[i]].state == kWaiting) turn<kLabelled>(pass_[i]);
+    }
+  }
+  queue_.clear_current();
+}
+
+template <class T>
+void March<T>::work() {
+  settled_ = settled();
+  if (labelled_) {
+    work_labelled<true>();
+  } else {
+    work_labelled<false>();
+  }
+}
+
+template class March<float>;
+template class March<double>;
+
+}  // namespace brushfire::carried_source

@@ -1,0 +1,118 @@
+// Directions from the corners of a face to points of it.
+#include <brushfire/solvers/carried_source/detail/points.h>
+
+#include <brushfire/mesh/detail/flat_face.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace brushfire::carried_source {
+
+const Fans& Points::fans() {
+  if (!fans_) fans_.emplace(mesh_);
+  return *fans_;
+}
+
+void Points::add_face(Index f, const std::array<double, 3>& weights) {
+  for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+    const double length = mesh_.length(h);
+    if (length == 0) {
+      near_.push_back({mesh_.from(h), mesh_.length(Mesh::previous(h)) * weights[Mesh::previous(h) % 3], {}, false, 0});
+      continue;
+    }
+    const Vec2 apex = apex_over(mesh_, h, h);
+    const double ahead = weights[Mesh::next(h) % 3], third = weights[Mesh::previous(h) % 3];
+    const Vec2 at{ahead * length + third * apex.x, third * apex.y};
+    const FanCorner& corner = fans().corner(h);
+    const double turn = std::atan2(at.y, at.x), distance = norm(at);
+    const double angle = corner.mirrored ? corner.high - turn : corner.low + turn;
+    near_.push_back(
+        {mesh_.from(h), distance, {distance * std::cos(angle), distance * std::sin(angle)}, true, corner.sector});
+  }
+}
+
+// Points of an edge have a name in each of its faces: the one that all names lead to, so that they give the same bits.
+PointLocation Points::by_lowest_halfedge(const PointLocation& at) const {
+  const Index h = at.halfedge;
+  Index lowest = h;
+  for (Index g = mesh_.opposite(h); g != h; g = mesh_.opposite(g)) lowest = std::min(lowest, g);
+  return at_edge(at, lowest);
+}
+
+// The same point in the face of another halfedge of the edge.
+PointLocation Points::at_edge(const PointLocation& at, Index g) const {
+  const Index h = at.halfedge;
+  const bool same_way = mesh_.from(g) == mesh_.from(h);
+  PointLocation there = at;
+  there.halfedge = g;
+  there.face = Mesh::face_of(g);
+  there.weights = {0, 0, 0};
+  there.weights[g % 3] = at.weights[(same_way ? h : Mesh::next(h)) % 3];
+  there.weights[Mesh::next(g) % 3] = at.weights[(same_way ? Mesh::next(h) : h) % 3];
+  there.t = there.weights[Mesh::next(g) % 3];
+  return there;
+}
+
+std::span<const Points::Near> Points::around(const PointLocation& named, int crossings, double limit) {
+  near_.clear();
+  const bool on_edge = named.on == PointLocation::On::Edge && mesh_.is_face_usable(named.face);
+  const PointLocation at = on_edge ? by_lowest_halfedge(named) : named;
+  if (at.on == PointLocation::On::Vertex) {
+    near_.push_back({at.vertex, 0, {}, true, 0});
+  } else if (!mesh_.is_face_usable(at.face)) {
+    for (const detail::Seed& s : seeds_.in_own_faces(mesh_, at)) near_.push_back({s.vertex, s.distance, {}, false, 0});
+  } else if (at.on == PointLocation::On::Interior) {
+    add_face(at.face, at.weights);
+  } else {
+    Index g = at.halfedge;
+    do {
+      add_face(Mesh::face_of(g), at_edge(at, g).weights);
+      g = mesh_.opposite(g);
+    } while (g != at.halfedge);
+  }
+  if (at.on == PointLocation::On::Vertex) return near_;
+  for (const detail::Seed& s : seeds_.in_sight(mesh_, at, crossings, limit)) {
+    if (s.corner == kNoIndex) continue;
+    const FanCorner& corner = fans().corner(s.corner);
+    const double angle = corner.mirrored ? corner.high - s.turn : corner.low + s.turn;
+    near_.push_back(
+        {s.vertex, s.distance, {s.distance * std::cos(angle), s.distance * std::sin(angle)}, true, corner.sector});
+  }
+  return near_;
+}
+
+SourceAt<double> Points::see(Index v, const Known& known, const Direction& side, Hand hand, double length) {
+  const std::span<const Sector> sectors = fans().sectors(v);
+  const double sign = hand == Hand::Left ? 1 : -1;
+  if (fans().is_odd(v)) {
+    const Lens lens = lenses_of(sectors, ends_of_fans(mesh_, fans(), v), side, hand)[known.sector];
+    const double x = lens.xx * known.to_source.x + lens.xy * known.to_source.y;
+    const double y = lens.yx * known.to_source.x + lens.yy * known.to_source.y;
+    return source_below<double, bool>(known.value, known.sigma, x, y, false, !lens.lit, 1, 0, 1, 0, 1, length);
+  }
+  const SightSets sets = sight_of(sectors, side.angle);
+  const auto i = static_cast<std::size_t>(hand);
+  const double around = sectors.front().around, turned = side.angle + sign * (around < kInfinity ? around : 0);
+  return source_below<double, bool>(known.value, known.sigma, known.to_source.x, known.to_source.y,
+                                    (sets.turned[i] >> known.sector & 1u) != 0,
+                                    (sets.dark[i] >> known.sector & 1u) != 0, std::cos(side.angle),
+                                    std::sin(side.angle), std::cos(turned), std::sin(turned), sign, length);
+}
+
+double Points::through_edge(Index h, Vec2 at, const Known& from, const Known& to) {
+  const Index next = Mesh::next(h);
+  const double length = mesh_.length(h);
+  const Hand here = fans().corner(h).mirrored ? Hand::Right : Hand::Left;
+  const Hand there = fans().corner(next).mirrored ? Hand::Left : Hand::Right;
+  // As the side that all faces at it share: sets are those of angles below the sum of all.
+  const auto side = [&](Index v, Index corner, bool own) {
+    const Direction d = fans().direction(corner, own);
+    return fans().within(v, d.fan, d.angle);
+  };
+  const SourceAt<double> a = see(mesh_.from(h), from, side(mesh_.from(h), h, true), here, length);
+  SourceAt<double> b = see(mesh_.to(h), to, side(mesh_.to(h), next, false), there, length);
+  b.x = length - b.x;
+  return offer_over<double>(length, at.x, at.y, norm(at), from.value, to.value, a, b).value;
+}
+
+}  // namespace brushfire::carried_source

@@ -1,0 +1,259 @@
+// From a problem to a march and back: starts, stops, targets, labels.
+#include <brushfire/solvers/carried_source/engine.h>
+
+#include <brushfire/core/error.h>
+#include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/solvers/carried_source/detail/march.h>
+#include <brushfire/solvers/carried_source/detail/points.h>
+#include <brushfire/solvers/carried_source/detail/records.h>
+#include <brushfire/solvers/detail/local_mesh.h>
+#include <brushfire/solvers/detail/sheets.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace brushfire::carried_source {
+namespace {
+
+using detail::LocalMesh;
+using detail::LocatedSource;
+using detail::Problem;
+
+// In one precision.
+template <class T>
+class Marcher {
+ public:
+  explicit Marcher(const LocalMesh& local)
+      : local_(local), mesh_(local.mesh()), records_(build_records<T>(mesh_)), march_(records_), points_(mesh_) {}
+
+  void solve(const Problem& problem, DistanceField& field) {
+    sources_.clear();
+    for (const LocatedSource& s : problem.sources) sources_.push_back({local_.location(s.at), s.offset, s.label});
+    targets_.clear();
+    for (const PointLocation& at : problem.targets) targets_.push_back(local_.location(at));
+    start(problem.max_distance);
+    march(problem);
+    for (std::size_t i = 0; i < targets_.size(); ++i) evaluate(i, field);
+    write(problem, field);
+  }
+
+ private:
+  void start(double max_distance) {
+    march_.reset();
+    final_ = kInfinity;
+    base_ = kInfinity;
+    for (const LocatedSource& s : sources_) base_ = std::min(base_, s.offset);
+    march_.label_fronts(sources_.size() > 1);
+    for (const LocatedSource& s : sources_) {
+      const double offset = s.offset - base_;
+      for (const Points::Near& n : points_.around(s.at, records_.most_unrolled, max_distance - s.offset)) {
+        const auto value = static_cast<T>(offset + n.distance);
+        march_.begin_at({n.vertex, value, n.seen ? static_cast<T>(offset) : value, static_cast<T>(n.to_source.x),
+                         static_cast<T>(n.to_source.y), n.sector, s.label});
+      }
+    }
+  }
+
+  void march(const Problem& problem) {
+    const double last = last_front(problem);
+    std::size_t first_open_target = 0;
+    while (march_.advance()) {
+      const double front = base_ + static_cast<double>(march_.settled());
+      while (first_open_target < targets_.size() && is_final(targets_[first_open_target], front)) ++first_open_target;
+      const bool all_final = !targets_.empty() && first_open_target == targets_.size();
+      if (front > last || all_final) {
+        final_ = front;
+        break;
+      }
+      march_.work();
+      check_cancel(problem);
+    }
+  }
+
+  void check_cancel(const Problem& problem) const {
+    if (problem.cancel && problem.cancel->cancelled()) throw Error(ErrorCode::Cancelled, "cancelled");
+    if (problem.options->progress) {
+      problem.options->progress(static_cast<double>(march_.touched().size()) /
+                                static_cast<double>(mesh_.vertex_count()));
+    }
+  }
+
+  double value(Index v) const { return static_cast<double>(march_.value(v)); }
+
+  // A target is read from the corners of its faces, so these have to be final.
+  bool is_final(const PointLocation& at, double front) {
+    if (at.on == PointLocation::On::Vertex) return base_ + value(at.vertex) < front;
+    const auto corners = points_.corners(at);
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const detail::Seed& c) { return base_ + value(c.vertex) < front; });
+  }
+
+  // How far the front has to go for what is asked within max_distance: to the corners around the targets, too.
+  double last_front(const Problem& problem) {
+    double around = 0;
+    for (const PointLocation& at : targets_) {
+      if (at.on == PointLocation::On::Vertex) continue;
+      for (const detail::Seed& c : points_.corners(at)) around = std::max(around, c.distance);
+    }
+    return problem.max_distance + around;
+  }
+
+  // A target inside a face is one more vertex: over the edges of its face; on an edge, over the others of the faces
+  // there. From a source in the same face or the next it is reached straight.
+  void evaluate(std::size_t i, DistanceField& field) {
+    const PointLocation& at = targets_[i];
+    double best = kInfinity;
+    Index source = kNoIndex;
+    const auto offer = [&](double d, Index l) {
+      if (d < kInfinity && std::pair(d, l) < std::pair(best, source)) best = d, source = l;
+    };
+    if (at.on == PointLocation::On::Vertex) {
+      offer(base_ + value(at.vertex), march_.label(at.vertex));
+    } else {
+      for (const detail::Seed& c : points_.corners(at)) {
+        offer(base_ + value(c.vertex) + c.distance, march_.label(c.vertex));
+      }
+      if (mesh_.is_face_usable(at.face)) through_faces(at, offer);
+      for (const LocatedSource& s : sources_) offer(s.offset + detail::straight_distance(mesh_, s.at, at), s.label);
+    }
+    field.target_distance[i] = best;
+    field.target_source[i] = source;
+  }
+
+  template <class Offer>
+  void through_faces(const PointLocation& at, const Offer& offer) {
+    if (at.on == PointLocation::On::Interior) {
+      for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
+        if (mesh_.length(h) == 0) continue;
+        const double third = at.weights[Mesh::previous(h) % 3], ahead = at.weights[Mesh::next(h) % 3];
+        const Vec2 apex = apex_over(mesh_, h, h);
+        through_edge(h, {ahead * mesh_.length(h) + third * apex.x, third * apex.y}, offer);
+      }
+      return;
+    }
+    Index g = at.halfedge;
+    do {
+      const bool same_way = mesh_.from(g) == mesh_.from(at.halfedge);
+      const double t = at.weights[(same_way ? Mesh::next(at.halfedge) : at.halfedge) % 3];  // share of the way along g
+      for (const Index h : {Mesh::next(g), Mesh::previous(g)}) {
+        const double length = mesh_.length(h);
+        if (length == 0) continue;
+        // The third corner over h is an end of g; the target lies between it and the end that h shares with g.
+        const Vec2 apex = apex_over(mesh_, h, h);
+        const Vec2 shared = h == Mesh::next(g) ? Vec2{0, 0} : Vec2{length, 0};
+        const double share = h == Mesh::next(g) ? 1 - t : t;
+        through_edge(h, shared + share * (apex - shared), offer);
+      }
+      g = mesh_.opposite(g);
+    } while (g != at.halfedge);
+  }
+
+  // `at`: the target in the frame of halfedge h.
+  template <class Offer>
+  void through_edge(Index h, Vec2 at, const Offer& offer) {
+    const Index v = mesh_.from(h), w = mesh_.to(h), l = march_.label(v);
+    if (l == kNoIndex || l != march_.label(w)) return;
+    offer(base_ + points_.through_edge(h, at, known(v), known(w)), l);
+  }
+
+  Points::Known known(Index v) const {
+    const auto c = march_.carried(v);
+    return {value(v), static_cast<double>(c.sigma), {static_cast<double>(c.x), static_cast<double>(c.y)}, c.sector};
+  }
+
+  void write(const Problem& problem, DistanceField& field) {
+    field.updates = march_.turns();
+    field.beyond_radius = 0;
+    const auto write_one = [&](Index place) {
+      const double d = base_ + value(place);
+      if (!(d < final_)) {
+        field.beyond_radius += d < kInfinity;
+        return;
+      }
+      const Index v = local_.vertex(place);
+      field.distance[v] = d;
+      field.source[v] = march_.label(place);
+      if (problem.touched) problem.touched->push_back(v);
+    };
+    if (march_.touched().size() > mesh_.vertex_count() / 2) {  // in order
+      for (Index place = 0; place < mesh_.vertex_count(); ++place) write_one(place);
+    } else {
+      for (const Index place : march_.touched()) write_one(place);
+    }
+  }
+
+  const LocalMesh& local_;
+  const Mesh& mesh_;
+  Records<T> records_;
+  March<T> march_;
+  Points points_;
+  std::vector<LocatedSource> sources_;  // of the run, in local numbers
+  std::vector<PointLocation> targets_;
+  double base_ = 0;           // the lowest offset: values are kept relative to it
+  double final_ = kInfinity;  // where the front stopped
+};
+
+class CarriedSource final : public detail::Engine {
+ public:
+  explicit CarriedSource(Mesh mesh) : mesh_(std::move(mesh)), float_is_enough_(is_float_enough(mesh_)) {}
+
+  bool lists_touched() const override { return true; }
+
+  void set_up(const DistanceOptions& options) override {
+    if (!local_) local_.emplace(mesh_);
+    if (is_float(options)) {
+      if (!in_float_) in_float_.emplace(*local_);
+    } else {
+      if (!in_double_) in_double_.emplace(*local_);
+    }
+  }
+
+  void solve(const Problem& problem, DistanceField& field) override {
+    set_up(*problem.options);
+    if (is_float(*problem.options)) {
+      in_float_->solve(problem, field);
+    } else {
+      in_double_->solve(problem, field);
+    }
+  }
+
+ private:
+  bool is_float(const DistanceOptions& options) const {
+    return options.precision == Precision::Float && float_is_enough_;
+  }
+
+  // Squares of distances, in units of the mean edge, have to fit.
+  static bool is_float_enough(const Mesh& mesh) {
+    constexpr double kLongest = 0x1p24;
+    double longest = 0;
+    if (mesh.has_positions()) {
+      const auto [low, high] = mesh.bounds();
+      const Vec3 extent = (1 / mesh.unit()) * high - (1 / mesh.unit()) * low;
+      longest = std::max({extent.x, extent.y, extent.z});
+    } else {
+      for (const double l : mesh.lengths()) longest = std::max(longest, l);
+    }
+    return longest < kLongest;
+  }
+
+  Mesh mesh_;
+  bool float_is_enough_;
+  std::optional<LocalMesh> local_;
+  std::optional<Marcher<float>> in_float_;
+  std::optional<Marcher<double>> in_double_;
+};
+
+}  // namespace
+
+// Copies of faces are looked for where there are more faces than a closed surface with few handles has. (A few copies
+// elsewhere do no harm.)
+std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh) {
+  const bool many_faces = mesh.face_count() / 17 * 8 > mesh.vertex_count();
+  std::shared_ptr<const detail::Sheets> sheets = many_faces ? detail::Sheets::of(mesh) : nullptr;
+  const auto make = [](const Mesh& m) -> std::unique_ptr<detail::Engine> { return std::make_unique<CarriedSource>(m); };
+  return sheets ? detail::make_on_one_sheet(std::move(sheets), make) : make(mesh);
+}
+
+}  // namespace brushfire::carried_source
