@@ -16,7 +16,8 @@ Reply* colormap_table(const char* name, std::size_t size) {
     constexpr int kSteps = 256;
     for (int k = 0; k < kSteps; ++k) {
       const Color c = color_of(map, k / (kSteps - 1.0));
-      for (const float channel : {c.r, c.g, c.b, 1.0F}) table.push_back(static_cast<std::uint8_t>(255 * channel + 0.5F));
+      for (const float channel : {c.r, c.g, c.b, 1.0F})
+        table.push_back(static_cast<std::uint8_t>(255 * channel + 0.5F));
     }
     reply.add(std::move(table));
   });

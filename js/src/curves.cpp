@@ -128,8 +128,7 @@ Reply* path_shortened(const Surface* surface, const std::uint32_t* faces, std::s
                       std::size_t weight_count, int closed) {
   return answer([&](Reply& reply) {
     const Computation listening;
-    const SurfacePath path =
-        shorten(surface->mesh(), curve_from({faces, count}, {weights, weight_count}), closed != 0);
+    const SurfacePath path = shorten(surface->mesh(), curve_from({faces, count}, {weights, weight_count}), closed != 0);
     add_curves(reply, surface->mesh(), std::span(&path, 1));
   });
 }

@@ -9,8 +9,8 @@
 
 namespace brushfire::js {
 
-// [starts (curves + 1), length, closed; faces, weights; positions]: curve k has the points starts[k] .. starts[k+1] - 1.
-// No positions where the mesh has none.
+// [starts (curves + 1), length, closed; faces, weights; positions]: curve k has the points starts[k] .. starts[k+1]
+// - 1. No positions where the mesh has none.
 void add_curves(Reply& reply, const Mesh& mesh, std::span<const SurfacePath> curves);
 
 // The points of one, as JavaScript gives them back.

@@ -45,8 +45,8 @@ Reply* distance_run(Surface* surface, const double* index, std::size_t count, co
 
 BRUSHFIRE_EXPORT(distance_set_up)
 Reply* distance_set_up(Surface* surface, const char* method, std::size_t method_size, const char* bound,
-                       std::size_t bound_size, const char* precision, std::size_t precision_size,
-                       const double* numbers, std::size_t number_count) {
+                       std::size_t bound_size, const char* precision, std::size_t precision_size, const double* numbers,
+                       std::size_t number_count) {
   return answer([&](Reply&) {
     Computation computation;
     surface->solver().set_up(computation.options({method, method_size}, {bound, bound_size},

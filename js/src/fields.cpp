@@ -99,8 +99,7 @@ Reply* matrix_run(const Surface* surface, int all_rows, const double* rows, std:
                   const double* row_weights, std::size_t row_weight_count, int all_columns, const double* columns,
                   std::size_t column_count, const double* column_weights, std::size_t column_weight_count, int floats,
                   const char* method, std::size_t method_size, const char* bound, std::size_t bound_size,
-                  const char* precision, std::size_t precision_size, const double* numbers,
-                  std::size_t number_count) {
+                  const char* precision, std::size_t precision_size, const double* numbers, std::size_t number_count) {
   return answer([&](Reply& reply) {
     Computation computation;
     MatrixOptions options;

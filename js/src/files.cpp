@@ -88,11 +88,10 @@ Reply* mesh_write(const Surface* surface, const char* format, std::size_t format
 // Curves as add_curves() gives them, and a value of each.
 BRUSHFIRE_EXPORT(curves_write)
 Reply* curves_write(const Surface* surface, const char* format, std::size_t format_size, const std::uint32_t* starts,
-                    std::size_t start_count, const std::uint8_t* closed, std::size_t closed_count,
-                    const double* values, std::size_t value_count, const std::uint32_t* faces, std::size_t face_count,
-                    const double* weights, std::size_t weight_count, const char* value_name,
-                    std::size_t value_name_size, double millimetres, const char* view, std::size_t view_size,
-                    int outline) {
+                    std::size_t start_count, const std::uint8_t* closed, std::size_t closed_count, const double* values,
+                    std::size_t value_count, const std::uint32_t* faces, std::size_t face_count, const double* weights,
+                    std::size_t weight_count, const char* value_name, std::size_t value_name_size, double millimetres,
+                    const char* view, std::size_t view_size, int outline) {
   return answer([&](Reply& reply) {
     const Computation listening;
     const std::vector<SurfacePoint> points = curve_from({faces, face_count}, {weights, weight_count});

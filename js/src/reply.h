@@ -1,7 +1,7 @@
 // What a call gives back to JavaScript: arrays, or an error, in memory that lib/module.js reads and then frees.
 //
-// The C interface: numbers are passed as they are, arrays and texts as an address and a number of elements. Objects that
-// stay (meshes, fields) are addresses, too; JavaScript owns them.
+// The C interface: numbers are passed as they are, arrays and texts as an address and a number of elements. Objects
+// that stay (meshes, fields) are addresses, too; JavaScript owns them.
 #pragma once
 
 #include <brushfire/core/error.h>

@@ -20,7 +20,9 @@ namespace {
   throw Error(ErrorCode::IndexOutOfRange, std::string(what) + " " + text.data() + " does not exist" + rest);
 }
 
-bool is_number_below(double number, double count) { return number >= 0 && number < count && number == std::floor(number); }
+bool is_number_below(double number, double count) {
+  return number >= 0 && number < count && number == std::floor(number);
+}
 
 void check_weights(const Places& places) {
   if (places.weights.empty() || places.weights.size() == 3 * places.index.size()) return;
@@ -82,8 +84,8 @@ SurfacePoint single_point_from(const Mesh& mesh, const Places& places) {
 std::vector<Source> sources_from(const Mesh& mesh, const Places& places, std::span<const double> offsets) {
   const std::vector<SurfacePoint> points = points_from(mesh, places);
   if (!offsets.empty() && offsets.size() != points.size()) {
-    throw Error(ErrorCode::InvalidArgument, std::to_string(offsets.size()) + " offsets for " +
-                                                std::to_string(points.size()) + " sources");
+    throw Error(ErrorCode::InvalidArgument,
+                std::to_string(offsets.size()) + " offsets for " + std::to_string(points.size()) + " sources");
   }
   std::vector<Source> sources;
   sources.reserve(points.size());
@@ -116,7 +118,8 @@ DistanceOptions Computation::options(std::string_view method, std::string_view b
   } else if (bound == "upper") {
     o.bound = Bound::Upper;
   } else if (!bound.empty() && bound != "estimate") {
-    throw Error(ErrorCode::InvalidArgument, "unknown bound '" + std::string(bound) + "': it is estimate, lower or upper");
+    throw Error(ErrorCode::InvalidArgument,
+                "unknown bound '" + std::string(bound) + "': it is estimate, lower or upper");
   }
   if (precision == "float64") {
     o.precision = Precision::Double;

@@ -56,8 +56,8 @@ std::vector<Source> sources_from(const Mesh& mesh, const Places& places, std::sp
 // Whole numbers of vertices, faces: Error(IndexOutOfRange) for others.
 std::vector<Index> numbers_from(std::span<const double> numbers, const char* what, Index count);
 
-// A run that JavaScript can watch and stop: while it lives, everything listens. Options: `numbers` are the tolerance, the
-// greatest distance (NaN: as it is by default), and whether progress is asked for; empty texts are defaults.
+// A run that JavaScript can watch and stop: while it lives, everything listens. Options: `numbers` are the tolerance,
+// the greatest distance (NaN: as it is by default), and whether progress is asked for; empty texts are defaults.
 class Computation {
  public:
   Computation() : scope_(&token_) {}

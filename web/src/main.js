@@ -6,7 +6,7 @@ import { Scene } from './scene.js';
 import { asCommand, asPython, fromFragment, History, initial, SHAPES, solving, tidy, toFragment } from './state.js';
 
 const $ = (id) => document.getElementById(id);
-const METHODS = ['windows', 'exact', 'novotni-klein', 'kimmel-sethian', 'novotni-klein-2002', 'dijkstra'];
+const METHODS = ['windows', 'exact', 'novotni-klein', 'carried-source', 'kimmel-sethian', 'novotni-klein-2002', 'dijkstra'];
 const number = (x) => (Number.isFinite(x) ? Number(x.toPrecision(7)).toString() : 'unreachable');
 
 export const app = { state: fromFragment(location.hash) ?? initial(), history: new History(), scene: null, engine: null, field: null, path: null, file: null };
