@@ -30,11 +30,11 @@ class BenchVerb : public InFolder {
 TEST_F(BenchVerb, TableHasALineForEveryMethod) {
   const Ended ended = run({"--repeat", "1"});
   EXPECT_EQ(ended.code, 0) << ended.err;
-  for (const char* method : {"windows:0.001 ", "exact ", "novotni-klein ", "novotni-klein-2002 ", "kimmel-sethian ",
-                             "dijkstra ", "vertices/s", "mean error"}) {
+  for (const char* method : {"windows:0.001 ", "exact ", "carried-source ", "novotni-klein ", "novotni-klein-2002 ",
+                             "kimmel-sethian ", "dijkstra ", "vertices/s", "mean error"}) {
     EXPECT_NE(ended.out.find(method), std::string::npos) << method << "\n" << ended.out;
   }
-  EXPECT_EQ(std::count(ended.out.begin(), ended.out.end(), '\n'), 8);
+  EXPECT_EQ(std::count(ended.out.begin(), ended.out.end(), '\n'), 9);
 }
 
 TEST_F(BenchVerb, JsonTellsTimesMemoryAndErrors) {

@@ -1,5 +1,5 @@
 # cmake -D SOURCE=.../src -P listed.cmake: a header is public, which brushfire.h says and which installs it, or it lies in
-# a detail/ folder or in the room of windows.
+# a detail/ folder or in one of the rooms of windows and their partition, which are private as a whole.
 cmake_minimum_required(VERSION 3.22)
 file(READ ${SOURCE}/brushfire/brushfire.h everything)
 file(GLOB_RECURSE headers RELATIVE ${SOURCE}/brushfire ${SOURCE}/brushfire/*.h)

@@ -139,9 +139,9 @@ void add_parcels(CommandLine& command_line) {
     verb.option("--ignore", a->ignored, "LABEL", "No parcel: a number or a name; may be repeated");
     verb.option("-o,--output", a->output, "FILE", "Write the matrix: .csv .npy; - prints CSV, as without");
     verb.talks();
-    add_shared(
-        verb, a->shared,
-        {.without = {{kStarting, "distances run from every parcel"}, {{Shared::Scalar}, "the labels that part it are LABELS"}}});
+    add_shared(verb, a->shared,
+               {.without = {{kStarting, "distances run from every parcel"},
+                            {{Shared::Scalar}, "the labels that part it are LABELS"}}});
     verb.examples(kExamples);
     verb.run([a](Talk& talk) { return parcels_verb(*a, talk); });
   });

@@ -247,7 +247,8 @@ NpyArray read(const Input& input) {
 }
 
 template <class T>
-void write(const detail::Destination& to, std::span<const T> values, std::span<const std::size_t> shape, const char* descr) {
+void write(const detail::Destination& to, std::span<const T> values, std::span<const std::size_t> shape,
+           const char* descr) {
   std::size_t product = 1;
   for (const std::size_t n : shape) product *= n;
   if (!shape.empty() && product != values.size()) {

@@ -391,7 +391,8 @@ class VtpReader {
     const std::vector<char> start = decode_some(a, text, header_size()).bytes;
     const std::uint64_t first = header_word(view(start), 0);
     if (first > text.size()) fail_short(a);  // bytes of data, or blocks
-    if (compressor_ == Compressor::None) return unpack(a, view(decode_some(a, text, header_size() + as_size(first)).bytes));
+    if (compressor_ == Compressor::None)
+      return unpack(a, view(decode_some(a, text, header_size() + as_size(first)).bytes));
     const std::size_t size = as_size((3 + first) * header_size());
     const Base64Result header = decode_some(a, text, size);
     std::size_t compressed = 0;

@@ -115,7 +115,9 @@ static_assert(kCoarse.count * kCoarse.of_bits == 3 * kCoarse.cube_bits);
 template <Digits kDigits>
 VertexOrder radix_sorted(UninitializedArray<Keyed>& items) {
   constexpr int kCount = kDigits.count, kBits = kDigits.of_bits;
-  const auto digit = [](Keyed k, int i) { return static_cast<std::size_t>((k >> (32 + i * kBits)) & ((1 << kBits) - 1)); };
+  const auto digit = [](Keyed k, int i) {
+    return static_cast<std::size_t>((k >> (32 + i * kBits)) & ((1 << kBits) - 1));
+  };
   std::array<std::array<Index, 1 << kBits>, kCount> start{};
   for (const Keyed k : items) {
     for (int i = 0; i < kCount; ++i) ++start[static_cast<std::size_t>(i)][digit(k, i)];

@@ -5,7 +5,7 @@
 #include <brushfire/core/detail/prefault.h>
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/solvers/carried_source/engine.h>
+#include <brushfire/solvers/carried_source/detail/engine.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/offsets.h>

@@ -1,5 +1,5 @@
 // From a problem to a march and back: starts, stops, targets, labels.
-#include <brushfire/solvers/carried_source/engine.h>
+#include <brushfire/solvers/carried_source/detail/engine.h>
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>

@@ -211,8 +211,9 @@ void find_routes(const WindowColumns& w, Index count, const Frame& frame, const 
   routes.right_begin = first;
   routes.goes_left = left;
   routes.goes_right = right;
-  if (doubtful(left, right, w.b1, 1, left_place, first) +
-          doubtful(right + second, left + second, w.b0 + second, -1, right_place, static_cast<std::ptrdiff_t>(count) - second) >
+  if (doubtful(left, right, w.b1, 1, left_place, first) + doubtful(right + second, left + second, w.b0 + second, -1,
+                                                                   right_place,
+                                                                   static_cast<std::ptrdiff_t>(count) - second) >
       0) {
     find_routes_one_by_one(w, count, frame, sight, best, routes);
   }

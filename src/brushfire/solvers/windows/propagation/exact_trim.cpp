@@ -117,8 +117,8 @@ void ListTrimmer::sweep(const WindowColumns& w, Index count) {
   constexpr std::size_t kDepth = 6;  // how many windows back are looked at
   const auto gone = [&](Index i) { return !(w.b1[i] - w.b0[i] > kSliver * (d0_[i] - w.sigma[i])); };
   if (count > 1) {
-    tie_points(w.b0, w.b1, w.x, w.y, w.sigma, d0_.data(), d1_.data(), static_cast<std::ptrdiff_t>(count) - 1, tie_point_.data(),
-               tie_value_a_.data(), tie_value_b_.data(), plain_.data());
+    tie_points(w.b0, w.b1, w.x, w.y, w.sigma, d0_.data(), d1_.data(), static_cast<std::ptrdiff_t>(count) - 1,
+               tie_point_.data(), tie_value_a_.data(), tie_value_b_.data(), plain_.data());
   }
   const bool all_may_be_cut = nearly_on_edge(w.b0, w.b1, w.y, count) == 0;
   kept_.clear();

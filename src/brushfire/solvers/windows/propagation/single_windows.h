@@ -5,7 +5,8 @@
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
-// Halfedge h has come up in the queue: what waits there is trimmed (L5), merged (L2), and goes on to the other two edges.
+// Halfedge h has come up in the queue: what waits there is trimmed (L5), merged (L2), and goes on to the other two
+// edges.
 void propagate_windows(PartState& part, Index h);
 
 // One window, from halfedge h through its face: what it sees there, and its children on their way.
