@@ -272,6 +272,26 @@ Outcome Examination::exact(const DistanceOptions& options) {
   return out;
 }
 
+// What naming a point by three doubles may move it by: an epsilon of each weight, of the longest edge there. (Beside a
+// vertex on an edge 1e16 long there is no place but the vertex.)
+static Real rounding_of(const Mesh& mesh, const SurfacePoint& p) {
+  const auto longest_of = [&](Index face) {
+    return std::max({mesh.length(3 * face), mesh.length(3 * face + 1), mesh.length(3 * face + 2)});
+  };
+  double longest = longest_of(p.face);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (p.weights[k] != 1) continue;
+    for (const Index h : mesh.corners(mesh.faces()[p.face][k])) longest = std::max(longest, longest_of(h / 3));
+  }
+  return 2 * kEpsilon * mesh.unit() * longest;
+}
+
+static Real rounding_of(const Mesh& mesh, const SurfacePath& path) {
+  Real sum = 0;
+  for (const SurfacePoint& p : path.points) sum += rounding_of(mesh, p);
+  return sum;
+}
+
 Outcome Examination::targets() {
   Outcome out;
   DistanceOptions options;
@@ -283,7 +303,7 @@ Outcome Examination::targets() {
     const Index source = field.target_source[i];
     const double offset = source < sources.size() ? sources[source].offset : 0;
     const Real truth = truth_.target[i];
-    const double room = largest_bound(field);
+    const Real room = largest_bound(field) + rounding_of(case_.mesh, case_.targets[i]);
     const Real length = std::abs(truth - offset);
     const bool wrong = same_reach({field.target_distance[i], truth, length, kInfinity}, "", out) &&
                        std::abs(field.target_distance[i] - truth) > room + Real{kExactPromise} * length;
@@ -385,24 +405,6 @@ Outcome Examination::paths() {
     hold_path(*field.windows, to, truth().target[i], largest_bound(field), out);
   }
   return out;
-}
-
-// What naming its points in doubles may do to a path: each moves by up to an epsilon of the longest edge there. (Beside
-// a vertex on an edge 1e16 long there is no place for a crossing but the vertex.)
-static Real rounding_of(const Mesh& mesh, const SurfacePath& path) {
-  const auto longest_of = [&](Index face) {
-    return std::max({mesh.length(3 * face), mesh.length(3 * face + 1), mesh.length(3 * face + 2)});
-  };
-  Real sum = 0;
-  for (const SurfacePoint& p : path.points) {
-    double longest = longest_of(p.face);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (p.weights[k] != 1) continue;
-      for (const Index h : mesh.corners(mesh.faces()[p.face][k])) longest = std::max(longest, longest_of(h / 3));
-    }
-    sum += 2 * kEpsilon * mesh.unit() * longest;
-  }
-  return sum;
 }
 
 void Examination::hold_path(const WindowField& field, const SurfacePoint& to, Real truth, double bound, Outcome& out) {
