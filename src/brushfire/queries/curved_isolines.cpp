@@ -175,6 +175,9 @@ class CurveBuilder {
     return fine_.parent(common_face(fine_mesh, locate(fine_mesh, p), locate(fine_mesh, q), p.face));
   }
 
+  // A place whose value differs from the level by less than this share of it is on it: the value is known no better.
+  static constexpr double kOnLevel = 1e-14;
+
   // Nodes between a and b, which lie on the level in one face, until the pieces are near enough to the arc.
   void bend(const Place& a, const Place& b, int depth, std::vector<SurfacePoint>& points) const {
     constexpr int kDeepest = 12;
@@ -185,7 +188,7 @@ class CurveBuilder {
     if (depth == kDeepest || !(length * mesh_.unit() > chord_error_)) return;
     Place middle{a.face, between(a.weights, b.weights, 0.5)};
     const double miss = value(middle) - level_;
-    if (std::abs(miss) <= chord_error_) return;
+    if (std::abs(miss) <= std::max(chord_error_, kOnLevel * std::abs(level_))) return;
     if (!slide_to_level(corners, (1 / length) * Vec2{chord.y, -chord.x}, miss, middle)) return;
     bend(a, middle, depth + 1, points);
     append(points, {middle.face, middle.weights});
@@ -212,7 +215,7 @@ class CurveBuilder {
         const Place p = moved(s1);
         if (!inside(p)) break;
         const double f1 = value(p) - level_;
-        if (std::abs(f1) <= 1e-14 * level_) {
+        if (std::abs(f1) <= kOnLevel * std::abs(level_)) {
           place = p;
           return true;
         }
