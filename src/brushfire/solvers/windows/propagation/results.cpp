@@ -69,8 +69,9 @@ VertexValues Results::with_ghosts(Index v) const {
   VertexValues all = run_.values[v];
   for (Index c = all.next_ghost; c != v && c != kNoIndex; c = run_.values[c].next_ghost) {
     all.upper = std::min(all.upper, run_.values[c].upper);
-    if (run_.values[c].lower <= all.lower) all.direct |= run_.values[c].direct;
-    all.lower = std::min(all.lower, run_.values[c].lower);
+    const VertexValues& ghost = run_.values[c];
+    if (ghost.lower <= all.lower) all.direct = ghost.direct || (all.direct && ghost.lower == all.lower);
+    all.lower = std::min(all.lower, ghost.lower);
     all.estimate = std::min(all.estimate, run_.values[c].estimate);
   }
   return all;
@@ -103,14 +104,19 @@ Results::Tally Results::write_vertices(const Part& part) {
     if (!is_owner(v)) return;
     const Index outer = run_.structure.outer_vertex(v);
     if (run_.problem->touched) run_.problem->touched->push_back(outer);
-    const VertexValues s = with_ghosts(v);
+    VertexValues s = with_ghosts(v);
     // Seen by no window yet, or not final when the run stopped.
     if (s.lower == kInfinity || (narrowed && s.lower > run_.radius)) {
       ++tally.beyond_radius;
       return;
     }
     const Index label = label_of(v);
-    const CertifiedValue r = read(s.lower, s.upper, s.estimate, label, rounding_at(outer, s));
+    Rounding rounding = run_.rounding;
+    if (is_chord(outer, s)) {
+      rounding.absolute = 0;
+      s.upper = s.estimate = s.lower;  // a window that comes to less is rounded
+    }
+    const CertifiedValue r = read(s.lower, s.upper, s.estimate, label, rounding);
     field_.distance[outer] = to_double(r.value - run_.shift);
     field_.source[outer] = label;
     if (!run_.problem->touched) field_.error_bound[outer] = r.bound;
@@ -133,25 +139,22 @@ void Results::write_targets() {
 
 // A vertex that a source sees within its own face is as far as that straight line is long, which is the chord in space:
 // no frame had a part in it, however near the source is.
-Rounding Results::rounding_at(Index outer, const VertexValues& values) const {
+bool Results::is_chord(Index outer, const VertexValues& values) const {
   constexpr std::size_t kFewSources = 64;  // each of the others is looked at
   const std::span<const detail::LocatedSource> sources = run_.problem->sources;
   const Mesh& mesh = run_.structure.mesh;
-  if (!values.direct || !mesh.has_positions() || sources.size() > kFewSources) return run_.rounding;
+  if (!values.direct || !mesh.has_positions() || sources.size() > kFewSources) return false;
+  if (sources.size() == 1) return true;
   const Real unit = mesh.unit();
-  for (const detail::LocatedSource& s : sources) {
-    if (sources.size() == 1) break;
+  // None is nearer, or not surely farther: then windows decided.
+  return std::none_of(sources.begin(), sources.end(), [&](const detail::LocatedSource& s) {
     const Face& t = mesh.faces()[s.at.face];
     brushfire::Vec3 chord;
     for (std::size_t k = 0; k < 3; ++k) {
       chord = chord + s.at.weights[k] * (mesh.positions()[t[k]] - mesh.positions()[outer]);
     }
-    // Nearer, or not surely farther: then windows decided.
-    if (run_.start_of(s.label) + norm(chord) / unit < values.lower * (1 - 1e-12)) return run_.rounding;
-  }
-  Rounding direct = run_.rounding;
-  direct.absolute = 0;
-  return direct;
+    return run_.start_of(s.label) + norm(chord) / unit < values.lower * (1 - 1e-12);
+  });
 }
 
 CertifiedValue Results::read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const {

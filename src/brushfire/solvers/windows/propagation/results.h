@@ -25,7 +25,7 @@ class Results {
   Index label_of(Index pseudo_source) const;
   VertexValues with_ghosts(Index v) const;
   bool is_owner(Index v) const;
-  Rounding rounding_at(Index outer, const VertexValues& values) const;
+  bool is_chord(Index outer, const VertexValues& values) const;
   CertifiedValue read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const;
   Index outer_pseudo_source(Index pseudo_source) const;
   Ray outer(Ray ray) const;
