@@ -124,13 +124,17 @@ PointLocation located(const windows::WindowFieldData& data, const SurfacePoint& 
   return sheets.to_single(at);
 }
 
-// The faces of the caller's mesh; and sources where they were given, maybe inside of a copy.
+// The faces of the caller's mesh; and sources where they were given, maybe inside of a copy. (A source at no distance
+// from a vertex has that at the leg's end, in whose faces it need not be.)
 WindowField::Leg in_callers_numbers(const windows::WindowFieldData& data, WindowField::Leg leg) {
   if (!data.view) return leg;
   for (SurfacePoint& p : leg.points) p = data.view->sheets->from_single(p);
   if (leg.source != kNoIndex) {
     const PointLocation& source = data.view->sources[leg.source];
-    leg.points.back() = {source.face, source.weights};
+    const std::array<double, 3>& last = leg.points.back().weights;
+    const bool is_vertex = std::find(last.begin(), last.end(), 1) != last.end();
+    if (source.on == PointLocation::On::Vertex || !is_vertex) leg.points.pop_back();
+    leg.points.push_back({source.face, source.weights});
   }
   return leg;
 }
