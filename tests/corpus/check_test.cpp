@@ -24,6 +24,7 @@ constexpr Once kWrongOnce[] = {
     {"components", 20261129, 86, "paths", "legs that explain a value to a share of other sources' offsets"},
     {"mutilated", 2, 76, "exact", "no bound where every face has an edge without length"},
     {"tiny-clusters", 2, 14, "dijkstra", "distances to corners from three lengths"},
+    {"far-point", 20261202, 38, "exact", "a vertex that only light along edges leads to was left out"},
     {"lattice", 20261201, 329, "paths", "the vertex before a source in a face without size was left out"},
     {"lattice", 20261201, 15, "exact", "a chord that a rounded window undercut, with the bound of the chord"},
 };

@@ -81,6 +81,7 @@ WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Fou
   const Mesh& mesh = data.mesh;
   const Index pseudo_source = found.record.ray.pseudo_source, n = mesh.vertex_count();
   WindowField::Leg leg;
+  if (pseudo_source == kNoIndex) return leg;
   if (pseudo_source >= n) {
     const PointLocation& source = data.sources[pseudo_source - n].at;
     if (source.on != PointLocation::On::Vertex || source.vertex != vertex) return {};

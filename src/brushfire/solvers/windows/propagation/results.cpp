@@ -105,6 +105,11 @@ Results::Tally Results::write_vertices(const Part& part) {
     const Index outer = run_.structure.outer_vertex(v);
     if (run_.problem->touched) run_.problem->touched->push_back(outer);
     VertexValues s = with_ghosts(v);
+    if (s.lower == kInfinity && s.upper < kInfinity && s.upper <= run_.radius && !narrowed && !run_.several) {
+      write_unseen(v, s.upper);
+      tally.largest_bound = std::max(tally.largest_bound, 1.0);
+      return;
+    }
     // Seen by no window yet, or not final when the run stopped.
     if (s.lower == kInfinity || (narrowed && s.lower > run_.radius)) {
       ++tally.beyond_radius;
@@ -123,6 +128,21 @@ Results::Tally Results::write_vertices(const Part& part) {
     if (r.value <= run_.radius) tally.largest_bound = std::max(tally.largest_bound, r.relative);
   });
   return tally;
+}
+
+// Rounding lost the light that grazes v, which a path leads to all the same. Its length is then what is known, and
+// anything down to the source's own value may be the distance.
+void Results::write_unseen(Index v, Real length) {
+  const Index outer = run_.structure.outer_vertex(v);
+  const Real start = run_.start_of(0);
+  const double rounded = run_.rounding.of(to_double(length - start));
+  Real value = length;
+  if (run_.problem->options->bound == Bound::Upper) value = length + rounded;
+  if (run_.problem->options->bound == Bound::Lower) value = start;
+  run_.values[v].lower = length;
+  field_.distance[outer] = to_double(value - run_.shift);
+  field_.source[outer] = 0;
+  if (!run_.problem->touched) field_.error_bound[outer] = to_double(length - start) + 2 * rounded;
 }
 
 void Results::write_targets() {

@@ -38,6 +38,7 @@ class Results {
   };
   void write_vertices(ThreadTeam* team);
   Tally write_vertices(const Part& part);
+  void write_unseen(Index v, Real length);
   void write_targets();
   void keep();
   std::shared_ptr<const PointValues> point_values();  // null where not all windows were kept
