@@ -6,6 +6,7 @@
 #include <brushfire/solvers/carried_source/detail/march.h>
 #include <brushfire/solvers/carried_source/detail/points.h>
 #include <brushfire/solvers/carried_source/detail/records.h>
+#include <brushfire/solvers/detail/float_range.h>
 #include <brushfire/solvers/detail/local_mesh.h>
 #include <brushfire/solvers/detail/sheets.h>
 
@@ -197,7 +198,7 @@ class Marcher {
 
 class CarriedSource final : public detail::Engine {
  public:
-  explicit CarriedSource(Mesh mesh) : mesh_(std::move(mesh)), float_is_enough_(is_float_enough(mesh_)) {}
+  explicit CarriedSource(Mesh mesh) : mesh_(std::move(mesh)), float_is_enough_(detail::fits_float(mesh_)) {}
 
   bool lists_touched() const override { return true; }
 
@@ -224,20 +225,6 @@ class CarriedSource final : public detail::Engine {
     return options.precision == Precision::Float && float_is_enough_;
   }
 
-  // Squares of distances, in units of the mean edge, have to fit.
-  static bool is_float_enough(const Mesh& mesh) {
-    constexpr double kLongest = 0x1p24;
-    double longest = 0;
-    if (mesh.has_positions()) {
-      const auto [low, high] = mesh.bounds();
-      const Vec3 extent = (1 / mesh.unit()) * high - (1 / mesh.unit()) * low;
-      longest = std::max({extent.x, extent.y, extent.z});
-    } else {
-      for (const double l : mesh.lengths()) longest = std::max(longest, l);
-    }
-    return longest < kLongest;
-  }
-
   Mesh mesh_;
   bool float_is_enough_;
   std::optional<LocalMesh> local_;
@@ -247,11 +234,8 @@ class CarriedSource final : public detail::Engine {
 
 }  // namespace
 
-// Copies of faces are looked for where there are more faces than a closed surface with few handles has. (A few copies
-// elsewhere do no harm.)
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh) {
-  const bool many_faces = mesh.face_count() / 17 * 8 > mesh.vertex_count();
-  std::shared_ptr<const detail::Sheets> sheets = many_faces ? detail::Sheets::of(mesh) : nullptr;
+  std::shared_ptr<const detail::Sheets> sheets = detail::Sheets::where_likely(mesh);
   const auto make = [](const Mesh& m) -> std::unique_ptr<detail::Engine> { return std::make_unique<CarriedSource>(m); };
   return sheets ? detail::make_on_one_sheet(std::move(sheets), make) : make(mesh);
 }

@@ -21,6 +21,11 @@ class Sheets {
   // Null where no face has copies (or where the lengths of copies may differ: slits in a mesh from lengths). Each of
   // `apart` (ascending) stays a face of its own. O(faces), but for vertices at which many faces meet: sorted.
   static std::shared_ptr<const Sheets> of(const Mesh& mesh, std::span<const Index> apart = {});
+  // The same, or null without a look at the faces where they are no more than a closed surface with few handles has:
+  // for engines that a few copies do no harm.
+  static std::shared_ptr<const Sheets> where_likely(const Mesh& mesh) {
+    return mesh.face_count() / 17 * 8 > mesh.vertex_count() ? of(mesh) : nullptr;
+  }
 
   const Mesh& mesh() const { return mesh_; }      // the caller's
   const Mesh& single() const { return single_; }  // the single mesh; the same unit()

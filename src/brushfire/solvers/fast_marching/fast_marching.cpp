@@ -5,11 +5,11 @@
 #include <brushfire/core/detail/prefetch.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/solvers/detail/float_range.h>
 #include <brushfire/solvers/detail/local_mesh.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
 #include <brushfire/solvers/fast_marching/detail/fronts.h>
-#include <brushfire/solvers/fast_marching/detail/local_mesh.h>
 #include <brushfire/solvers/fast_marching/detail/march.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
 #include <brushfire/solvers/partition/worker_team.h>
@@ -306,7 +306,7 @@ class Marcher {
 class FastMarching final : public detail::Engine {
  public:
   FastMarching(Mesh mesh, Index part_size)
-      : mesh_(std::move(mesh)), part_size_(part_size), float_is_enough_(is_float_enough(mesh_)) {}
+      : mesh_(std::move(mesh)), part_size_(part_size), float_is_enough_(detail::fits_float(mesh_)) {}
 
   bool lists_touched() const override { return true; }
 
@@ -337,20 +337,6 @@ class FastMarching final : public detail::Engine {
     return *local_;
   }
 
-  // Float lanes hold fourth powers of lengths in units of the mean edge.
-  static bool is_float_enough(const Mesh& mesh) {
-    constexpr double kLongest = 0x1p24;
-    double longest = 0;
-    if (mesh.has_positions()) {
-      const auto [low, high] = mesh.bounds();
-      const Vec3 extent = (1 / mesh.unit()) * high - (1 / mesh.unit()) * low;
-      longest = std::max({extent.x, extent.y, extent.z});
-    } else {
-      for (const double l : mesh.lengths()) longest = std::max(longest, l);
-    }
-    return longest < kLongest;
-  }
-
   Mesh mesh_;
   Index part_size_;
   bool float_is_enough_;
@@ -368,11 +354,9 @@ Index usual_part_size(const Mesh& mesh) {
   return mesh.vertex_count() < kWorthParts ? kNoIndex : kVertices;
 }
 
-// Copies of faces are looked for where there are more faces than a closed surface with few handles has. (A few copies
-// elsewhere do no harm: fronts pass edges of many faces one face at a time.)
+// (A few copies elsewhere do no harm: fronts pass edges of many faces one face at a time.)
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh) {
-  const bool many_faces = mesh.face_count() / 17 * 8 > mesh.vertex_count();
-  std::shared_ptr<const detail::Sheets> sheets = many_faces ? detail::Sheets::of(mesh) : nullptr;
+  std::shared_ptr<const detail::Sheets> sheets = detail::Sheets::where_likely(mesh);
   const auto make = [](const Mesh& m) { return make_engine(m, usual_part_size(m)); };
   return sheets ? detail::make_on_one_sheet(std::move(sheets), make) : make(mesh);
 }
