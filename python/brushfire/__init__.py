@@ -20,6 +20,7 @@ from brushfire._core import version as __version__
 from brushfire._cells import Boundary, Centroidal, Discs, Extent, Mean, Medoids, Parcels, k_medoids
 from brushfire._certify import Certificate
 from brushfire._curves import LogMap, Path
+from brushfire._derivatives import DifferentiableDistance, DistanceGradient
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
@@ -43,7 +44,9 @@ __all__ = [
     "Comparison",
     "Cut",
     "Descent",
+    "DifferentiableDistance",
     "Discs",
+    "DistanceGradient",
     "Errors",
     "Extent",
     "FileInfo",

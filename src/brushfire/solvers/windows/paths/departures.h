@@ -3,6 +3,7 @@
 #pragma once
 
 #include <brushfire/solvers/window_field.h>
+#include <brushfire/solvers/windows/paths/record.h>
 #include <brushfire/solvers/windows/paths/trace.h>
 
 #include <cstdint>
@@ -12,6 +13,14 @@
 #include <vector>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
+
+// Two ways back that have no curvature between them see the pseudo-source in one place but for rounding, a few epsilons
+// of the way for each face. Taken for such: a vertex between them that moves the pseudo-source by less than this share
+// of the way.
+inline constexpr double kSamePlace = 1e-12;
+
+// Whether the straight line from the pseudo-source is as long as the value says. The record has a halfedge.
+bool is_explained(const WindowFieldData& data, const PointRecord& record);
 
 // Rays of one pseudo-source that were traced, by the halfedges over which they came. Another ray that comes over one of
 // these and sees the pseudo-source in the same place goes back by the same way, laid flat: its angle is that of the
@@ -58,6 +67,9 @@ class Departures {
   };
   // Of the last leg of the path to a vertex that is reached; throws as WindowField::last_leg() does.
   Departure of(Index vertex);
+
+  // What a field keeps, for those in this room that read it.
+  static const WindowFieldData& data_of(const WindowField& field) { return *field.data_; }
 
  private:
   std::optional<Departure> follow(Index vertex);
