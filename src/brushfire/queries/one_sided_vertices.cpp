@@ -6,7 +6,7 @@
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/sleeve.h>
 #include <brushfire/queries/detail/tangent_fan.h>
-#include <brushfire/solvers/windows/paths/ray_forest.h>
+#include <brushfire/solvers/windows/paths/field_rays.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ struct Back {
 class CutLocus {
  public:
   CutLocus(const Mesh& mesh, const WindowField& field, std::span<const double> value, double tie)
-      : mesh_(mesh), field_(field), forest_(field), value_(value), tie_(tie) {
+      : mesh_(mesh), field_(field), rays_(field), value_(value), tie_(tie) {
     fans_.resize(mesh.vertex_count());
     backs_.resize(mesh.vertex_count());
     Poll poll(64);
@@ -56,7 +56,7 @@ class CutLocus {
   std::optional<Back> back_from(Index v) const {
     detail::Direction direction;
     double length = 0;
-    if (const auto ray = forest_.arrival(v)) {
+    if (const auto ray = rays_.arrival(v)) {
       direction = {Mesh::previous(ray->halfedge), 0};
       const Vec2 back = -1 * ray->arrow, edge = Vec2{0, 0} - ray->apex;  // along the corner's halfedge
       direction.angle = std::clamp(std::atan2(cross(edge, back), dot(edge, back)), 0.0,
@@ -127,7 +127,7 @@ class CutLocus {
 
   const Mesh& mesh_;
   const WindowField& field_;
-  windows::RayForest forest_;
+  windows::FieldRays rays_;
   std::span<const double> value_;
   double tie_;
   std::vector<TangentFan> fans_;

@@ -11,12 +11,16 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
+// Two ways back that have no curvature between them see the pseudo-source in one place but for rounding, a few epsilons
+// of the way for each face. Taken for such: a vertex between them that moves the pseudo-source by less than this share
+// of the way.
+constexpr double kSamePlace = 1e-12;
+
 constexpr std::size_t kCrossings = 8;  // of a ray on scans, before it comes to where another one was
 
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
 
-}  // namespace
-
+// Whether the straight line from the pseudo-source is as long as the value says.
 bool is_explained(const WindowFieldData& data, const PointRecord& record) {
   const Index h = record.ray.halfedge, pseudo_source = record.ray.pseudo_source, n = data.mesh.vertex_count();
   const double start =
@@ -25,6 +29,8 @@ bool is_explained(const WindowFieldData& data, const PointRecord& record) {
   return start < record.value &&
          std::abs(start + norm(apex - record.ray.source) - record.value) <= data.room_for(record);
 }
+
+}  // namespace
 
 TracedRays::TracedRays(std::size_t vertices) : slots_(std::bit_ceil(2 * kCrossings * (vertices + 1)), 0) {
   entries_.reserve(kCrossings * vertices);

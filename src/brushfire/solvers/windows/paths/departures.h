@@ -14,14 +14,6 @@
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
-// Two ways back that have no curvature between them see the pseudo-source in one place but for rounding, a few epsilons
-// of the way for each face. Taken for such: a vertex between them that moves the pseudo-source by less than this share
-// of the way.
-inline constexpr double kSamePlace = 1e-12;
-
-// Whether the straight line from the pseudo-source is as long as the value says. The record has a halfedge.
-bool is_explained(const WindowFieldData& data, const PointRecord& record);
-
 // Rays of one pseudo-source that were traced, by the halfedges over which they came. Another ray that comes over one of
 // these and sees the pseudo-source in the same place goes back by the same way, laid flat: its angle is that of the
 // traced one plus what is between the two here.
