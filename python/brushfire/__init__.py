@@ -30,6 +30,7 @@ from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._regions import Border, Cut, Samples, Voronoi
+from brushfire._sets import distance_matrices
 
 __all__ = [
     "At",
@@ -68,6 +69,7 @@ __all__ = [
     "animate",
     "at",
     "compare",
+    "distance_matrices",
     "from_any",
     "k_medoids",
     "methods",
@@ -77,3 +79,12 @@ __all__ = [
     "render_svg",
     "write",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """``brushfire.torch`` and ``brushfire.jax`` are imported when they are asked for: they need PyTorch and JAX."""
+    if name in ("torch", "jax"):
+        import importlib
+
+        return importlib.import_module(f"brushfire.{name}")
+    raise AttributeError(f"module 'brushfire' has no attribute {name!r}")

@@ -6,8 +6,6 @@
 
 #include <brushfire/queries/distance_gradient.h>
 
-#include <memory>
-
 namespace brushfire::python {
 namespace {
 
@@ -31,15 +29,15 @@ nb::tuple traced_field(Solver& solver, const Vector<std::int64_t>& index, const 
   DistanceOptions options = options_from(given, computation);
   options.method = Method::Exact;
   options.keep_paths = true;
-  auto traced = computation.run(false, [&] {
-    auto result = std::make_unique<TracedField>(
-        TracedField{solver.domain(), sources_from(solver.mesh(), {index, weights}, offsets), {}});
-    solver.with([&](DistanceSolver& s) { s.distance(result->sources, options, result->field); });
+  TracedField traced = computation.run(false, [&] {
+    TracedField result{solver.domain(), sources_from(solver.mesh(), {index, weights}, offsets), {}};
+    solver.with([&](DistanceSolver& s) { s.distance(result.sources, options, result.field); });
     return result;
   });
-  std::vector<double> distance = traced->field.distance;
-  std::vector<Index> source = traced->field.source;
-  return nb::make_tuple(to_numpy(std::move(distance)), to_numpy_signed(std::move(source)), std::move(traced));
+  std::vector<double> distance = traced.field.distance;
+  std::vector<Index> source = traced.field.source;
+  return nb::make_tuple(to_numpy(std::move(distance)), to_numpy_signed(std::move(source)),
+                        nb::cast(std::move(traced)));
 }
 
 // (vertices, places, offsets).

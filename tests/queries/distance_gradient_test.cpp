@@ -85,5 +85,97 @@ TEST(DistanceGradient, IsTheCentralDifferenceOnTwentyMeshes) {
   }
 }
 
+TEST(DistanceGradient, OfAPlaneIsTheDirectionOfTheStraightLine) {
+  const Mesh mesh = shapes::plane(6, 5, 6, 5).mesh();
+  const Index from = 8, to = 33;
+  const std::vector<Source> sources{{vertex_point(mesh, from)}};
+  std::vector<double> weights(mesh.vertex_count(), 0);
+  weights[to] = 2;
+  const DistanceGradient g = distance_gradient_wrt_vertices(mesh, sources, traced(mesh, sources), weights);
+  const Vec3 line = mesh.positions()[to] - mesh.positions()[from];
+  const Vec3 force = (2 / norm(line)) * line;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 expected = v == to ? force : v == from ? -1 * force : Vec3{};
+    EXPECT_LT(norm(g.vertices[v] - expected), 1e-12) << v;
+  }
+  EXPECT_EQ(g.offsets, std::vector<double>{2});
+}
+
+TEST(DistanceGradient, LosesNothingWhenTheWholeMeshMovesOrTurns) {
+  const Mesh mesh = jittered(shapes::folded_sphere(4).mesh(), 0.005, 1);
+  const std::vector<Source> sources{{vertex_point(mesh, 5)}, {SurfacePoint{100, {0.5, 0.25, 0.25}}}};
+  const std::vector<double> weights = random_weights(mesh.vertex_count(), 1);
+  const DistanceGradient g = distance_gradient_wrt_vertices(mesh, sources, traced(mesh, sources), weights);
+  Vec3 force, torque;
+  double growth = 0, sum = 0;
+  const DistanceField field = traced(mesh, sources);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    force = force + g.vertices[v];
+    torque = torque + cross(mesh.positions()[v], g.vertices[v]);
+    growth += dot(mesh.positions()[v], g.vertices[v]);  // all twice as large: all distances, too
+    sum += weights[v] * field.distance[v];
+  }
+  EXPECT_LT(norm(force), 1e-9);
+  EXPECT_LT(norm(torque), 1e-9);
+  EXPECT_NEAR(growth, sum, 1e-9);
+}
+
+// Through vertices of a cube's grid go many paths, whose legs end there and not where the run says.
+TEST(DistanceGradient, IsThatOfSinglePathsWhereLegsPassThroughVertices) {
+  const Mesh mesh = shapes::cube(4).mesh();
+  const std::vector<Source> sources{{vertex_point(mesh, 1)}};
+  const DistanceField field = traced(mesh, sources);
+  const std::vector<double> weights = random_weights(mesh.vertex_count(), 2);
+  const DistanceGradient all = distance_gradient_wrt_vertices(mesh, sources, field, weights);
+  std::vector<Vec3> sum(mesh.vertex_count());
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    std::vector<double> one(mesh.vertex_count(), 0);
+    one[v] = weights[v];
+    const DistanceGradient g = distance_gradient_wrt_vertices(mesh, sources, field, one);
+    double growth = 0;
+    for (Index w = 0; w < mesh.vertex_count(); ++w) {
+      growth += dot(mesh.positions()[w], g.vertices[w]);
+      sum[w] = sum[w] + g.vertices[w];
+    }
+    EXPECT_NEAR(growth, weights[v] * field.distance[v], 1e-12) << v;
+  }
+  for (Index w = 0; w < mesh.vertex_count(); ++w) EXPECT_LT(norm(sum[w] - all.vertices[w]), 1e-12) << w;
+}
+
+TEST(OneSidedVertices, AreOppositeOfTheSource) {
+  // Around a cone's base: straight over the apex's both sides.
+  const Mesh cone = shapes::cone(3, 12, 1, 2).mesh();
+  const std::vector<Source> source{{vertex_point(cone, 25)}};
+  std::vector<Index> tied;
+  const std::vector<std::uint8_t> flags = one_sided_vertices(cone, traced(cone, source));
+  for (Index v = 0; v < cone.vertex_count(); ++v) {
+    if (flags[v] != 0) tied.push_back(v);
+  }
+  EXPECT_EQ(tied, (std::vector<Index>{7, 19, 31}));
+
+  const Mesh sphere = jittered(shapes::icosphere(3).mesh(), 0.03, 3);
+  const std::vector<Source> any{{vertex_point(sphere, 0)}};
+  Index count = 0;
+  for (const std::uint8_t flag : one_sided_vertices(sphere, traced(sphere, any))) count += flag;
+  EXPECT_EQ(count, 0u);
+}
+
+TEST(OneSidedVertices, AreBetweenTwoSources) {
+  const Mesh mesh = shapes::plane(4, 2).mesh();
+  const std::vector<Source> sources{{vertex_point(mesh, 5)}, {vertex_point(mesh, 9)}};
+  const std::vector<std::uint8_t> flags = one_sided_vertices(mesh, traced(mesh, sources));
+  for (Index v = 0; v < mesh.vertex_count(); ++v) EXPECT_EQ(flags[v], v % 5 == 2 ? 1 : 0) << v;
+}
+
+TEST(DistanceGradient, RefusesFieldsWithoutPathsAndMeshesWithoutPositions) {
+  const Mesh mesh = shapes::plane(2, 2).mesh();
+  const std::vector<Source> sources{{vertex_point(mesh, 0)}};
+  const std::vector<double> weights(mesh.vertex_count(), 1);
+  EXPECT_THROW(distance_gradient_wrt_vertices(mesh, sources, distance(mesh, sources), weights), Error);
+  const DistanceField field = traced(mesh, sources);
+  EXPECT_THROW(distance_gradient_wrt_vertices(mesh, sources, field, std::span(weights).first(3)), Error);
+  EXPECT_THROW(distance_gradient_wrt_vertices(shapes::plane(3, 3).mesh(), sources, field, weights), Error);
+}
+
 }  // namespace
 }  // namespace brushfire

@@ -100,7 +100,8 @@ class CutLocus {
       // The triangle of w, v and where w's path comes from, laid flat; past pi the path bends at w.
       const double turned = std::min(*turn, kPi);
       const double x = edge - other.length * std::cos(turned), y = other.length * std::sin(turned);
-      const double length = other.start + std::hypot(x, y);
+      const double way = std::hypot(x, y), length = other.start + way;
+      if (!(way > kNoWay * edge)) continue;  // w's path comes from v
       if (!(std::abs(length - value_[v]) <= tie_ * value_[v])) continue;
       const double aside = side * (from_v.reversed == from_w.reversed ? 1 : -1) * std::atan2(y, x);
       if (differ(fans_[v], own.angle, from_v.angle + aside)) return true;
@@ -118,6 +119,7 @@ class CutLocus {
     return angle;
   }
 
+  static constexpr double kNoWay = 1e-9;  // what rounding leaves of none
   // Two paths that part by less than this differ in length by its square only: they are told to be one.
   static constexpr double kSameDirection = 1e-4;
   static bool differ(const TangentFan& fan, double a, double b) {
