@@ -36,8 +36,7 @@ nb::tuple traced_field(Solver& solver, const Vector<std::int64_t>& index, const 
   });
   std::vector<double> distance = traced.field.distance;
   std::vector<Index> source = traced.field.source;
-  return nb::make_tuple(to_numpy(std::move(distance)), to_numpy_signed(std::move(source)),
-                        nb::cast(std::move(traced)));
+  return nb::make_tuple(to_numpy(std::move(distance)), to_numpy_signed(std::move(source)), nb::cast(std::move(traced)));
 }
 
 // (vertices, places, offsets).

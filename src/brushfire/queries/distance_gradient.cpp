@@ -210,10 +210,10 @@ class Sweep {
   FieldRays rays_;
   std::span<const double> value_;
   std::vector<PointLocation> sources_;
-  std::vector<Pull> pull_;  // [halfedge_count]
-  std::vector<double> stray_;                           // [vertex_count] weight that still has to go on from there
+  std::vector<Pull> pull_;                                // [halfedge_count]
+  std::vector<double> stray_;                             // [vertex_count] weight that still has to go on from there
   std::priority_queue<std::pair<double, Index>> strays_;  // by value: where there is some
-  std::vector<windows::RayCrossing> crossings_;  // of the ray at hand
+  std::vector<windows::RayCrossing> crossings_;           // of the ray at hand
   DistanceGradient gradient_;
 };
 
@@ -251,8 +251,7 @@ DistanceGradient distance_gradient_wrt_vertices(const Domain& domain, std::span<
     is_placed[w] = true;
     open_weights[v] = weights[w];
   }
-  const DistanceGradient found =
-      Sweep(open, *field.windows, walled.sources(), value).run(std::move(open_weights));
+  const DistanceGradient found = Sweep(open, *field.windows, walled.sources(), value).run(std::move(open_weights));
   DistanceGradient gradient{std::vector<Vec3>(domain.mesh().vertex_count()), std::vector<Vec3>(sources.size()),
                             std::vector<double>(sources.size(), 0)};
   for (Index v = 0; v < open.vertex_count(); ++v) {

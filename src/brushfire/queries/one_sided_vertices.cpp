@@ -59,8 +59,8 @@ class CutLocus {
     if (const auto ray = rays_.arrival(v)) {
       direction = {Mesh::previous(ray->halfedge), 0};
       const Vec2 back = -1 * ray->arrow, edge = Vec2{0, 0} - ray->apex;  // along the corner's halfedge
-      direction.angle = std::clamp(std::atan2(cross(edge, back), dot(edge, back)), 0.0,
-                                   mesh_.corner_angle(direction.corner));
+      direction.angle =
+          std::clamp(std::atan2(cross(edge, back), dot(edge, back)), 0.0, mesh_.corner_angle(direction.corner));
       length = ray->length;
     } else {
       const WindowField::Leg leg = field_.last_leg(v);
