@@ -21,7 +21,8 @@ class View : public InFolder {
 };
 
 TEST_F(View, ThePageHoldsTheMeshAndWhereItStarts) {
-  const Ended ended = run_program({"view", path("square.off"), "--source", "2", "--method", "exact", "-o", path("a.html")});
+  const Ended ended =
+      run_program({"view", path("square.off"), "--source", "2", "--method", "exact", "-o", path("a.html")});
   ASSERT_EQ(ended.code, 0) << ended.err;
   const std::string page = content("a.html");
   EXPECT_NE(page.find("\"name\": \"square.off\""), std::string::npos) << page;

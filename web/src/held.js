@@ -1,11 +1,22 @@
 // What `brushfire view` has put into the page: a mesh as the bytes of a file, and what is to be shown of it.
 
-// {bytes, name, state}, or null where the page holds no mesh.
+// The bytes in an element, which is emptied: they are a third larger there.
+function bytesIn(element) {
+  const bytes = Uint8Array.from(atob(element.textContent), (c) => c.charCodeAt(0));
+  element.textContent = '';
+  return bytes;
+}
+
+// {bytes, name, state, values}, or null where the page holds no mesh. `values`: on the vertices, if they were computed
+// elsewhere.
 export function heldMesh(page) {
-  const held = page.getElementById('held-mesh');
-  if (!held) return null;
-  const { name, ...state } = JSON.parse(page.getElementById('held-state').textContent);
-  const bytes = Uint8Array.from(atob(held.textContent), (c) => c.charCodeAt(0));
-  held.textContent = ''; // a third larger than the mesh
-  return { bytes, name, state };
+  const [mesh, state, values] = ['held-mesh', 'held-state', 'held-values'].map((id) => page.getElementById(id));
+  if (!mesh) return null;
+  const { name, ...rest } = JSON.parse(state.textContent);
+  return { bytes: bytesIn(mesh), name, state: rest, values: values && new Float64Array(bytesIn(values).buffer) };
+}
+
+// Whoever shows the page in a frame hears where the sources are now.
+export function tellFrame(sources) {
+  if (window.parent !== window) window.parent.postMessage({ brushfire: { sources } }, '*');
 }

@@ -1,7 +1,7 @@
 // The page: what the visitor does changes the state, and the state is shown.
 import { Engine } from './engine.js';
 import { save } from './exports.js';
-import { heldMesh } from './held.js';
+import { heldMesh, tellFrame } from './held.js';
 import { listen, openFiles } from './pointer.js';
 import { Scene } from './scene.js';
 import { asCommand, asPython, fromFragment, History, initial, relativeError, SHAPES, solving, tidy, toFragment } from './state.js';
@@ -27,7 +27,7 @@ async function guarded(run) {
   }
 }
 
-export async function open(make, name, file) {
+export async function open(make, name, file, values) {
   const opened = await guarded(() => app.engine.open(make));
   if (!opened) return;
   app.file = file ?? null;
@@ -35,7 +35,9 @@ export async function open(make, name, file) {
   const { mesh, vertices, faces, report } = opened;
   app.scene.showMesh(vertices, faces, mesh.bounds);
   $('report').textContent = [`${mesh.vertexCount} vertices, ${mesh.faceCount} faces, ${report.components} component${report.components === 1 ? '' : 's'}.`, ...report.remarks, ...(mesh.file?.remarks ?? [])].join(' ');
-  await refresh();
+  app.faces = faces;
+  if (values) await showGiven(values);
+  else await refresh();
 }
 
 export function openShape(name) {
@@ -49,9 +51,16 @@ export async function openFile(file) {
   return open((pool) => pool.read(bytes, file.name), file.name, bytes);
 }
 
-function openHeld({ bytes, name, state }) {
+function openHeld({ bytes, name, state, values }) {
   app.state = { ...initial(), shape: '', ...state };
-  return open((pool) => pool.read(bytes, `${name}.ply`), name, bytes);
+  return open((pool) => pool.read(bytes, `${name}.ply`), name, bytes, values);
+}
+
+// Values that were computed elsewhere: shown until a source is set.
+function showGiven(values) {
+  show();
+  const reached = values.reduce((n, d) => n + (Number.isFinite(d) ? 1 : 0), 0);
+  draw({ distance: values, source: new Int32Array(values.length), reached, given: true });
 }
 
 // The field of the state as it is now; pictures of older ones are not drawn.
@@ -64,7 +73,11 @@ export async function refresh() {
   clearTimeout(busy);
   $('busy').hidden = true;
   if (!fields) return;
-  const [field, other] = fields;
+  draw(...fields);
+  tellFrame(app.state.sources);
+}
+
+function draw(field, other) {
   app.field = field;
   app.scene.showField(field.distance, field.source);
   const farthest = field.distance.reduce((most, d) => (Number.isFinite(d) && d > most ? d : most), 0);
@@ -133,6 +146,11 @@ export async function look(point) {
   if (!point) return;
   await guarded(async () => {
     const { mesh } = app.engine;
+    if (app.field?.given) {
+      const value = point.weights.reduce((sum, w, k) => (w > 0 ? sum + w * app.field.distance[app.faces[3 * point.face + k]] : sum), 0);
+      $('readout').textContent = `Value ${number(value)}`;
+      return;
+    }
     const { targetDistance, targetSource } = await mesh.distance(app.state.sources, { ...solving(app.state), targets: [point] });
     if (mine !== asked) return;
     app.target = point;

@@ -241,6 +241,32 @@ test('brushfire view makes one file that works from the disk, offline', { skip: 
   assert.ok(length < 1.2e6, `the page without a mesh is ${length} bytes`);
 });
 
+test('the notebook\'s widget shows the page in a frame and hears of its sources', { skip: withoutNative }, async () => {
+  const source = readFileSync(join(here, '../python/brushfire/_viewer.py'), 'utf8');
+  const widget = /_WIDGET = """(.*?)"""/s.exec(source)[1];
+  const page = join(folder, 'framed.html');
+  const env = { ...process.env, BRUSHFIRE_VIEWER: join(here, 'dist-single/index.html') };
+  execFileSync(program, ['view', fileOf('torus', 120, 60), '--source', '5', '-o', page], { env });
+  const v = await visit();
+  await v.page.evaluate(async ([code, html]) => {
+    const { default: { render } } = await import(URL.createObjectURL(new Blob([code], { type: 'text/javascript' })));
+    const values = { page: html, height: 400 };
+    const model = { get: (name) => values[name], set: (name, value) => { values[name] = value; }, save_changes: () => { window.saved = structuredClone(values.sources); } };
+    window.stop = render({ model, el: document.body.insertBefore(document.createElement('div'), document.body.firstChild) });
+  }, [widget, readFileSync(page, 'utf8')]);
+  await v.page.waitForFunction('window.saved', null, { timeout: 60000 });
+  const [before_] = await v.page.evaluate('window.saved');
+  const box = await v.page.locator('iframe').boundingBox();
+  const frame = v.page.frames().find((f) => f !== v.page.mainFrame());
+  const canvas = await frame.locator('#canvas').boundingBox();
+  assert.equal(box.height, 400);
+  await v.page.mouse.click(canvas.x + canvas.width / 2, canvas.y + canvas.height * 0.7);
+  await v.page.waitForFunction((face) => window.saved[0].face !== face, before_.face);
+  await v.page.evaluate('window.stop()');
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
 test('the keyboard alone does', async () => {
   const v = await visit();
   await v.page.focus('#canvas');
