@@ -206,6 +206,24 @@ Distortion distortion_of(const Mesh& mesh, std::span<const std::array<double, 2>
   return d;
 }
 
+std::vector<std::array<double, 2>> in_unit_square(std::span<const std::array<double, 2>> uv) {
+  std::array<double, 2> low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  for (const std::array<double, 2>& p : uv) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (std::isnan(p[k])) continue;
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+  const double extent = std::max(high[0] - low[0], high[1] - low[1]);
+  const double scale = extent > 0 ? 1 / extent : 1;
+  std::vector<std::array<double, 2>> result;
+  for (const std::array<double, 2>& p : uv) {
+    result.push_back({std::min(1.0, scale * (p[0] - low[0])), std::min(1.0, scale * (p[1] - low[1]))});
+  }
+  return result;
+}
+
 Flattening flatten(const Mesh& mesh, const FlattenOptions& options) {
   check(mesh, options);
   if (!options.cut) return flatten(Domain(mesh), options);

@@ -21,8 +21,8 @@
 namespace brushfire {
 
 // Edges, by their two vertices, along which a connected surface has to be cut so that it can be laid flat: shortest
-// ways along edges from `base` around every handle and to every hole but the nearest; on a sphere to the farthest
-// vertex; nothing on a disc. Edges of three and more faces are neither cut nor looked past. The lowest of equals.
+// ways along edges, over `base`, around every handle and between holes; on a sphere from there to the farthest vertex;
+// nothing on a disc. Edges of three and more faces are neither cut nor looked past. Ascending.
 // O(edges log edges). Throws Error(IndexOutOfRange), Error(InvalidArgument) for a base in no face.
 // Based on: Erickson, Whittlesey, "Greedy optimal homotopy and homology generators", 2005.
 std::vector<std::array<Index, 2>> cut_to_disc(const Mesh& mesh, Index base);
@@ -66,5 +66,8 @@ Flattening flatten(const Domain& domain, const FlattenOptions& options = {});
 
 // Of any coordinates of the vertices of a mesh: all but the stress, which is 0. O(faces).
 Distortion distortion_of(const Mesh& mesh, std::span<const std::array<double, 2>> uv);
+
+// Moved and scaled so that they just fit into [0, 1]^2, their proportions kept: what 3D programs take.
+std::vector<std::array<double, 2>> in_unit_square(std::span<const std::array<double, 2>> uv);
 
 }  // namespace brushfire
