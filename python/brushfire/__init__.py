@@ -24,11 +24,13 @@ from brushfire._derivatives import DifferentiableDistance, DistanceGradient
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
+from brushfire._flatten import Distortion, Flattening, decal, distortion, flatten
 from brushfire._io import FileInfo, read
 from brushfire._lines import read_lines
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
+from brushfire._reeb import ReebGraph, reeb_graph
 from brushfire._regions import Border, Cut, Samples, Voronoi
 from brushfire._sets import distance_matrices
 
@@ -47,10 +49,12 @@ __all__ = [
     "Descent",
     "DifferentiableDistance",
     "Discs",
+    "Distortion",
     "DistanceGradient",
     "Errors",
     "Extent",
     "FileInfo",
+    "Flattening",
     "Isoline",
     "LogMap",
     "Mean",
@@ -62,6 +66,7 @@ __all__ = [
     "Path",
     "Point",
     "Points",
+    "ReebGraph",
     "Samples",
     "Solver",
     "Voronoi",
@@ -69,12 +74,16 @@ __all__ = [
     "animate",
     "at",
     "compare",
+    "decal",
     "distance_matrices",
+    "distortion",
+    "flatten",
     "from_any",
     "k_medoids",
     "methods",
     "read",
     "read_lines",
+    "reeb_graph",
     "render",
     "render_svg",
     "write",

@@ -45,6 +45,7 @@ def test_every_public_function_and_method_has_an_example():
         "Descent",
         "DifferentiableDistance",
         "DistanceGradient",
+        "Distortion",
         "Errors",
         "Isoline",
         "Panel",
