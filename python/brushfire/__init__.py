@@ -28,6 +28,7 @@ from brushfire._flatten import Distortion, Flattening, decal, distortion, flatte
 from brushfire._io import FileInfo, read
 from brushfire._lines import read_lines
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
+from brushfire._patches import Patches, patches
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._reeb import ReebGraph, reeb_graph
@@ -63,6 +64,7 @@ __all__ = [
     "MeshReport",
     "Panel",
     "Parcels",
+    "Patches",
     "Path",
     "Point",
     "Points",
@@ -81,6 +83,7 @@ __all__ = [
     "from_any",
     "k_medoids",
     "methods",
+    "patches",
     "read",
     "read_lines",
     "reeb_graph",
