@@ -132,14 +132,14 @@ class _Tracer:
 
     def _trace(self, edge: Edge) -> None:
         a, b = edge
-        cut = self.mesh.cut(edges=np.array(sorted(self.walls)).reshape(-1, 2)) if self.walls else None
-        open_mesh = self.mesh if cut is None else cut.mesh
-        start, end = self._side(cut, a, b), self._side(cut, b, a)
-        original = np.arange(self.mesh.vertex_count) if cut is None else np.asarray(cut.original_vertex)
-        path = self._shortest(open_mesh, original, start, end)
-        if path is None:
-            path = open_mesh.path(start, end)
-            if not len(path.points):
+        for _ in range(_REFINEMENTS):
+            cut, path = self._path(edge, off=True)
+            if path is not None:
+                break
+            self._refine_beside(edge)
+        else:
+            cut, path = self._path(edge, off=False)
+            if path is None:
                 raise BrushfireError(f"patches: nothing leads from landmark {a} to {b} without crossing a path")
             self.touching.append(edge)
         points = path.points if cut is None else cut.points_to_original(path.points)
@@ -147,13 +147,33 @@ class _Tracer:
         self.paths[edge] = way
         self.walls |= {(min(p, q), max(p, q)) for p, q in zip(way, way[1:], strict=False)}
 
-    def _shortest(self, mesh: Mesh, original: npt.NDArray[Any], start: int, end: int) -> Any:
-        """Off all earlier paths and other landmarks; None where there is no room."""
-        taken = {v for way in self.paths.values() for v in way} | set(self.landmarks)
-        taken -= {int(original[start]), int(original[end])}
-        blocked = np.flatnonzero(np.isin(original, sorted(taken)))
+    def _path(self, edge: Edge, *, off: bool) -> tuple[Any, Any]:
+        """The surface cut along earlier paths, and the shortest path there; ``off``: that touches none."""
+        a, b = edge
+        cut = self.mesh.cut(edges=np.array(sorted(self.walls)).reshape(-1, 2)) if self.walls else None
+        mesh = self.mesh if cut is None else cut.mesh
+        original = np.arange(mesh.vertex_count) if cut is None else np.asarray(cut.original_vertex)
+        start, end = self._side(cut, a, b), self._side(cut, b, a)
+        blocked = np.flatnonzero(np.isin(original, self._taken(edge))) if off else np.zeros(0, dtype=int)
         path = (mesh.walled(vertices=blocked) if len(blocked) else mesh).path(start, end)
-        return path if len(path.points) else None
+        return cut, path if len(path.points) else None
+
+    def _taken(self, edge: Edge) -> list[int]:
+        """Vertices of earlier paths, and the other landmarks."""
+        taken = {v for way in self.paths.values() for v in way} | set(self.landmarks)
+        return sorted(taken - {self.landmarks[edge[0]], self.landmarks[edge[1]]})
+
+    def _refine_beside(self, edge: Edge) -> None:
+        """Cuts the edges that end at what is taken in two: what is next to it becomes half as wide."""
+        vertices, faces = self.mesh.vertices, self.mesh.faces
+        ends = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+        ends = np.unique(np.sort(ends, axis=1), axis=0)
+        ends = ends[np.isin(ends, self._taken(edge)).any(axis=1)]
+        chosen = [(p, q) for p, q in ends.tolist() if (p, q) not in self.walls]
+        split = {e: len(vertices) + i for i, e in enumerate(chosen)}
+        keep, new = _cut_faces(faces, split, [])
+        middles = vertices[np.array(chosen)].mean(axis=1)
+        self.mesh = type(self.mesh)(np.concatenate([vertices, middles]), np.concatenate([faces[keep], new]))
 
     def _side(self, cut: Any, a: int, b: int) -> int:
         """The copy of landmark a, in the cut mesh, between its traced neighbours on either side of b."""
@@ -240,6 +260,7 @@ class _Tracer:
         return label
 
 
+_REFINEMENTS = 4  # two make room in a corner between two paths, a third beside another landmark
 _SNAP = 1e-9  # nearer to an edge than this share of the face, a path's point lies on it
 
 
@@ -262,12 +283,12 @@ def _cut_faces(
                 polygon.append(middle)
         if len(polygon) > 3:
             keep[f] = False
-            new += _triangles(polygon, steps)
+            new += _triangles(polygon, steps, set(split.values()))
     return keep, np.array(new, dtype=faces.dtype).reshape(-1, 3)
 
 
-def _triangles(polygon: list[int], steps: set[frozenset[int]]) -> list[list[int]]:
-    """Of a triangle with points on its sides: cut along the path first, then by ears with a corner that is none of a side."""
+def _triangles(polygon: list[int], steps: set[frozenset[int]], added: set[int]) -> list[list[int]]:
+    """Of a triangle with points on its sides: cut along the path first, then what is between two points off."""
     n = len(polygon)
     if n == 3:
         return [polygon]
@@ -275,9 +296,13 @@ def _triangles(polygon: list[int], steps: set[frozenset[int]]) -> list[list[int]
         for j in range(i + 2, n):
             if (i, j) != (0, n - 1) and frozenset((polygon[i], polygon[j])) in steps:
                 rest = steps - {frozenset((polygon[i], polygon[j]))}
-                return _triangles(polygon[i : j + 1], rest) + _triangles(polygon[j:] + polygon[: i + 1], rest)
-    # No step inside any more: a fan from the newest vertex, which lies on a side and sees the others.
-    first = max(range(n), key=lambda i: polygon[i])
+                return _triangles(polygon[i : j + 1], rest, added) + _triangles(polygon[j:] + polygon[: i + 1], rest, added)
+    for i in range(n):
+        before, after = polygon[i - 1], polygon[(i + 1) % n]
+        if polygon[i] not in added and before in added and after in added:
+            return [[before, polygon[i], after], *_triangles(polygon[:i] + polygon[i + 1 :], steps, added)]
+    # A fan from a point of a side: it sees all corners.
+    first = next(i for i in range(n) if polygon[i] in added)
     turned = polygon[first:] + polygon[:first]
     return [[turned[0], turned[i], turned[i + 1]] for i in range(1, n - 1)]
 
