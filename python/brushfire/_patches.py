@@ -205,7 +205,7 @@ class _Tracer:
         weights = np.where(points.weights < _SNAP, 0, points.weights)
         way: list[int] = []
         split: dict[Edge, int] = {}
-        added = []
+        added: list[Any] = []
         for face, weight in zip(points.face, weights / weights.sum(axis=1, keepdims=True), strict=True):
             corners = faces[face]
             on = np.flatnonzero(weight)

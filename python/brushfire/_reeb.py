@@ -132,7 +132,8 @@ def _integral(mesh: Mesh, samples: int, method: str | None) -> tuple[Floats, flo
 def _corner_areas(mesh: Mesh) -> Floats:
     a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    return np.bincount(mesh.faces.ravel(), np.repeat(area / 3, 3), mesh.vertex_count)
+    corners: Floats = np.bincount(mesh.faces.ravel(), np.repeat(area / 3, 3), mesh.vertex_count)
+    return corners
 
 
 def _pieces(count: int, edges: npt.NDArray[Any]) -> int:
@@ -243,7 +244,8 @@ def _share_below(corner: Floats, level: Floats) -> Floats:
         upper = 1 - (c - level) ** 2 / ((c - b) * (c - a))
     share = np.where(level <= b, np.where(b > a, lower, 0.0), np.where(c > b, upper, 1.0))
     share = np.where(level <= a, 0.0, np.where(level >= c, 1.0, share))
-    return np.clip(np.nan_to_num(share), 0, 1)
+    clipped: Floats = np.clip(np.nan_to_num(share), 0, 1)
+    return clipped
 
 
 def _similarity(one: tuple[dict[str, Any], ...], two: tuple[dict[str, Any], ...]) -> float:
@@ -255,19 +257,19 @@ def _similarity(one: tuple[dict[str, Any], ...], two: tuple[dict[str, Any], ...]
         share_a, share_b = _attributes(a), _attributes(b)
         pairs = []
         for i in range(len(share_a)):
-            for j in np.flatnonzero(b["interval"] == a["interval"][i]):
+            for j in np.flatnonzero(b["interval"] == a["interval"][i]).tolist():
                 if matched is None or matched.get(int(a["parent"][i])) == int(b["parent"][j]):
-                    common = min(share_a[i], share_b[j])
+                    common = float(min(share_a[i], share_b[j]))
                     # Neighbours of like size first: what hangs on a node tells it from its twins.
                     around = abs(near_a[i] - near_b[j]).sum()
-                    pairs.append((-common + around, i, int(j), common))
+                    pairs.append((float(around) - common, i, int(j), common))
         level: dict[int, int] = {}
         taken: set[int] = set()
-        for _, i, j, common in sorted(pairs):
-            if i in level or j in taken:
+        for _, own, other, common in sorted(pairs):
+            if own in level or other in taken:
                 continue
-            level[i] = j
-            taken.add(j)
+            level[own] = other
+            taken.add(other)
             total += common
         matched = level
     return total / len(one)

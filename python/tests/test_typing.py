@@ -36,6 +36,9 @@ def test_every_public_function_and_method_has_an_example():
     plain = {
         "MeshReport",
         "FileInfo",
+        "Flattening",
+        "Patches",
+        "ReebGraph",
         "Path",
         "LogMap",
         "At",
