@@ -23,6 +23,7 @@ from brushfire._curves import LogMap, Path
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
+from brushfire._heat import HeatSolver, SignedHeatSolver, VectorHeatSolver, laplacian
 from brushfire._io import FileInfo, read
 from brushfire._lines import read_lines
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
@@ -47,6 +48,7 @@ __all__ = [
     "Errors",
     "Extent",
     "FileInfo",
+    "HeatSolver",
     "Isoline",
     "LogMap",
     "Mean",
@@ -59,7 +61,9 @@ __all__ = [
     "Point",
     "Points",
     "Samples",
+    "SignedHeatSolver",
     "Solver",
+    "VectorHeatSolver",
     "Voronoi",
     "__version__",
     "animate",
@@ -67,6 +71,7 @@ __all__ = [
     "compare",
     "from_any",
     "k_medoids",
+    "laplacian",
     "methods",
     "read",
     "read_lines",

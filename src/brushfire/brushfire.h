@@ -21,7 +21,11 @@
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/heat.h>
 #include <brushfire/solvers/heat_options.h>
+#include <brushfire/solvers/laplacian.h>
+#include <brushfire/solvers/signed_heat.h>
+#include <brushfire/solvers/vector_heat.h>
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>
 #if BRUSHFIRE_QUERIES

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #ifdef BRUSHFIRE_HAS_EIGEN
+#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 #endif
 
@@ -27,10 +28,18 @@ struct Abreast {
   Abreast(double value) { at.fill(Scalar(value)); }  // as Eigen makes its constants
   Abreast& operator+=(const Abreast& b) { return *this = *this + b; }
   Abreast& operator-=(const Abreast& b) { return *this = *this - b; }
-  friend Abreast operator+(const Abreast& a, const Abreast& b) { return each([&](int i) { return a.at[i] + b.at[i]; }); }
-  friend Abreast operator-(const Abreast& a, const Abreast& b) { return each([&](int i) { return a.at[i] - b.at[i]; }); }
-  friend Abreast operator*(const Abreast& a, const Abreast& b) { return each([&](int i) { return a.at[i] * b.at[i]; }); }
-  friend Abreast operator/(const Abreast& a, const Abreast& b) { return each([&](int i) { return a.at[i] / b.at[i]; }); }
+  friend Abreast operator+(const Abreast& a, const Abreast& b) {
+    return each([&](int i) { return a.at[i] + b.at[i]; });
+  }
+  friend Abreast operator-(const Abreast& a, const Abreast& b) {
+    return each([&](int i) { return a.at[i] - b.at[i]; });
+  }
+  friend Abreast operator*(const Abreast& a, const Abreast& b) {
+    return each([&](int i) { return a.at[i] * b.at[i]; });
+  }
+  friend Abreast operator/(const Abreast& a, const Abreast& b) {
+    return each([&](int i) { return a.at[i] / b.at[i]; });
+  }
   friend bool operator==(const Abreast& a, const Abreast& b) { return a.at == b.at; }
   // Compiled by Eigen for LL^T, which is not used.
   friend bool operator<=(const Abreast& a, const Abreast& b) { return a.at <= b.at; }
@@ -55,7 +64,15 @@ struct NumTraits<brushfire::heat::Abreast<double, N>> : GenericNumTraits<brushfi
   using Real = brushfire::heat::Abreast<double, N>;
   using NonInteger = Real;
   using Nested = Real;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = N, AddCost = N, MulCost = N };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = N,
+    AddCost = N,
+    MulCost = N
+  };
 };
 
 }  // namespace Eigen
@@ -148,6 +165,13 @@ Factors<Scalar>::Factors(const Pattern& pattern, std::span<const std::vector<Sca
   inverse_diagonal_ = std::move(taken.inverse_diagonal);
 }
 
+void solve_dense(std::span<const double> matrix, std::span<double> b) {
+  const auto n = static_cast<Eigen::Index>(b.size());
+  const Eigen::Map<const Eigen::MatrixXd> a(matrix.data(), n, n);
+  Eigen::Map<Eigen::VectorXd> x(b.data(), n);
+  x = a.selfadjointView<Eigen::Lower>().ldlt().solve(x).eval();
+}
+
 #else
 
 bool can_factor() { return false; }
@@ -161,6 +185,8 @@ template <class Scalar>
 Factors<Scalar>::Factors(const Pattern&, std::span<const std::vector<Scalar>>) {
   require_factorization();
 }
+
+void solve_dense(std::span<const double>, std::span<double>) { require_factorization(); }
 
 #endif
 

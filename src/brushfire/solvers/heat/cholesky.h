@@ -47,6 +47,9 @@ class Factors {
   std::vector<std::vector<double>> inverse_diagonal_;
 };
 
+// Solves A x = b for a dense symmetric positive definite A, [n * n]; b becomes x.
+void solve_dense(std::span<const double> matrix, std::span<double> b);
+
 extern template class Factors<double>;
 extern template class Factors<std::complex<double>>;
 

@@ -16,7 +16,7 @@ struct Operators {
   Pattern pattern;
   std::vector<double> laplacian;  // [pattern.row] positive semidefinite: its off-diagonal entries are <= 0 on Delaunay
   std::vector<double> mass;       // [vertex_count] a third of the area of the triangles around
-  std::vector<int> edge_entry;    // [halfedges] the entry of its two ends, the diagonal's of its tail where they are one
+  std::vector<int> edge_entry;  // [halfedges] the entry of its two ends, the diagonal's of its tail where they are one
 };
 
 Operators operators_of(const Triangulation& t);

@@ -27,7 +27,7 @@ using Sparks = std::vector<Spark>;
 // Positive numbers, far below the least double too: value * kStep^level.
 struct Heat {
   static constexpr double kStep = 1e-200;
-  std::vector<double> value;        // [vertex_count] 0 where no heat comes
+  std::vector<double> value;         // [vertex_count] 0 where no heat comes
   std::vector<std::uint32_t> level;  // [vertex_count] ascends away from the sparks
 };
 

@@ -26,9 +26,9 @@ struct Triangulation {
 };
 
 enum class Cover : std::uint8_t {
-  Single,       // every face once. For oriented meshes whose edges have one or two faces
-  AsItIs,       // Single where no edge is on a border, has three faces or mirrors one; else Tufted
-  Tufted,       // every face twice, front and back, glued around every edge like the pages of an open book
+  Single,  // every face once. For oriented meshes whose edges have one or two faces
+  AsItIs,  // Single where no edge is on a border, has three faces or mirrors one; else Tufted
+  Tufted,  // every face twice, front and back, glued around every edge like the pages of an open book
 };
 
 // Throws Error(InvalidArgument) for Cover::Single and a mesh that it is not for.
