@@ -65,6 +65,7 @@ function showGiven(values) {
 
 // The field of the state as it is now; pictures of older ones are not drawn.
 export async function refresh() {
+  forget();
   show();
   const busy = setTimeout(() => { $('busy').hidden = false; }, 200);
   const { against } = app.state;
@@ -140,6 +141,7 @@ let shown = 0;
 
 // A curve is drawn by the places that it goes through. Null: none is.
 function drawCurve(places) {
+  if (places) forget();
   app.drawing = places;
   $('draw').setAttribute('aria-pressed', String(places !== null));
   for (const id of ['end-curve', 'close-curve']) $(id).disabled = !(places?.length > 1);
@@ -166,11 +168,19 @@ export function setSources(sources, { remember = true } = {}) {
   return refresh();
 }
 
+// What was said of a point holds for the sources of then.
+function forget() {
+  ++asked;
+  app.path = null;
+  app.scene.showPath(null);
+  $('readout').textContent = 'Point at the surface';
+}
+
 // The number and the path at a point: exactly what the program says for it with the same options.
 let asked = 0;
 export async function look(point) {
   const mine = ++asked;
-  if (!point) return;
+  if (!point || app.drawing) return;
   await guarded(async () => {
     if (app.field?.given) {
       const value = point.weights.reduce((sum, w, k) => (w > 0 ? sum + w * app.field.distance[app.faces[3 * point.face + k]] : sum), 0);
