@@ -60,7 +60,7 @@ class Matrix : public testing::TestWithParam<Method> {
 
 // (Those of carried-source, that are computed sixteen at a time, equal them but for some of its error.)
 TEST_P(Matrix, RowsEqualSingleRunsToTheBitForAnyNumberOfThreads) {
-  const double room = GetParam() == Method::CarriedSource ? 0.02 : 0;
+  const double room = GetParam() == Method::CarriedSource ? 0.05 : 0;
   const Mesh mesh = bumpy(9);
   const Index n = mesh.vertex_count();
   const std::vector<double> one = distance_matrix<double>(mesh, {}, {}, options(1));

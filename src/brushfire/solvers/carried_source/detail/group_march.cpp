@@ -31,8 +31,10 @@ BRUSHFIRE_INLINE BucketQueue::Bucket group_bucket(float bucket) {
 
 namespace brushfire::carried_source {
 
-GroupMarch::GroupMarch(const Records<float>& records, Variant variant) : records_(records), variant_(variant) {
+GroupMarch::GroupMarch(const Records<float>& records, Variant variant, int most_turns)
+    : records_(records), variant_(variant) {
   GroupState& s = state_;
+  s.most_turns = most_turns;
   s.fronts.resize(records.vertex_count);
   s.vertices.resize(records.vertex_count);
   for (Index v = 0; v < records.vertex_count; ++v) {

@@ -15,8 +15,11 @@ namespace brushfire::carried_source {
 // not on the processor.
 class GroupMarch {
  public:
+  // More of a vertex, for all lanes together, and values chase each other. (Usual groups need up to a dozen.)
+  static constexpr int kMostTurns = 40;
+
   // Rounding, order and sums are the same for all variants.
-  explicit GroupMarch(const Records<float>& records, Variant variant = Variant::Best);
+  explicit GroupMarch(const Records<float>& records, Variant variant = Variant::Best, int most_turns = kMostTurns);
 
   // Forgets what the last run left. O(vertices that it touched).
   void reset();

@@ -150,7 +150,7 @@ BRUSHFIRE_INLINE void sort_in(GroupState& s) {
     GroupVertex& own = s.vertices[v];
     own.listed = false;
     if ((own.fresh & GroupVertex::kLanes) == 0) continue;
-    s.exhausted |= own.turns >= GroupState::kMostTurns;
+    s.exhausted |= own.turns >= s.most_turns;
     s.touched.push_if(!own.reached, v);
     own.reached = true;
     const float key = key_of(s.fronts[v]);

@@ -33,8 +33,6 @@ struct alignas(32) GroupVertex {
 };
 
 struct GroupState {
-  // Then values chase each other, and are not passed on: such a run is worth nothing.
-  static constexpr std::uint16_t kMostTurns = 40;
   static constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
   UninitializedArray<GroupFront> fronts;  // [vertex_count]
@@ -52,6 +50,7 @@ struct GroupState {
   };
   std::vector<PlannedOffer> offers;
   float per_unit = 1, slack = 0, farther = 0;  // of the mesh
+  int most_turns = 0;                          // of a vertex
   float settled = 0;                           // values below no longer change
   bool exhausted = false;                      // a vertex used up its turns
   std::uint64_t turns = 0, updates = 0;

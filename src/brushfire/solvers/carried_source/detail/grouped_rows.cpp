@@ -50,8 +50,8 @@ GroupedRows::GroupedRows(const Domain& domain, std::span<const Index> asked)
   }
 }
 
-GroupRunner::GroupRunner(const GroupedRows& rows, Variant variant)
-    : rows_(rows), march_(rows.records_, variant), row_(rows.place_.size()) {}
+GroupRunner::GroupRunner(const GroupedRows& rows, Variant variant, int most_turns)
+    : rows_(rows), march_(rows.records_, variant, most_turns), row_(rows.place_.size()) {}
 
 std::vector<int> GroupRunner::run(const GroupedRows::Group& group, double max_distance, const Take& take) {
   std::vector<int> alone;

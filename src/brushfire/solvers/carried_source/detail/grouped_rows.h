@@ -46,7 +46,8 @@ class GroupedRows {
 // One thread's memory for the march: some 350 bytes a vertex, and 64 more for the rows.
 class GroupRunner {
  public:
-  explicit GroupRunner(const GroupedRows& rows, Variant variant = Variant::Best);
+  explicit GroupRunner(const GroupedRows& rows, Variant variant = Variant::Best,
+                       int most_turns = GroupMarch::kMostTurns);
 
   // A lane's distances to all vertices of domain.mesh(), in the mesh's units; +inf beyond max_distance. Valid during
   // the call.

@@ -18,8 +18,6 @@ inline constexpr double kSettling = 2;
 
 template <class T>
 inline constexpr T kNews = 1 - 4 * kEpsilon<T>;
-template <class T>
-inline constexpr T kTie = 1 + 8 * kEpsilon<T>;
 
 // For 1 / 0, where a vertex is nearer to its source than fronts are known to be round.
 template <class T>

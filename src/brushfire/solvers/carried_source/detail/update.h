@@ -11,6 +11,10 @@ namespace brushfire::carried_source {
 template <class T>
 inline constexpr T kEpsilon = std::numeric_limits<T>::epsilon();
 
+// Values are the same, but for rounding, below this.
+template <class T>
+inline constexpr T kTie = 1 + 8 * kEpsilon<T>;
+
 // A ray that misses the edge by this share of its length is let through. It would be longer through the end that it
 // misses, by the square of that share: by less than rounding.
 template <class T>

@@ -75,7 +75,8 @@ BRUSHFIRE_INLINE Offer<V> offer_over(NumberIn<V> length, NumberIn<V> to_x, Numbe
   const V part = select(fan, u * inverse, select(first_seen, zero, one));
   const V edge = at_v + V(along);
   constexpr T kNever = std::numeric_limits<T>::infinity();
-  const auto over = (seen_a | seen_b) & (through < edge) & (at_v < V(kNever)) & (at_b < V(kNever));
+  // The way through v, whose source is nearer, does not win by rounding.
+  const auto over = (seen_a | seen_b) & (through < V(kTie<T>) * edge) & (at_v < V(kNever)) & (at_b < V(kNever));
   V dx = select(over, part * (b.x - a.x) - ax, zero - x);
   V dy = select(over, part * (b.y - a.y) - deep_a, zero - y);
   // A front that opens is rounder than its sources are far.
