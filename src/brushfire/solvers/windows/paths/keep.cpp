@@ -16,6 +16,8 @@ void Results::keep() {
   data->sources.assign(run_.problem->sources.begin(), run_.problem->sources.end());
   data->bases.assign(run_.problem->bases.begin(), run_.problem->bases.end());
   data->shift = run_.shift;
+  data->relative = run_.rounding.relative;
+  data->absolute = run_.rounding.absolute;
   PointRecord unknown;
   if (run_.radius < kInfinity) unknown.value = std::numeric_limits<double>::quiet_NaN();
   constexpr Index kMany =
