@@ -1,8 +1,6 @@
 // Rows of points wait in buckets; one that is taken offers what has changed to its faces, its own edge and over fences.
 #include <brushfire/solvers/steiner/detail/search.h>
 
-#include <brushfire/core/detail/planar.h>
-#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/solvers/steiner/detail/lower_costs.h>
 
 #include <algorithm>
@@ -27,7 +25,7 @@ void resize(LowerTerms& terms, Index room) {
 }  // namespace
 
 Search::Search(const WeightedMesh& mesh, const PointLayout& layout, Costs costs)
-    : mesh_(mesh), layout_(layout), costs_(costs) {
+    : mesh_(mesh), layout_(layout), costs_(costs), places_(mesh, layout, costs) {
   const double width = kBucketWidth * mean_length(mesh) * mesh.mean_weight();
   width_ = width > 0 && width < kInfinity ? width : 1;
   offers_.value.resize(layout.longest_row());
@@ -51,7 +49,7 @@ void Search::run(std::span<const detail::LocatedSource> sources, const SearchLim
   }
   first_.assign(edges, kNoIndex);
   last_.assign(edges, 0);
-  waiting_.assign(edges, BucketQueue::kNever);
+  waiting_.assign(edges, RowQueue::kNever);
   queue_.reset();
   for (std::size_t i = 0; i < sources.size(); ++i) start(sources[i], static_cast<Index>(i));
 
@@ -87,10 +85,10 @@ void Search::start(const detail::LocatedSource& source, Index number) {
   if (source.at.on == PointLocation::On::Vertex) {
     return reach(source.at.vertex, source.offset, parent, kNoIndex);
   }
-  for (const Beside& row : beside(source.at)) {
+  for (const RowBeside& row : places_.beside(source.at)) {
     if (row.weight == kInfinity) continue;
     for (Index i = 0; i < layout_.count(row.edge); ++i) {
-      const double value = source.offset + row.weight * cost_to(row, i);
+      const double value = source.offset + row.weight * places_.distance_to(row, i);
       if (value < front_.value[layout_.row(row.edge) + i]) improve(row.edge, i, value, parent);
     }
   }
@@ -121,7 +119,7 @@ void Search::mark(Index edge, Index j, double value) {
   last_[edge] = std::max(last_[edge], j);
   constexpr double kLastBucket = 0x1p62;
   const auto bucket =
-      std::max(static_cast<BucketQueue::Bucket>(std::min(value / width_, kLastBucket)), queue_.cursor());
+      std::max(static_cast<RowQueue::Bucket>(std::min(value / width_, kLastBucket)), queue_.cursor());
   if (bucket >= waiting_[edge]) return;
   waiting_[edge] = bucket;
   queue_.push(edge, bucket);
@@ -131,7 +129,7 @@ void Search::send(Index edge) {
   Index first = first_[edge], last = last_[edge];
   first_[edge] = kNoIndex;
   last_[edge] = 0;
-  waiting_[edge] = BucketQueue::kNever;
+  waiting_[edge] = RowQueue::kNever;
   ++front_.rows_sent;
   sweep(edge, first, last);
   const std::span<const Index> opposite = mesh_.mesh().opposite();
@@ -139,7 +137,7 @@ void Search::send(Index edge) {
   Index h = begin;
   do {
     const Index f = Mesh::face_of(h);
-    if (mesh_.mesh().is_face_usable(f) && mesh_.face_weight(f) < kInfinity) send_into_face(over(h), first, last);
+    if (mesh_.mesh().is_face_usable(f) && mesh_.face_weight(f) < kInfinity) send_into_face(places_.over(h), first, last);
     h = opposite[h];
   } while (h != begin);
   cross(edge, first, last);
@@ -171,30 +169,14 @@ void Search::step(Index edge, Index from, Index to, double cost, Index& first, I
   last = std::max(last, to);
 }
 
-Search::Over Search::over(Index h) const {
-  const Mesh& mesh = mesh_.mesh();
-  Over over;
-  over.edge = mesh_.edges().edge(h);
-  over.face = Mesh::face_of(h);
-  over.start = end_of(over.edge, false);
-  over.end = end_of(over.edge, true);
-  over.length = mesh.lengths()[h];
-  const bool same_way = mesh.from(h) == over.start;
-  const double from_start = mesh.lengths()[same_way ? Mesh::previous(h) : Mesh::next(h)];
-  const double from_end = mesh.lengths()[same_way ? Mesh::next(h) : Mesh::previous(h)];
-  over.apex = over.length > 0 ? apex_over_edge(over.length, from_start, from_end, mesh.double_areas()[over.face])
-                              : Vec2{from_start, 0};
-  return over;
-}
-
-void Search::send_into_face(const Over& over, Index first, Index last) {
+void Search::send_into_face(const FaceOver& over, Index first, Index last) {
   for (Index k = 0; k < 3; ++k) {
     const Index target = mesh_.edges().edge(3 * over.face + k);
     if (target != over.edge) send_to_row(over, target, first, last);
   }
 }
 
-void Search::send_to_row(const Over& over, Index target, Index first, Index last) {
+void Search::send_to_row(const FaceOver& over, Index target, Index first, Index last) {
   const double* values = front_.value.data() + layout_.row(over.edge);
   const Offering from{layout_.at_row(over.edge), values, first, last, *std::min_element(values + first, values + last + 1)};
   const auto place = [&](Index v) {
@@ -219,7 +201,7 @@ void Search::send_to_row(const Over& over, Index target, Index first, Index last
   }
 }
 
-void Search::find_lower_terms(const Over& over, Index target, const Receiving& to) {
+void Search::find_lower_terms(const FaceOver& over, Index target, const Receiving& to) {
   const Index target_start = end_of(target, false);
   const MeetingRow mine{layout_.at_row(over.edge), layout_.count(over.edge),
                         over.end == target_start || over.end == end_of(target, true)};
@@ -239,102 +221,6 @@ void Search::cross(Index edge, Index first, Index last) {
       if (value < front_.value[other + j]) improve(bridge.to, j, value, row + i);
     }
   }
-}
-
-// The rows of the faces that hold a place which is not a vertex; of an edge also its own.
-std::vector<Search::Beside> Search::beside(const PointLocation& place) const {
-  const Mesh& mesh = mesh_.mesh();
-  std::vector<Beside> rows;
-  if (place.on == PointLocation::On::Interior) {
-    for (Index k = 0; k < 3; ++k) add_beside(3 * place.face + k, place, rows);
-    return rows;
-  }
-  const Index own = mesh_.edges().edge(place.halfedge);
-  const double length = mesh.lengths()[place.halfedge];
-  const bool same_way = mesh.from(place.halfedge) == end_of(own, false);
-  rows.push_back({own, mesh_.edge_weight(own), {(same_way ? place.t : 1 - place.t) * length, 0}, true, 0});
-  for (const Index f : faces_at(mesh, place)) {
-    for (Index k = 0; k < 3; ++k) {
-      if (mesh_.edges().edge(3 * f + k) != own) add_beside(3 * f + k, place, rows);
-    }
-  }
-  return rows;
-}
-
-void Search::add_beside(Index h, const PointLocation& place, std::vector<Beside>& rows) const {
-  const Mesh& mesh = mesh_.mesh();
-  const Index f = Mesh::face_of(h);
-  if (!mesh.is_face_usable(f) || mesh_.face_weight(f) == kInfinity) return;
-  const Over o = over(h);
-  const auto weights = weights_in(mesh, place, f);
-  if (!weights) return;
-  Vec2 at;
-  for (Index k = 0; k < 3; ++k) {
-    const Index v = mesh.faces()[f][k];
-    if (v == o.end) at = at + (*weights)[k] * Vec2{o.length, 0};
-    if (v != o.end && v != o.start) at = at + (*weights)[k] * o.apex;
-  }
-  rows.push_back({o.edge, mesh_.face_weight(f), at, false, kPlaceRounding * std::max(o.length, norm(o.apex))});
-}
-
-// Along the place's own edge a lowered cost is the distance from the interval that holds it.
-double Search::cost_to(const Beside& row, Index i) const {
-  const double* at = layout_.at_row(row.edge);
-  if (costs_ == Costs::Real) return std::hypot(row.place.x - at[i], row.place.y);
-  const Index count = layout_.count(row.edge);
-  if (!row.under) return lower_cost(at, count, i, row.place.x, row.place.y, row.rounding);
-  const auto above = static_cast<Index>(std::lower_bound(at, at + count, row.place.x) - at);
-  if (i >= above) return at[i] - at[std::min(above, count - 1)];
-  return above > 0 ? at[above - 1] - at[i] : 0;
-}
-
-ValueAt Search::straight_from_sources(const PointLocation& place) const {
-  const Mesh& mesh = mesh_.mesh();
-  ValueAt best;
-  for (std::size_t s = 0; s < sources_.size(); ++s) {
-    const PointLocation& source = sources_[s].at;
-    for (const Index f : faces_at(mesh, source)) {
-      const auto a = weights_in(mesh, source, f), b = weights_in(mesh, place, f);
-      if (!a || !b) continue;
-      double weight = mesh_.face_weight(f);
-      for (Index k = 0; k < 3; ++k) {  // on one edge
-        const Index across = (k + 2) % 3;
-        if ((*a)[across] == 0 && (*b)[across] == 0) {
-          weight = std::min(weight, mesh_.edge_weight(mesh_.edges().edge(3 * f + k)));
-        }
-      }
-      if (weight == kInfinity) continue;
-      const double value = sources_[s].offset + weight * distance_within(mesh, f, *a, *b);
-      if (value < best.value) best = {value, kFromSource + static_cast<Index>(s)};
-    }
-  }
-  return best;
-}
-
-ValueAt Search::at(const PointLocation& place) const {
-  if (place.on == PointLocation::On::Vertex) {
-    return {front_.vertex_value[place.vertex], front_.vertex_parent[place.vertex]};
-  }
-  ValueAt best = straight_from_sources(place);
-  for (const Beside& row : beside(place)) {
-    if (row.under && costs_ == Costs::Below) {  // linear between the points
-      const double* at = layout_.at_row(row.edge);
-      const Index count = layout_.count(row.edge), row_start = layout_.row(row.edge);
-      const auto above = std::clamp<Index>(
-          static_cast<Index>(std::lower_bound(at, at + count, row.place.x) - at), 1, count - 1);
-      const double length = at[above] - at[above - 1], t = length > 0 ? (row.place.x - at[above - 1]) / length : 0;
-      const double a = front_.value[row_start + above - 1], b = front_.value[row_start + above];
-      const double value = a == b ? a : (1 - t) * a + t * b;
-      if (value < best.value) best = {value, row_start + above};
-      continue;
-    }
-    if (row.weight == kInfinity) continue;
-    for (Index i = 0; i < layout_.count(row.edge); ++i) {
-      const double value = front_.value[layout_.row(row.edge) + i] + row.weight * cost_to(row, i);
-      if (value < best.value) best = {value, layout_.row(row.edge) + i};
-    }
-  }
-  return best;
 }
 
 }  // namespace brushfire::steiner

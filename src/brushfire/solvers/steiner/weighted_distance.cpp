@@ -36,11 +36,13 @@ using namespace steiner;
 // Sums of up to 2^20 costs, each off by a unit in the last place, stay below what they stand for.
 constexpr double kBelowSums = 1 - 0x1p-32;
 
-// Measured (docs/weights.md): so dense, (upper - lower) / lower is about the tolerance on average.
-Density density_for(double tolerance, unsigned doublings) {
+// Measured (docs/weights.md): so dense, upper bounds are off by about half of the tolerance on average and by all of it
+// at most, and lower ones by the tolerance on average.
+Density density_for(Costs costs, double tolerance, unsigned doublings) {
   const double finer = std::ldexp(1.0, -static_cast<int>(doublings)), root = std::sqrt(tolerance) * finer;
-  static const double g = std::getenv("G") ? std::atof(std::getenv("G")) : 2.4, l = std::getenv("L") ? std::atof(std::getenv("L")) : 4;
-  return {g * root, std::min(0.25, l * tolerance * finer), static_cast<Index>(std::min(4096.0, 64 / finer))};
+  const auto most = static_cast<Index>(std::min(4096.0, 64 / finer));
+  if (costs == Costs::Real) return {3 * root, std::min(0.25, 8 * tolerance * finer), most};
+  return {2.1 * root / (1 + root), std::min(0.25, 0.7 * tolerance * finer), 4 * most};
 }
 
 void check(const WeightedOptions& options) {
@@ -84,24 +86,31 @@ struct WeightedSolver::Workspace {
   double uniform = 0;
   std::unique_ptr<DistanceSolver> plain;      // where the weight is uniform
   std::shared_ptr<const WeightedMesh> mesh;   // elsewhere
-  std::shared_ptr<const PointLayout> layout;  // of `density`
-  Density density;
+  struct LaidOut {
+    Density density;
+    std::shared_ptr<const PointLayout> points;
+  };
+  LaidOut for_real, for_below;  // the last ones: upper bounds need fewer points
 
-  void lay_out(const Density& wanted);
+  std::shared_ptr<const PointLayout> points_for(Costs costs, const WeightedOptions& options, unsigned doublings);
   WeightedField run_uniform(std::span<const Source> sources, const WeightedOptions& options);
-  WeightedField run(std::span<const Source> sources, const WeightedOptions& options, const Density& density);
+  WeightedField run(std::span<const Source> sources, const WeightedOptions& options, unsigned doublings);
   void locate(std::span<const Source> sources, const WeightedOptions& options, Run& run) const;
-  void search(Run& run, const WeightedOptions& options, WeightedField& field) const;
+  void search(Run& run, const WeightedOptions& options, const PointLayout* below, WeightedField& field) const;
   void fill_upper(const Run& run, const WeightedOptions& options, WeightedField& field) const;
   void fill_lower(const Search& below, const Run& run, const WeightedOptions& options, WeightedField& field) const;
 };
 
-void WeightedSolver::Workspace::lay_out(const Density& wanted) {
-  if (!mesh) mesh = std::make_shared<WeightedMesh>(domain, weights);
-  if (layout && density.growth == wanted.growth && density.least == wanted.least) return;
-  layout.reset();
-  layout = std::make_shared<PointLayout>(*mesh, wanted);
-  density = wanted;
+std::shared_ptr<const PointLayout> WeightedSolver::Workspace::points_for(Costs costs, const WeightedOptions& options,
+                                                                         unsigned doublings) {
+  const Density wanted = density_for(costs, options.tolerance, doublings);
+  LaidOut& last = costs == Costs::Real ? for_real : for_below;
+  if (!last.points || !(last.density == wanted)) {
+    last.points.reset();
+    last.points = std::make_shared<PointLayout>(*mesh, wanted);
+    last.density = wanted;
+  }
+  return last.points;
 }
 
 void WeightedSolver::Workspace::locate(std::span<const Source> sources, const WeightedOptions& options,
@@ -126,15 +135,17 @@ void WeightedSolver::Workspace::locate(std::span<const Source> sources, const We
   }
 }
 
-void WeightedSolver::Workspace::search(Run& run, const WeightedOptions& options, WeightedField& field) const {
+// `below_points`: the points for lower bounds, where they are wanted.
+void WeightedSolver::Workspace::search(Run& run, const WeightedOptions& options, const PointLayout* below_points,
+                                       WeightedField& field) const {
   std::vector<PointLocation> places;
   for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
-  const double unit = mesh->mesh().unit(), share = options.lower ? 0.3 : 1;
+  const double unit = mesh->mesh().unit(), share = options.lower ? 0.1 : 1;
   SearchLimits limits{(options.max_distance - run.base) / unit, places, {}};
   if (options.progress) limits.progress = [&](double done) { options.progress(share * done); };
   if (!options.targets.empty() && places.empty()) limits.max_value = -1;  // all targets are nowhere
   {
-    Search real(*mesh, *layout, Costs::Real);
+    Search real(*mesh, *run.layout, Costs::Real);
     real.run(run.sources, limits);
     for (const auto& sides : run.targets) {
       std::vector<ValueAt>& values = run.target_values.emplace_back();
@@ -143,9 +154,9 @@ void WeightedSolver::Workspace::search(Run& run, const WeightedOptions& options,
     run.front = real.take();
   }
   fill_upper(run, options, field);
-  if (!options.lower) return;
+  if (!below_points) return;
   if (options.progress) limits.progress = [&](double done) { options.progress(share + (1 - share) * done); };
-  Search below(*mesh, *layout, Costs::Below);
+  Search below(*mesh, *below_points, Costs::Below);
   below.run(run.sources, limits);
   fill_lower(below, run, options, field);
 }
@@ -212,15 +223,17 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
 }
 
 WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, const WeightedOptions& options,
-                                             const Density& wanted) {
-  lay_out(wanted);
+                                             unsigned doublings) {
+  if (!mesh) mesh = std::make_shared<WeightedMesh>(domain, weights);
   auto run = std::make_shared<Run>();
   run->mesh = mesh;
-  run->layout = layout;
+  run->layout = points_for(Costs::Real, options, doublings);
   locate(sources, options, *run);
   WeightedField field;
-  search(*run, options, field);
-  field.points = layout->size();
+  std::shared_ptr<const PointLayout> below;
+  if (options.lower) below = points_for(Costs::Below, options, doublings);
+  search(*run, options, below.get(), field);
+  field.points = run->layout->size() + (below ? below->size() : 0);
   field.run = std::move(run);
   return field;
 }
@@ -274,9 +287,9 @@ WeightedField WeightedSolver::distance(std::span<const Source> sources, const We
   const CancelScope listen(options.cancel);
   check(options);
   if (workspace_->uniform > 0) return workspace_->run_uniform(sources, options);
-  WeightedField field = workspace_->run(sources, options, density_for(options.tolerance, 0));
+  WeightedField field = workspace_->run(sources, options, 0);
   for (unsigned k = 1; k <= options.refinements && field.max_error_bound > options.tolerance; ++k) {
-    field = workspace_->run(sources, options, density_for(options.tolerance, k));
+    field = workspace_->run(sources, options, k);
     field.refinements = k;
   }
   return field;

@@ -17,6 +17,8 @@ namespace brushfire::steiner {
 struct Density {
   double growth = 0.3, least = 0.05;
   Index most = 64;
+
+  friend bool operator==(const Density&, const Density&) = default;
 };
 
 // Every edge has a row of points: its first vertex, points between, its last vertex; then room up to a multiple of
