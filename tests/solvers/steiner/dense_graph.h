@@ -1,5 +1,5 @@
-// Weighted distances by a graph of many equal steps on every edge: simple, slow, and built from positions alone. What it
-// finds are costs of real paths, so no proven lower bound may be above it.
+// Weighted distances by a graph of many equal steps on every edge: simple, slow, and built from positions alone. What
+// it finds are costs of real paths, so no proven lower bound may be above it.
 #pragma once
 
 #include <brushfire/mesh/mesh.h>
@@ -111,13 +111,10 @@ class DenseGraph {
     }
     std::map<std::pair<Index, Index>, EdgeCost> special;
     for (const EdgeCost& e : weights.edges) special[std::minmax(e.vertices[0], e.vertices[1])] = e;
-    // A wall's faces lead nowhere, not even around a vertex, unless a road goes through.
-    std::vector<bool> has_road(mesh_.face_count(), false);
-    for (const auto& [ends, e] : special) {
-      for (const Index f : edges[ends]) has_road[f] = has_road[f] || e.along < kInfinity;
-    }
     for (auto& [ends, faces] : edges) {
-      const auto is_wall = [&](Index f) { return faces_[f].weight == kInfinity && !has_road[f]; };
+      const auto is_wall = [&](Index f) {
+        return faces_[f].weight == kInfinity;
+      };  // leads nowhere, nor around a vertex
       faces.erase(std::remove_if(faces.begin(), faces.end(), is_wall), faces.end());
       const auto found = special.find(ends);
       const double crossing = found == special.end() ? 0 : found->second.crossing;
@@ -127,7 +124,8 @@ class DenseGraph {
         for (Index i = 0; i <= steps_; ++i) {
           const Index here = node(f, ends.first, ends.second, i);
           for (const Index g : faces) {
-            if (f != g && crossing < kInfinity) twins_[here].emplace_back(node(g, ends.first, ends.second, i), crossing);
+            if (f != g && crossing < kInfinity)
+              twins_[here].emplace_back(node(g, ends.first, ends.second, i), crossing);
           }
           if (i == steps_ || along == kInfinity) continue;
           const Index next = node(f, ends.first, ends.second, i + 1);

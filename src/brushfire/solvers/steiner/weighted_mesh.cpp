@@ -52,17 +52,13 @@ Weights opened(const Domain& domain, const Weights& weights) {
   return {on_open(domain, weights.face), on_open(domain, merged(weights.edges))};
 }
 
-// Faces that nothing enters are cut out, but for those beside a road: roads go through.
 Barriers barriers_of(const Mesh& mesh, const Weights& weights) {
-  std::vector<bool> has_road(mesh.face_count(), false);
   Barriers barriers;
   for (const EdgeCost& e : weights.edges) {
     if (e.crossing > 0) barriers.edges.push_back(e.vertices);
-    if (e.along == kInfinity) continue;
-    for (const Index h : halfedges_between(mesh, e.vertices[0], e.vertices[1])) has_road[Mesh::face_of(h)] = true;
   }
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    if (weights.face[f] == kInfinity && !has_road[f]) barriers.faces.push_back(f);
+    if (weights.face[f] == kInfinity) barriers.faces.push_back(f);
   }
   return barriers;
 }

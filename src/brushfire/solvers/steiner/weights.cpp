@@ -28,7 +28,7 @@ std::string name_of(const EdgeCost& edge) {
   return "edge " + std::to_string(edge.vertices[0]) + " - " + std::to_string(edge.vertices[1]);
 }
 
-void check_edge(const Mesh& mesh, const EdgeCost& edge) {
+void check_edge(const Mesh& mesh, const EdgeCost& edge, const std::vector<double>& faces) {
   for (const Index v : edge.vertices) {
     if (v < mesh.vertex_count()) continue;
     throw Error(ErrorCode::IndexOutOfRange, name_of(edge) + ": vertex " + std::to_string(v) +
@@ -42,8 +42,15 @@ void check_edge(const Mesh& mesh, const EdgeCost& edge) {
     throw Error(ErrorCode::InvalidArgument,
                 name_of(edge) + ": the cost to cross it, " + number_as_text(edge.crossing) + ", is not >= 0");
   }
-  if (edge.vertices[0] == edge.vertices[1] || halfedges_between(mesh, edge.vertices[0], edge.vertices[1]).empty()) {
+  const std::vector<Index> sides = halfedges_between(mesh, edge.vertices[0], edge.vertices[1]);
+  if (edge.vertices[0] == edge.vertices[1] || sides.empty()) {
     throw Error(ErrorCode::InvalidArgument, name_of(edge) + ": no edge of the mesh joins these two vertices");
+  }
+  const auto is_wall = [&](Index h) { return !faces.empty() && faces[Mesh::face_of(h)] == kInfinity; };
+  if (edge.along < kInfinity && std::all_of(sides.begin(), sides.end(), is_wall)) {
+    throw Error(ErrorCode::InvalidArgument, name_of(edge) +
+                                                ": a road between faces of weight inf, which are cut out: for a road "
+                                                "through a wall give the wall a large weight, 1e9, instead");
   }
 }
 
@@ -52,14 +59,14 @@ void check_edge(const Mesh& mesh, const EdgeCost& edge) {
 double Weights::uniform() const {
   if (!edges.empty()) return 0;
   if (face.empty()) return 1;
-  const bool same = face.front() < kInfinity &&
-                    std::all_of(face.begin(), face.end(), [&](double w) { return w == face.front(); });
+  const bool same =
+      face.front() < kInfinity && std::all_of(face.begin(), face.end(), [&](double w) { return w == face.front(); });
   return same ? face.front() : 0;
 }
 
 void check(const Mesh& mesh, const Weights& weights) {
   check_faces(mesh, weights.face);
-  for (const EdgeCost& edge : weights.edges) check_edge(mesh, edge);
+  for (const EdgeCost& edge : weights.edges) check_edge(mesh, edge, weights.face);
 }
 
 std::vector<Index> halfedges_between(const Mesh& mesh, Index a, Index b) {

@@ -13,7 +13,7 @@ namespace brushfire {
 struct EdgeCost {
   std::array<Index, 2> vertices{};
   // Per unit of length along the edge: a road, a river bank. > 0; more than a face beside it costs means nothing, since
-  // one can go along the edge in that face; +inf: as in the faces.
+  // one can go along the edge in that face; +inf: as in the faces. A face beside it must not be a wall.
   double along = kInfinity;
   // Added whenever the edge is crossed, from a face on one side to one on another: a fence, a ford. >= 0; +inf: a wall.
   // Nobody slips through at a vertex: the edges crossed around it are paid. Where a fence ends one can go round it.
@@ -23,8 +23,7 @@ struct EdgeCost {
 // The cost of a path is the sum over its pieces of length times weight, plus what crossings cost. Weights of 1 and no
 // edges are distances.
 struct Weights {
-  // [face_count] per unit of length in the face, > 0; +inf: a wall, as in Barriers::faces, unless one of the face's
-  // edges has a cost along it: such an edge is a road through the wall. Empty: 1 everywhere.
+  // [face_count] per unit of length in the face, > 0; +inf: a wall, as in Barriers::faces. Empty: 1 everywhere.
   std::vector<double> face = {};
   std::vector<EdgeCost> edges = {};  // of an edge that is named twice the lowest of `along`, the highest of `crossing`
 
@@ -33,8 +32,8 @@ struct Weights {
 };
 
 // Throws Error(InvalidArgument) that names the face or the edge: not one weight per face, a weight that is not > 0 (the
-// points of a face of weight 0 would all be one place: give it a small weight instead), a negative cost of crossing, two
-// vertices that no edge joins; Error(IndexOutOfRange) for a vertex that does not exist.
+// points of a face of weight 0 would all be one place: give it a small weight instead), a negative cost of crossing,
+// two vertices that no edge joins, a road between walls; Error(IndexOutOfRange) for a vertex that does not exist.
 void check(const Mesh& mesh, const Weights& weights);
 
 // The halfedges over the edge of two vertices, in any direction, ascending; none where no edge joins them.
