@@ -22,6 +22,8 @@
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/steiner/weights.h>
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>
 #if BRUSHFIRE_QUERIES
@@ -46,6 +48,7 @@
 #include <brushfire/queries/surface_path.h>
 #include <brushfire/queries/vertex_measures.h>
 #include <brushfire/queries/voronoi.h>
+#include <brushfire/queries/weighted_path.h>
 #endif
 #if BRUSHFIRE_IO
 #include <brushfire/io/byte_stream.h>
