@@ -31,6 +31,7 @@
 #include <brushfire/queries/certify.h>
 #include <brushfire/queries/compare.h>
 #include <brushfire/queries/curved_isolines.h>
+#include <brushfire/queries/distance_gradient.h>
 #include <brushfire/queries/distance_matrix.h>
 #include <brushfire/queries/extent.h>
 #include <brushfire/queries/gradient.h>
