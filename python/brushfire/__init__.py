@@ -24,6 +24,7 @@ from brushfire._derivatives import DifferentiableDistance, DistanceGradient
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
+from brushfire._heat import HeatSolver, SignedHeatSolver, VectorHeatSolver, laplacian
 from brushfire._io import FileInfo, read
 from brushfire._lines import read_lines
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
@@ -51,6 +52,7 @@ __all__ = [
     "Errors",
     "Extent",
     "FileInfo",
+    "HeatSolver",
     "Isoline",
     "LogMap",
     "Mean",
@@ -63,7 +65,9 @@ __all__ = [
     "Point",
     "Points",
     "Samples",
+    "SignedHeatSolver",
     "Solver",
+    "VectorHeatSolver",
     "Voronoi",
     "__version__",
     "animate",
@@ -72,6 +76,7 @@ __all__ = [
     "distance_matrices",
     "from_any",
     "k_medoids",
+    "laplacian",
     "methods",
     "read",
     "read_lines",

@@ -47,6 +47,40 @@ class Solver:
         progress: _Progress,
     ) -> tuple[_Floats, _Signed, _Floats | None]: ...
 
+def laplacian(mesh: Mesh, delaunay: bool) -> tuple[_Signed, _Signed, _Floats, _Floats]: ...
+
+class _Heat:
+    def __init__(
+        self, mesh: Mesh, time_factor: float, time: float, boundary: str, delaunay: bool, poisson_shift: float
+    ) -> None: ...
+
+class HeatSolver(_Heat):
+    time: float
+    mean_edge_length: float
+    def distances(self, index: _Ints, weights: _Floats | None, offsets: _Floats, starts: _Ints) -> _Floats: ...
+
+class VectorHeatSolver(_Heat):
+    time: float
+    def extend(self, index: _Ints, values: _Floats) -> _Floats: ...
+    def transport(self, index: _Ints, vectors: _Floats) -> _Floats: ...
+    def log_map(self, index: _Ints, strategy: int) -> _Floats: ...
+    def tangent_frames(self) -> tuple[_Floats, _Floats, _Floats]: ...
+    def connection_laplacian(self) -> tuple[_Signed, _Signed, _Floats]: ...
+
+class SignedHeatSolver(_Heat):
+    def distance(
+        self,
+        index: _Ints,
+        weights: _Floats | None,
+        starts: _Ints,
+        is_signed: _Ints,
+        point_index: _Ints,
+        point_weights: _Floats | None,
+        constraint: int,
+        soft_weight: float,
+        preserve_normals: bool,
+    ) -> _Floats: ...
+
 class CutMesh:
     mesh: Mesh
     def original_vertex(self) -> _Signed: ...

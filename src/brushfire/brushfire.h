@@ -24,6 +24,11 @@
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
 #include <brushfire/solvers/steiner/weights.h>
+#include <brushfire/solvers/heat.h>
+#include <brushfire/solvers/heat_options.h>
+#include <brushfire/solvers/laplacian.h>
+#include <brushfire/solvers/signed_heat.h>
+#include <brushfire/solvers/vector_heat.h>
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>
 #if BRUSHFIRE_QUERIES

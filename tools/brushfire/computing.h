@@ -17,7 +17,8 @@ std::vector<std::string> accuracy_names();
 std::vector<std::string> bound_names();
 
 // What was asked for; where no method was, `otherwise`, or Method::Windows where a tolerance, a level or a bound was:
-// it is the one that keeps them. A method may be followed by its own detail, "windows:1e-4" or "novotni-klein:float64".
+// it is the one that keeps them. A method may be followed by its own detail, "windows:1e-4", "novotni-klein:float64" or
+// "heat:4,averaged" (times the squared mean edge, what heat does at borders).
 // Throws Error(InvalidArgument) where options do not fit together, or where there are several methods.
 DistanceOptions computation(const SharedArguments& arguments, Method otherwise = DistanceOptions{}.method);
 // One for each --method; for all of `otherwise` where there is none. A tolerance is for those that keep one: somebody
