@@ -20,6 +20,7 @@ from brushfire._core import version as __version__
 from brushfire._cells import Boundary, Centroidal, Discs, Extent, Mean, Medoids, Parcels, k_medoids
 from brushfire._certify import Certificate
 from brushfire._curves import LogMap, Path
+from brushfire._derivatives import DifferentiableDistance, DistanceGradient
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
@@ -30,6 +31,7 @@ from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._regions import Border, Cut, Samples, Voronoi
+from brushfire._sets import distance_matrices
 
 __all__ = [
     "At",
@@ -44,7 +46,9 @@ __all__ = [
     "Comparison",
     "Cut",
     "Descent",
+    "DifferentiableDistance",
     "Discs",
+    "DistanceGradient",
     "Errors",
     "Extent",
     "FileInfo",
@@ -69,6 +73,7 @@ __all__ = [
     "animate",
     "at",
     "compare",
+    "distance_matrices",
     "from_any",
     "k_medoids",
     "laplacian",
@@ -79,3 +84,12 @@ __all__ = [
     "render_svg",
     "write",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """``brushfire.torch`` and ``brushfire.jax`` are imported when they are asked for: they need PyTorch and JAX."""
+    if name in ("torch", "jax"):
+        import importlib
+
+        return importlib.import_module(f"brushfire.{name}")
+    raise AttributeError(f"module 'brushfire' has no attribute {name!r}")

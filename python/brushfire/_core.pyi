@@ -313,3 +313,16 @@ def curve_along(mesh: Mesh, vertices: _Ints, closed: bool) -> PathArrays: ...
 def project_curve(
     domain: Space, xyz: _Floats, closed: bool
 ) -> tuple[PathArrays, float, tuple[float, float, float]]: ...
+
+class TracedField:
+    def gradient(self, upstream: _Floats) -> tuple[_Floats, _Floats, _Floats]: ...
+    def one_sided(self, tie: float) -> npt.NDArray[np.uint8]: ...
+
+def traced_field(
+    solver: Solver,
+    index: _Ints,
+    weights: _Floats | None,
+    offsets: _Floats,
+    options: _Options,
+    progress: _Progress,
+) -> tuple[_Floats, _Signed, TracedField]: ...

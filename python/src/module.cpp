@@ -17,4 +17,5 @@ NB_MODULE(_core, m) {
   brushfire::python::bind_heat(m);
   brushfire::python::bind_figure(m);
   brushfire::python::bind_files(m);
+  brushfire::python::bind_derivatives(m);
 }
