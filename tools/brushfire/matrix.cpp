@@ -23,7 +23,7 @@ constexpr const char* kExamples = R"(Rows and columns:
 
 Examples:
   brushfire matrix cortex.gii -o d.npy
-  brushfire matrix cortex.gii --rows 0,5,9 --cols landmarks.txt --dtype float64 -o d.npy
+  brushfire matrix cortex.gii --rows 0,5,9 --columns landmarks.txt --dtype float64 -o d.npy
   brushfire matrix cortex.gii --radius 20 --method exact -o near.npz
 
 .npy is the dense matrix, written row by row: interrupted, the same command goes on where it stopped. With --radius,
@@ -172,7 +172,7 @@ void add_matrix(CommandLine& command_line) {
   command_line.add("matrix", "Distances from many places to many places", [&](Verb& verb) {
     add_surface(verb, arguments->file);
     verb.option("--rows", arguments->rows, "PLACES", "all, a list of vertices, or a file with one place per line");
-    verb.option("--cols,--columns", arguments->columns, "PLACES", "The same for the columns");
+    verb.option("--columns,--cols", arguments->columns, "PLACES", "The same for the columns");
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
     verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy, with --radius also .npz .mtx");
     verb.talks();
