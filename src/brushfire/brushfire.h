@@ -8,6 +8,7 @@
 #include <brushfire/core/progress.h>
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/boundaries.h>
+#include <brushfire/mesh/curve_source.h>
 #include <brushfire/mesh/cut.h>
 #include <brushfire/mesh/delaunay.h>
 #include <brushfire/mesh/domain.h>

@@ -9,6 +9,7 @@
 
 #include <brushfire/core/progress.h>
 #include <brushfire/core/types.h>
+#include <brushfire/mesh/curve_source.h>
 #include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
@@ -52,7 +53,11 @@ enum class Bound : std::uint8_t { Estimate, Upper, Lower };
 struct Source {
   SurfacePoint point;
   double offset = 0;  // the value the front starts with; finite, may be negative; in the mesh's units
+  // Where set, the source is all of this curve, `point` is not looked at, and `offset` is added to the curve's own.
+  // Lengths of paths are then counted from the curve's least offset where that matters (DistanceOptions::tolerance).
+  std::shared_ptr<const CurveSource> curve = nullptr;
 };
+Source source_along(CurveSource curve, double offset = 0);
 
 inline constexpr double kMaxTolerance = 0.1;
 
