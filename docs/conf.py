@@ -1,0 +1,74 @@
+"""How Sphinx makes the documentation site. Runs in build/site/source, where tools/site/build.py has gathered the pages."""
+
+import re
+from pathlib import Path
+
+import brushfire
+from docutils import nodes
+from sphinx.pycode import ModuleAnalyzer
+from sphinx.util.docutils import SphinxDirective
+
+project = "Brushfire"
+author = "the Brushfire authors"
+copyright = "the Brushfire authors, MIT licence"  # noqa: A001
+version = release = brushfire.__version__
+
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+source_suffix = {".md": "markdown"}
+exclude_patterns = ["_static", "files"]
+highlight_language = "text"
+myst_enable_extensions = ["colon_fence"]
+myst_heading_anchors = 4
+suppress_warnings = ["misc.highlighting_failure"]  # blocks are executed, not only lexed: tools/site/blocks.py
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # docstrings say which shapes, and signatures stay readable
+autodoc_preserve_defaults = True
+add_module_names = False
+maximum_signature_line_length = 90
+
+html_theme = "furo"
+html_title = "Brushfire"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_copy_source = False
+html_show_sourcelink = False
+html_theme_options = {
+    "light_css_variables": {"color-brand-primary": "#a33b0b", "color-brand-content": "#a33b0b"},
+    "dark_css_variables": {"color-brand-primary": "#ff9d5c", "color-brand-content": "#ff9d5c"},
+}
+
+linkcheck_timeout = 20  # ./run docs links
+
+
+class Drawing(SphinxDirective):
+    """An SVG of figures/, inlined: it takes the colours of the page's theme. The content is its caption."""
+
+    required_arguments = 1
+    has_content = True
+
+    def run(self):
+        file = Path(self.env.srcdir) / "figures" / f"{self.arguments[0]}.svg"
+        self.env.note_dependency(str(file))
+        figure = nodes.figure("", nodes.raw("", re.sub(r"<\?xml.*?\?>", "", file.read_text()), format="html"), classes=["drawing"])
+        if self.content:
+            caption = self.parse_content_to_nodes()[0]
+            figure += nodes.caption("", "", *caption.children)
+        return [figure]
+
+
+def without_overloads(analyze):
+    """The implementation's signature says what all overloads say; listed, they would bury it."""
+
+    def analyzed(self):
+        analyze(self)
+        self.overloads = {}
+
+    return analyzed
+
+
+ModuleAnalyzer.analyze = without_overloads(ModuleAnalyzer.analyze)
+
+
+def setup(app):
+    app.add_directive("drawing", Drawing)

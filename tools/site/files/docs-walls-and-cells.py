@@ -1,0 +1,13 @@
+"""The files that the page's commands speak of, beside scan.ply."""
+
+import runpy
+from pathlib import Path
+
+import brushfire as bf
+import numpy as np
+
+runpy.run_path(str(Path(__file__).with_name("README.py")))
+mesh = bf.read("scan.ply")
+mesh.save("part.ply")
+mesh.save("plan.ply")
+np.save("rooms.npy", (np.arange(mesh.face_count) < 3).astype(np.uint8))
