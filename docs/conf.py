@@ -15,7 +15,7 @@ version = release = brushfire.__version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 source_suffix = {".md": "markdown"}
-exclude_patterns = ["_static", "files"]
+exclude_patterns = ["_static", "files", "extra"]
 highlight_language = "text"
 myst_enable_extensions = ["colon_fence"]
 myst_heading_anchors = 4
@@ -30,6 +30,7 @@ maximum_signature_line_length = 90
 html_theme = "furo"
 html_title = "Brushfire"
 html_static_path = ["_static"]
+html_extra_path = ["extra"]  # the viewer
 html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sourcelink = False
@@ -57,6 +58,17 @@ class Drawing(SphinxDirective):
         return [figure]
 
 
+class Viewer(SphinxDirective):
+    """The live viewer of web/, where it was built (./run web); a picture otherwise."""
+
+    def run(self):
+        if (Path(self.env.srcdir) / "extra/viewer/index.html").exists():
+            frame = '<iframe class="viewer" src="viewer/index.html" title="Live viewer: click on the mesh" loading="lazy"></iframe>'
+            link = '<p class="below">Click anywhere: distances from there, computed in your browser. <a href="viewer/index.html">Whole page</a></p>'
+            return [nodes.raw("", frame + link, format="html")]
+        return [nodes.image(uri="images/bunny.png", alt="Exact distances on a scan, isolines, two shortest paths")]
+
+
 def without_overloads(analyze):
     """The implementation's signature says what all overloads say; listed, they would bury it."""
 
@@ -72,3 +84,4 @@ ModuleAnalyzer.analyze = without_overloads(ModuleAnalyzer.analyze)
 
 def setup(app):
     app.add_directive("drawing", Drawing)
+    app.add_directive("viewer", Viewer)

@@ -74,11 +74,22 @@ def of_queries(mesh: bf.Mesh) -> dict[str, float]:
     }
 
 
+def saddle_share(mesh: bf.Mesh) -> float:
+    """Of all vertices, those whose angles add up to more than 360 degrees."""
+    V, F = np.array(mesh.vertices), np.array(mesh.faces)
+    total = np.zeros(len(V))
+    for k in range(3):
+        a, b = V[F[:, (k + 1) % 3]] - V[F[:, k]], V[F[:, (k + 2) % 3]] - V[F[:, k]]
+        angle = np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(axis=1))
+        np.add.at(total, F[:, k], angle)
+    return float((total > 2 * np.pi + 1e-9).mean())
+
+
 def main() -> None:
     measured: dict[str, dict] = {"meshes": {}}
     for name, mesh in meshes().items():
         truth = mesh.distance(0, method="exact")
-        measured["meshes"][name] = {"vertices": mesh.vertex_count, "methods": of_methods(mesh, truth), "queries": of_queries(mesh)}
+        measured["meshes"][name] = {"vertices": mesh.vertex_count, "saddles": saddle_share(mesh), "methods": of_methods(mesh, truth), "queries": of_queries(mesh)}
         if name == "folded-sphere":
             measured["tolerances"] = of_tolerances(mesh, truth)
     save("methods", "build/venv/bin/python benchmarks/site/methods.py", measured)

@@ -44,6 +44,11 @@ def gather() -> None:
         (SOURCE / path).parent.mkdir(parents=True, exist_ok=True)
         (SOURCE / path).write_text(text)
     figures.draw(SOURCE / "figures")
+    (SOURCE / "extra").mkdir()
+    if (ROOT / "web/dist").exists():
+        shutil.copytree(ROOT / "web/dist", SOURCE / "extra/viewer")
+    else:
+        print("(web/dist is not built, ./run web does: the start page shows a picture in place of the live viewer)")
 
 
 def linked(text: str, origin: Path, page: Path) -> str:
@@ -133,9 +138,6 @@ def main() -> None:
         return
     shutil.rmtree(HTML, ignore_errors=True)
     sphinx("html", HTML)
-    viewer = ROOT / "web/dist"
-    if viewer.exists():
-        shutil.copytree(viewer, HTML / "viewer")
     links = check_links()
     pages = sum(1 for _ in HTML.rglob("*.html"))
     print(f"build/site/html/index.html: {pages} pages, {links} internal links, all of which lead somewhere")

@@ -1,4 +1,4 @@
-"""Holds the numbers of the documentation against what was measured: python tools/site/numbers.py [--write]
+"""Holds the numbers of the documentation against what was measured: python tools/site/measured.py [--write]
 
 In a page, `0.03 %<!-- =methods.meshes.bunny.methods.windows.mean -->` is that entry of docs/measured/methods.json, rounded
 to as many digits as stand there; --write puts in what is measured now. A unit after the number converts: % ms us s.
@@ -71,9 +71,10 @@ def as_it_stands(number: str, value: float) -> str:
     # A number that was 20 and is 23 now stands as rounded as before.
     zeros = len(plain) - len(plain.rstrip("0")) if not decimals else 0
     rounded = round(value, decimals or -zeros)
-    if decimals and rounded == 0:
+    if decimals and rounded == 0 and significant:
         rounded, decimals = float(f"{value:.{max(significant, 1)}g}"), 12
         return f"{rounded:.12f}".rstrip("0")
+    rounded += 0.0  # not -0
     return f"{rounded:,.{decimals}f}" if "," in number else f"{rounded:.{decimals}f}"
 
 
