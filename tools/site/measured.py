@@ -55,8 +55,8 @@ def tables(page: str) -> dict[tuple[str, str, str], str]:
 def cell(page: str, path: str) -> float:
     section, row, column = (part.strip() for part in path.split(" / "))
     text = tables(page)[section, row, column]
-    number = float(re.match(r"-?[\d.]+(?:e-?\d+)?", text)[0])
-    return number / 100 if "%" in text else number
+    number, percent = re.match(r"(-?[\d.]+(?:e-?\d+)?)( ?%)?", text).groups()
+    return float(number) / 100 if percent else float(number)
 
 
 def as_it_stands(number: str, value: float) -> str:
