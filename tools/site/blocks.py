@@ -36,6 +36,7 @@ import numpy as np
 ROOT = Path(__file__).parents[2]
 PROGRAM = ROOT / "build/release/brushfire"
 WASM = ROOT / "js/lib/brushfire.wasm"
+VIEWER = PROGRAM.with_name("viewer.html")
 PROSE = {"", "text", "ts", "{toctree}", "{drawing}", "{eval-rst}", "{viewer}"}
 LANGUAGES = {"python": "python", "sh": "sh", "bash": "sh", "console": "console", "c++": "c++", "cpp": "c++", "js": "js"}
 
@@ -129,8 +130,11 @@ class Session:
         return printed.getvalue()
 
     def shell(self, block: Block) -> str:
+        lines = block.text.splitlines()
+        if not VIEWER.exists():
+            lines = [line for line in lines if not line.startswith("brushfire view")]
         # A command whose comment says so ends with that exit code.
-        text = re.sub(r"^(.*?)(  #.*\bexit code (\d+).*)$", r"status=0; \1 || status=$?; [ $status = \3 ]\2", block.text, flags=re.M)
+        text = re.sub(r"^(.*?)(  #.*\bexit code (\d+).*)$", r"status=0; \1 || status=$?; [ $status = \3 ]\2", "\n".join(lines), flags=re.M)
         return self.command(["bash", "-euo", "pipefail", "-c", text], block)
 
     def console(self, block: Block) -> str:
@@ -285,6 +289,8 @@ def main() -> None:
         print(f"(not run: {block.page}:{block.line}, {block.language}: {block.reason})")
     if counts.get("js") and not WASM.exists():
         print("(JavaScript was parsed, not run: ./run web builds its WebAssembly)")
+    if not VIEWER.exists():
+        print("(lines of brushfire view were not run: ./run web builds its page)")
     told = ", ".join(f"{count} of {language}" for language, count in sorted(counts.items()))
     print(f"{sum(counts.values())} blocks run on {len(everything)} pages ({told}) in {time.monotonic() - begin:.0f} s, {spent():.0f} s of processor time; {failed} failed, {len(skipped)} not run")
     sys.exit(1 if failed else 0)

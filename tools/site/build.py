@@ -44,11 +44,20 @@ def gather() -> None:
         (SOURCE / path).parent.mkdir(parents=True, exist_ok=True)
         (SOURCE / path).write_text(text)
     figures.draw(SOURCE / "figures")
-    (SOURCE / "extra").mkdir()
-    if (ROOT / "web/dist").exists():
-        shutil.copytree(ROOT / "web/dist", SOURCE / "extra/viewer")
-    else:
-        print("(web/dist is not built, ./run web does: the start page shows a picture in place of the live viewer)")
+    live_viewer(SOURCE / "extra/viewer")
+
+
+def live_viewer(folder: Path) -> None:
+    """One file with a mesh and the library in it: what `brushfire view` makes, where its page was built."""
+    folder.mkdir(parents=True)
+    if not PROGRAM.with_name("viewer.html").exists():
+        print("(the viewer is not built, ./run web does: the start page shows a picture in its place)")
+        return
+    mesh = ROOT / "demo/bunny.off"
+    if not mesh.exists():
+        mesh = SITE / "mesh.ply"
+        subprocess.run([PROGRAM, "shape", "folded-sphere", "-n", "20000", "-o", mesh, "--quiet"], check=True)
+    subprocess.run([PROGRAM, "view", mesh, "-o", folder / "index.html", "--quiet"], check=True)
 
 
 def linked(text: str, origin: Path, page: Path) -> str:
