@@ -3,14 +3,15 @@
 import re
 from pathlib import Path
 
-import brushfire
 from docutils import nodes
 from sphinx.pycode import ModuleAnalyzer
 from sphinx.util.docutils import SphinxDirective
 
+import brushfire
+
 project = "Brushfire"
 author = "the Brushfire authors"
-copyright = "the Brushfire authors, MIT licence"  # noqa: A001
+copyright = "the Brushfire authors, MIT licence"
 version = release = brushfire.__version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
@@ -51,7 +52,9 @@ class Drawing(SphinxDirective):
     def run(self):
         file = Path(self.env.srcdir) / "figures" / f"{self.arguments[0]}.svg"
         self.env.note_dependency(str(file))
-        figure = nodes.figure("", nodes.raw("", re.sub(r"<\?xml.*?\?>", "", file.read_text()), format="html"), classes=["drawing"])
+        figure = nodes.figure(
+            "", nodes.raw("", re.sub(r"<\?xml.*?\?>", "", file.read_text()), format="html"), classes=["drawing"]
+        )
         if self.content:
             caption = self.parse_content_to_nodes()[0]
             figure += nodes.caption("", "", *caption.children)

@@ -10,9 +10,10 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-import brushfire as bf
 import numpy as np
 from record import ROOT, errors, processor_time, save
+
+import brushfire as bf
 
 PROGRAM = ROOT / "build/release/brushfire"
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5)
@@ -44,7 +45,12 @@ def of_methods(mesh: bf.Mesh, truth: np.ndarray) -> dict[str, dict[str, float]]:
         solver = mesh.solver(method)
         values = solver.distance(0)
         solve = processor_time(lambda solver=solver: solver.distance(0))
-        rows[method] = {"solve": solve, "solve_per_vertex": solve / mesh.vertex_count, "first": first_field(mesh, method), **errors(values, truth)}
+        rows[method] = {
+            "solve": solve,
+            "solve_per_vertex": solve / mesh.vertex_count,
+            "first": first_field(mesh, method),
+            **errors(values, truth),
+        }
     return rows
 
 
@@ -89,7 +95,12 @@ def main() -> None:
     measured: dict[str, dict] = {"meshes": {}}
     for name, mesh in meshes().items():
         truth = mesh.distance(0, method="exact")
-        measured["meshes"][name] = {"vertices": mesh.vertex_count, "saddles": saddle_share(mesh), "methods": of_methods(mesh, truth), "queries": of_queries(mesh)}
+        measured["meshes"][name] = {
+            "vertices": mesh.vertex_count,
+            "saddles": saddle_share(mesh),
+            "methods": of_methods(mesh, truth),
+            "queries": of_queries(mesh),
+        }
         if name == "folded-sphere":
             measured["tolerances"] = of_tolerances(mesh, truth)
     save("methods", "build/venv/bin/python benchmarks/site/methods.py", measured)

@@ -10,8 +10,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import brushfire as bf
 import numpy as np
+
+import brushfire as bf
 
 ROOT = Path(__file__).parents[2]
 
@@ -34,7 +35,11 @@ def errors(values: np.ndarray, truth: np.ndarray) -> dict[str, float]:
 
 
 def processor() -> str:
-    names = [line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")]
+    names = [
+        line.split(":")[1].strip()
+        for line in Path("/proc/cpuinfo").read_text().splitlines()
+        if line.startswith("model name")
+    ]
     return names[0] if names else platform.machine()
 
 

@@ -11,9 +11,10 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-import brushfire as bf
 import numpy as np
 from record import ROOT, errors, save
+
+import brushfire as bf
 
 PROGRAM = ROOT / "build/release/brushfire"
 SIZES = (600, 2500, 10000, 40000, 160000)
@@ -57,12 +58,20 @@ def on_torus(mesh: bf.Mesh, source: int) -> np.ndarray:
 
     def end_of(angle: np.ndarray, length: np.ndarray) -> np.ndarray:
         """(u, v) at the end of geodesics from the source."""
-        state = np.stack([np.full_like(angle, u[source]), np.full_like(angle, v[source]),
-                          np.cos(angle) / (MAJOR + MINOR * np.cos(v[source])), np.sin(angle) / MINOR])
+        state = np.stack(
+            [
+                np.full_like(angle, u[source]),
+                np.full_like(angle, v[source]),
+                np.cos(angle) / (MAJOR + MINOR * np.cos(v[source])),
+                np.sin(angle) / MINOR,
+            ]
+        )
 
         def slope(s: np.ndarray) -> np.ndarray:
             r = MAJOR + MINOR * np.cos(s[1])
-            return np.stack([s[2], s[3], 2 * MINOR * np.sin(s[1]) / r * s[2] * s[3], -np.sin(s[1]) * r / MINOR * s[2] ** 2])
+            return np.stack(
+                [s[2], s[3], 2 * MINOR * np.sin(s[1]) / r * s[2] * s[3], -np.sin(s[1]) * r / MINOR * s[2] ** 2]
+            )
 
         h = length / STEPS
         for _ in range(STEPS):
@@ -111,9 +120,18 @@ def main() -> None:
             truth = truth_on(mesh, source)
             methods = {m: errors(mesh.distance(source, method=m, precision="float64"), truth) for m in METHODS}
             edge = mesh.report.mean_edge_length
-            rows.append({"vertices": mesh.vertex_count, "edge": edge, "compared": float(np.isfinite(truth).mean()), "methods": methods})
+            rows.append(
+                {
+                    "vertices": mesh.vertex_count,
+                    "edge": edge,
+                    "compared": float(np.isfinite(truth).mean()),
+                    "methods": methods,
+                }
+            )
         edges = [row["edge"] for row in rows]
-        orders = {m: {k: order(edges, [row["methods"][m][k] for row in rows]) for k in ("mean", "largest")} for m in METHODS}
+        orders = {
+            m: {k: order(edges, [row["methods"][m][k] for row in rows]) for k in ("mean", "largest")} for m in METHODS
+        }
         measured[name] = {"dashed": name == "torus", "orders": orders, "sizes": rows}
         print(name, {m: round(o["mean"], 2) for m, o in orders.items()}, [round(r["compared"], 3) for r in rows])
     save("smooth", "build/venv/bin/python benchmarks/site/smooth_surface.py", {"surfaces": measured})

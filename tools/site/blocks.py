@@ -27,16 +27,19 @@ import sys
 import tempfile
 import time
 import traceback
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-import brushfire as bf
 import numpy as np
+
+import brushfire as bf
 
 ROOT = Path(__file__).parents[2]
 PROGRAM = ROOT / "build/release/brushfire"
 WASM = ROOT / "js/lib/brushfire.wasm"
 VIEWER = PROGRAM.with_name("viewer.html")
+SLOW = 2  # seconds of processor time of one block, beyond which it is told
 PROSE = {"", "text", "ts", "{toctree}", "{drawing}", "{eval-rst}", "{viewer}"}
 LANGUAGES = {"python": "python", "sh": "sh", "bash": "sh", "console": "console", "c++": "c++", "cpp": "c++", "js": "js"}
 
@@ -80,7 +83,9 @@ def blocks_of(file: Path) -> list[Block]:
             if fence[2] in PROSE:
                 continue
             if fence[2] not in LANGUAGES and reason is None:
-                raise Failure(f"{page}:{start}: nobody runs a block of {fence[2]}; say why above it: <!-- not run: REASON -->")
+                raise Failure(
+                    f"{page}:{start}: nobody runs a block of {fence[2]}; say why above it: <!-- not run: REASON -->"
+                )
             found.append(Block(page, start, LANGUAGES.get(fence[2], fence[2]), text, reason=reason))
             reason, follows = None, True
             continue
@@ -120,7 +125,9 @@ class Session:
     def run(self, block: Block) -> str:
         """Returns what it printed."""
         os.chdir(self.folder)
-        return {"python": self.python, "sh": self.shell, "console": self.console, "js": self.javascript}[block.language](block)
+        return {"python": self.python, "sh": self.shell, "console": self.console, "js": self.javascript}[
+            block.language
+        ](block)
 
     def python(self, block: Block) -> str:
         printed = io.StringIO()
@@ -134,11 +141,16 @@ class Session:
         if not VIEWER.exists():
             lines = [line for line in lines if not line.startswith("brushfire view")]
         # A command whose comment says so ends with that exit code.
-        text = re.sub(r"^(.*?)(  #.*\bexit code (\d+).*)$", r"status=0; \1 || status=$?; [ $status = \3 ]\2", "\n".join(lines), flags=re.M)
+        text = re.sub(
+            r"^(.*?)(  #.*\bexit code (\d+).*)$",
+            r"status=0; \1 || status=$?; [ $status = \3 ]\2",
+            "\n".join(lines),
+            flags=re.MULTILINE,
+        )
         return self.command(["bash", "-euo", "pipefail", "-c", text], block)
 
     def console(self, block: Block) -> str:
-        parts = re.split(r"^\$ ", block.text, flags=re.M)[1:]
+        parts = re.split(r"^\$ ", block.text, flags=re.MULTILINE)[1:]
         for part in parts:
             command, _, expected = part.partition("\n")
             printed = self.command(["bash", "-uo", "pipefail", "-c", command + " 2>&1"], block, check=False)
@@ -160,7 +172,9 @@ class Session:
         return self.command(["node", str(file)], block)
 
     def command(self, command: list[str], block: Block, *, check: bool = True) -> str:
-        done = subprocess.run(command, cwd=self.folder, env=self.environment, capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run(
+            command, cwd=self.folder, env=self.environment, capture_output=True, text=True, timeout=60, check=False
+        )
         if check and done.returncode:
             raise Failure(f"exit code {done.returncode}\n{done.stdout}{done.stderr}")
         return done.stdout
@@ -189,13 +203,34 @@ def run_cpp(pages: dict[str, list[Block]], scan: Path) -> None:
         calls.append(f"  page_{number}();")
     with tempfile.TemporaryDirectory(prefix="brushfire-docs-") as name:
         folder = Path(name)
-        source = "\n".join(sorted(includes)) + "\n#include <cstdio>\nnamespace {\n" + "\n".join(functions) + "}\nint main() {\n" + "\n".join(calls) + "\n}\n"
+        source = (
+            "\n".join(sorted(includes))
+            + "\n#include <cstdio>\nnamespace {\n"
+            + "\n".join(functions)
+            + "}\nint main() {\n"
+            + "\n".join(calls)
+            + "\n}\n"
+        )
         (folder / "blocks.cpp").write_text(source)
         shutil.copy(scan, folder)
         release = ROOT / "build/release"
         libraries = link_line(release)
         compiler = os.environ.get("CXX", "g++")
-        command = [compiler, "-std=c++20", "-O0", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable", f"-I{ROOT / 'src'}", f"-I{release / 'generated'}", "blocks.cpp", "-o", "blocks", *libraries]
+        command = [
+            compiler,
+            "-std=c++20",
+            "-O0",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-Wno-unused-variable",
+            f"-I{ROOT / 'src'}",
+            f"-I{release / 'generated'}",
+            "blocks.cpp",
+            "-o",
+            "blocks",
+            *libraries,
+        ]
         for step in (command, ["./blocks"]):
             done = subprocess.run(step, cwd=folder, capture_output=True, text=True, timeout=120, check=False)
             if done.returncode:
@@ -207,7 +242,11 @@ def link_line(release: Path) -> list[str]:
     said = dict(line.split(": ", 1) for line in (release / "brushfire.pc").read_text().splitlines() if ": " in line)
     own = [word for word in said["Libs"].split() if word != "-lbrushfire" and not word.startswith("-L")]
     required = said.get("Requires", "").split()
-    others = subprocess.run(["pkg-config", "--libs", *required], check=True, capture_output=True, text=True).stdout.split() if required else []
+    others = (
+        subprocess.run(["pkg-config", "--libs", *required], check=True, capture_output=True, text=True).stdout.split()
+        if required
+        else []
+    )
     return [str(release / "libbrushfire.a"), *own, *others]
 
 
@@ -240,59 +279,69 @@ def pages() -> list[Path]:
     return [ROOT / "README.md", ROOT / "python/README.md", ROOT / "js/README.md", *docs]
 
 
+def run_page(page: str, blocks: list[Block], scan: Path, environment: dict[str, str]) -> int:
+    """All but its C++. Returns how many blocks failed."""
+    session = Session(scan, environment)
+    make_files(page, session.folder)
+    failed = 0
+    for block in blocks:
+        if block.reason is not None or block.language == "c++":
+            continue
+        before = spent()
+        try:
+            printed = session.run(block)
+            if block.expected is not None and (block.language != "js" or WASM.exists()):
+                compare(block.expected, printed)
+        except Exception as problem:  # noqa: BLE001
+            told = str(problem) if isinstance(problem, Failure) else traceback.format_exc(limit=-2)
+            print(f"{page}:{block.line}: {told}")
+            failed += 1
+        if spent() - before > SLOW:
+            print(f"({page}:{block.line} takes {spent() - before:.1f} s of processor time)")
+    os.chdir(ROOT)
+    session.close()
+    return failed
+
+
+def run_all(everything: dict[str, list[Block]]) -> int:
+    """Returns how many failed."""
+    search = f"{PROGRAM.parent}:{Path(sys.executable).parent}:{os.environ['PATH']}"
+    environment = {**os.environ, "PATH": search, "LC_ALL": "C.UTF-8"}
+    cpp = {page: [b for b in blocks if b.language == "c++" and b.reason is None] for page, blocks in everything.items()}
+    cpp = {page: blocks for page, blocks in cpp.items() if blocks}
+    with tempfile.TemporaryDirectory(prefix="brushfire-docs-") as home:
+        scan = Path(home) / "scan.ply"
+        make_scan(scan)
+        failed = sum(run_page(page, blocks, scan, environment) for page, blocks in everything.items())
+        if cpp:
+            try:
+                run_cpp(cpp, scan)
+            except Failure as failure:
+                print(failure)
+                failed += 1
+    return failed
+
+
 def main() -> None:
     begin = time.monotonic()
     chosen = [Path(name).resolve() for name in sys.argv[1:]] or pages()
     everything = {file.relative_to(ROOT).as_posix(): blocks_of(file) for file in chosen}
     everything = {page: blocks for page, blocks in everything.items() if blocks}
-    home = Path(tempfile.mkdtemp(prefix="brushfire-docs-"))
-    scan = home / "scan.ply"
-    make_scan(scan)
-    environment = {**os.environ, "PATH": f"{PROGRAM.parent}:{Path(sys.executable).parent}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
-    counts: dict[str, int] = {}
-    skipped: list[Block] = []
-    failed = 0
-    for page, blocks in everything.items():
-        session = Session(scan, environment)
-        make_files(page, session.folder)
-        for block in blocks:
-            if block.reason is not None:
-                skipped.append(block)
-                continue
-            counts[block.language] = counts.get(block.language, 0) + 1
-            if block.language == "c++":
-                continue
-            before = spent()
-            try:
-                printed = session.run(block)
-                if block.expected is not None and (block.language != "js" or WASM.exists()):
-                    compare(block.expected, printed)
-            except Failure as failure:
-                print(f"{page}:{block.line}: {failure}")
-                failed += 1
-            except Exception:  # noqa: BLE001
-                print(f"{page}:{block.line}: {traceback.format_exc(limit=-2)}")
-                failed += 1
-            if spent() - before > 2:
-                print(f"({page}:{block.line} takes {spent() - before:.1f} s of processor time)")
-        os.chdir(ROOT)
-        session.close()
-    cpp = {page: [b for b in blocks if b.language == "c++" and b.reason is None] for page, blocks in everything.items()}
-    if cpp := {page: blocks for page, blocks in cpp.items() if blocks}:
-        try:
-            run_cpp(cpp, scan)
-        except Failure as failure:
-            print(failure)
-            failed += 1
-    shutil.rmtree(home)
+    failed = run_all(everything)
+    blocks = [block for page in everything.values() for block in page]
+    skipped = [block for block in blocks if block.reason is not None]
     for block in skipped:
         print(f"(not run: {block.page}:{block.line}, {block.language}: {block.reason})")
-    if counts.get("js") and not WASM.exists():
+    counts = Counter(block.language for block in blocks if block.reason is None)
+    if counts["js"] and not WASM.exists():
         print("(JavaScript was parsed, not run: ./run web builds its WebAssembly)")
     if not VIEWER.exists():
         print("(lines of brushfire view were not run: ./run web builds its page)")
     told = ", ".join(f"{count} of {language}" for language, count in sorted(counts.items()))
-    print(f"{sum(counts.values())} blocks run on {len(everything)} pages ({told}) in {time.monotonic() - begin:.0f} s, {spent():.0f} s of processor time; {failed} failed, {len(skipped)} not run")
+    print(
+        f"{counts.total()} blocks run on {len(everything)} pages ({told}) in {time.monotonic() - begin:.0f} s, "
+        f"{spent():.0f} s of processor time; {failed} failed, {len(skipped)} not run"
+    )
     sys.exit(1 if failed else 0)
 
 

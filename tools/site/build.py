@@ -23,7 +23,12 @@ SOURCE = SITE / "source"
 HTML = SITE / "html"
 PROGRAM = ROOT / "build/release/brushfire"
 # Pages of the repository that become pages of the site.
-PAGES = {"README.md": "index.md", "CHANGELOG.md": "changes.md", "CONTRIBUTING.md": "contributing.md", "SECURITY.md": "security.md"}
+PAGES = {
+    "README.md": "index.md",
+    "CHANGELOG.md": "changes.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "SECURITY.md": "security.md",
+}
 
 
 def gather() -> None:
@@ -87,7 +92,7 @@ def linked(text: str, origin: Path, page: Path) -> str:
             shutil.copyfile(file, to)
         return f"{bang}[{label}]({relative(to, page.parent)}{'#' + anchor if anchor else ''})"
 
-    blocks = re.split(r"(^```.*?^```[^\n]*$)", text, flags=re.M | re.S)
+    blocks = re.split(r"(^```.*?^```[^\n]*$)", text, flags=re.MULTILINE | re.DOTALL)
     for i in range(0, len(blocks), 2):
         blocks[i] = re.sub(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)", link, blocks[i])
     return "".join(blocks)
@@ -100,7 +105,21 @@ def relative(to: Path, folder: Path) -> str:
 
 def sphinx(builder: str, out: Path) -> None:
     # Every page is read anew: the sources are.
-    command = [sys.executable, "-m", "sphinx", "-E", "-q", "-W", "--keep-going", "-b", builder, "-d", SITE / "doctrees", SOURCE, out]
+    command = [
+        sys.executable,
+        "-m",
+        "sphinx",
+        "-E",
+        "-q",
+        "-W",
+        "--keep-going",
+        "-b",
+        builder,
+        "-d",
+        SITE / "doctrees",
+        SOURCE,
+        out,
+    ]
     if subprocess.run(command, check=False).returncode:
         raise SystemExit("the documentation has warnings")
 

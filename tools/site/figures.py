@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import brushfire as bf
 import numpy as np
 from svg import Chart, Drawing
+
+import brushfire as bf
 
 MEASURED = Path(__file__).parents[2] / "docs/measured"
 
@@ -25,7 +26,12 @@ def floor(low: tuple[float, float], high: tuple[float, float]) -> tuple[bf.Mesh,
     x, y = np.meshgrid(np.arange(3 * n + 1) / n, np.arange(2 * n + 1) / n, indexing="ij")
     V = np.stack([x.ravel(), y.ravel()], axis=-1)
     i, j = (k.ravel() for k in np.meshgrid(np.arange(3 * n), np.arange(2 * n), indexing="ij"))
-    a, b, c, d = (i * (2 * n + 1) + j, (i + 1) * (2 * n + 1) + j, (i + 1) * (2 * n + 1) + j + 1, i * (2 * n + 1) + j + 1)
+    a, b, c, d = (
+        i * (2 * n + 1) + j,
+        (i + 1) * (2 * n + 1) + j,
+        (i + 1) * (2 * n + 1) + j + 1,
+        i * (2 * n + 1) + j + 1,
+    )
     F = np.concatenate([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)])
     middle = V[F].mean(axis=1)
     inside = np.all((middle > low) & (middle < high), axis=1)
@@ -75,8 +81,12 @@ def cut_locus() -> tuple[Drawing, str]:
         drawing.line(line.line.positions[:, :2], "thin", width=1)
     # Where the way around one side is as long as that around the other.
     middle = V[mesh.faces].mean(axis=1)
-    over = mesh.walled(faces=np.flatnonzero((middle[:, 1] < low[1]) & (abs(middle[:, 0] - 1.3) < 0.1))).distance(place, method="exact")
-    under = mesh.walled(faces=np.flatnonzero((middle[:, 1] > high[1]) & (abs(middle[:, 0] - 1.3) < 0.1))).distance(place, method="exact")
+    over = mesh.walled(faces=np.flatnonzero((middle[:, 1] < low[1]) & (abs(middle[:, 0] - 1.3) < 0.1))).distance(
+        place, method="exact"
+    )
+    under = mesh.walled(faces=np.flatnonzero((middle[:, 1] > high[1]) & (abs(middle[:, 0] - 1.3) < 0.1))).distance(
+        place, method="exact"
+    )
     behind = (V[:, 0] >= high[0]) & np.isfinite(over) & np.isfinite(under)
     difference = np.full(len(V), np.inf)
     difference[behind] = over[behind] - under[behind]
@@ -103,7 +113,7 @@ def windows() -> tuple[Drawing, str]:
         drawing.area(face, "face")
 
     def crossing(through: np.ndarray, p: np.ndarray, q: np.ndarray) -> np.ndarray:
-        s, t = np.linalg.solve(np.stack([through - a, p - q], axis=1), p - a)
+        _s, t = np.linalg.solve(np.stack([through - a, p - q], axis=1), p - a)
         return p + t * (q - p)
 
     low, high = b + 0.32 * (c - b), b + 0.72 * (c - b)
@@ -131,7 +141,10 @@ def sphere_chord() -> tuple[Drawing, str]:
         drawing.dot(p, "dot", radius=3.5)
     drawing.text((0, 0.62), "edges: shorter than the arc", anchor="middle", size=13)
     drawing.text((0, 0.48), "by a share of (edge length)\u00b2", anchor="middle", size=13)
-    return drawing, "A polygon in a circle is shorter than the circle by a share that falls with the square of the edge length"
+    return (
+        drawing,
+        "A polygon in a circle is shorter than the circle by a share that falls with the square of the edge length",
+    )
 
 
 def error_and_bound() -> tuple[Drawing, str]:
@@ -140,13 +153,20 @@ def error_and_bound() -> tuple[Drawing, str]:
     for key, kind, dashed in (("bound", "line", True), ("largest", "hot", False), ("mean", "cool", False)):
         points = [(row["tolerance"], row[key]) for row in rows if row[key] > 1e-7]
         chart.line(points, kind, width=2, dashed=dashed)
-        chart.text(points[-1], {"bound": "proven bound", "largest": "largest error", "mean": "mean error"}[key], anchor="end", shift=(-12, 4))
+        chart.text(
+            points[-1],
+            {"bound": "proven bound", "largest": "largest error", "mean": "mean error"}[key],
+            anchor="end",
+            shift=(-12, 4),
+        )
     return chart, "Errors and proven bounds of windows against the tolerance"
 
 
 def smooth_orders() -> tuple[Drawing, str]:
     surfaces = json.loads((MEASURED / "smooth.json").read_text())["surfaces"]
-    chart = Chart((3e-3, 0.3), (2e-6, 0.4), ("mean edge length / size", "mean relative error against the smooth surface"))
+    chart = Chart(
+        (3e-3, 0.3), (2e-6, 0.4), ("mean edge length / size", "mean relative error against the smooth surface")
+    )
     for surface in (surfaces["sphere"], surfaces["torus"]):
         for method, kind in (("exact", "hot"), ("novotni-klein", "cool"), ("dijkstra", "thin")):
             points = [(row["edge"], row["methods"][method]["mean"]) for row in surface["sizes"]]

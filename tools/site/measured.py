@@ -15,7 +15,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 UNITS = {"%": 100.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "s": 1.0, "": 1.0}
-MARK = re.compile(r"(?P<number>-?\d[\d,]*(?:\.\d+)?(?:e-?\d+)?)(?P<gap> ?)(?P<unit>%|ms|us|µs|s)?(?P<mark> ?<!-- =(?P<key>[^>]*?) -->)")
+MARK = re.compile(
+    r"(?P<number>-?\d[\d,]*(?:\.\d+)?(?:e-?\d+)?)(?P<gap> ?)(?P<unit>%|ms|us|µs|s)?(?P<mark> ?<!-- =(?P<key>[^>]*?) -->)"
+)
 
 
 @functools.cache
@@ -94,7 +96,9 @@ def main() -> None:
                 return match[0]
             now = as_it_stands(match["number"], value)
             if now != match["number"]:
-                wrong.append(f"{page.relative_to(ROOT)}: {match['number']} {match['unit'] or ''} is {now} in {match['key']} ({value:g})")
+                wrong.append(
+                    f"{page.relative_to(ROOT)}: {match['number']} {match['unit'] or ''} is {now} in {match['key']} ({value:g})"
+                )
             return now + match["gap"] + (match["unit"] or "") + match["mark"]
 
         after = MARK.sub(held, text)
@@ -109,7 +113,9 @@ def main() -> None:
     for line in wrong:
         print(line)
     if wrong:
-        raise SystemExit(f"{len(wrong)} of {count} numbers are not those that were measured: ./run docs numbers --write")
+        raise SystemExit(
+            f"{len(wrong)} of {count} numbers are not those that were measured: ./run docs numbers --write"
+        )
     print(f"{count} numbers of the documentation are those that were measured")
 
 

@@ -96,7 +96,9 @@ def cpp_items(text: str) -> list[Item]:
 
     for line in text.splitlines():
         if depth == 0:
-            if re.match(r"(namespace\b.*\{|\}\s*// namespace.*|#.*)$", line) or re.match(r"(class|struct|enum class) \w+(?: : [\w:]+)?;$", line):
+            if re.match(r"(namespace\b.*\{|\}\s*// namespace.*|#.*)$", line) or re.match(
+                r"(class|struct|enum class) \w+(?: : [\w:]+)?;$", line
+            ):
                 end()
                 continue
             if not line.strip():
@@ -115,7 +117,13 @@ def cpp_items(text: str) -> list[Item]:
 
 def cpp_name(code: list[str]) -> str:
     text = " ".join(code)
-    for pattern in (r"(?:class|struct|enum class|enum) (\w+)", r"using (\w+) =", r"(operator\W+?)\(", r"(\w+)\(", r"(\w+)(?:\{.*\})?\s*(?:=|;)"):
+    for pattern in (
+        r"(?:class|struct|enum class|enum) (\w+)",
+        r"using (\w+) =",
+        r"(operator\W+?)\(",
+        r"(\w+)\(",
+        r"(\w+)(?:\{.*\})?\s*(?:=|;)",
+    ):
         if found := re.search(pattern, text):
             return found[1]
     return ""
@@ -126,7 +134,7 @@ def merged(items: list[Item]) -> list[Item]:
     out: list[Item] = []
     for item in items:
         if out and item.name and out[-1].name == item.name:
-            out[-1].comment += (["", *item.comment] if item.comment else [])
+            out[-1].comment += ["", *item.comment] if item.comment else []
             out[-1].code += ["", *item.code] if item.comment else item.code
         else:
             out.append(item)
@@ -139,7 +147,7 @@ def cpp() -> dict[str, str]:
     rows: dict[str, list[tuple[str, str]]] = {room: [] for room in ROOMS}
     for header in headers:
         text = (ROOT / "src/brushfire" / header).read_text()
-        head, body = re.split(r"^#pragma once$", text, maxsplit=1, flags=re.M)
+        head, body = re.split(r"^#pragma once$", text, maxsplit=1, flags=re.MULTILINE)
         about = [line[2:].removeprefix(" ") for line in head.splitlines() if line.startswith("//")]
         name = header.split("/")[1]
         parts = [f"# {name}", prose(about), f"```cpp\n#include <brushfire/{header}>\n```"]
@@ -155,9 +163,12 @@ def cpp() -> dict[str, str]:
         rows[header.split("/")[0]].append((header, first.rstrip(".;")))
     index = ["# C++", "Everything public is in `<brushfire/brushfire.h>`; these pages are its headers, one each."]
     for room, about in ROOMS.items():
-        index += [f"## {room}/: {about}", "| header | |\n|---|---|\n" + "\n".join(
-            f"| [{header}]({cpp_page(header)}.md) | {escaped(first)} |" for header, first in rows[room]),
-            "```{toctree}\n:hidden:\n" + "\n".join(cpp_page(header) for header, _ in rows[room]) + "\n```"]
+        index += [
+            f"## {room}/: {about}",
+            "| header | |\n|---|---|\n"
+            + "\n".join(f"| [{header}]({cpp_page(header)}.md) | {escaped(first)} |" for header, first in rows[room]),
+            "```{toctree}\n:hidden:\n" + "\n".join(cpp_page(header) for header, _ in rows[room]) + "\n```",
+        ]
     pages["reference/cpp.md"] = "\n\n".join(index) + "\n"
     return pages
 
@@ -168,11 +179,14 @@ def cli(program: Path) -> dict[str, str]:
         return subprocess.run([program, *verb, "--help"], check=True, capture_output=True, text=True).stdout.strip()
 
     main = help_of()
-    verbs = re.findall(r"^  ([a-z-]+) {2,}\S", main.split("Subcommands:")[1].split("\n\n")[0], re.M)
+    verbs = re.findall(r"^  ([a-z-]+) {2,}\S", main.split("Subcommands:")[1].split("\n\n")[0], re.MULTILINE)
     if len(verbs) < 10:
         raise SystemExit("reference.py: brushfire --help lists too few verbs")
-    parts = ["# Command line", "What `brushfire VERB --help` prints. `brushfire manual` prints manual pages, and `--json` of every verb is for programs.",
-             f"```text\n{main}\n```"]
+    parts = [
+        "# Command line",
+        "What `brushfire VERB --help` prints. `brushfire manual` prints manual pages, and `--json` of every verb is for programs.",
+        f"```text\n{main}\n```",
+    ]
     for verb in verbs:
         text = help_of(verb)
         title, _, rest = text.partition("\n")
@@ -208,7 +222,10 @@ def js_items(text: str) -> list[Item]:
 
 
 def js() -> dict[str, str]:
-    parts = ["# JavaScript", "The types of the npm package `brushfire`: `js/lib/index.d.ts`, declaration by declaration."]
+    parts = [
+        "# JavaScript",
+        "The types of the npm package `brushfire`: `js/lib/index.d.ts`, declaration by declaration.",
+    ]
     items = [item for item in js_items((ROOT / "js/lib/index.d.ts").read_text()) if item.code[0].startswith("export")]
     if len(items) < 20:
         raise SystemExit("reference.py: index.d.ts holds too few declarations")

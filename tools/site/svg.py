@@ -22,11 +22,21 @@ class Drawing:
     def at(self, p: Place) -> tuple[float, float]:
         return self.margin + (p[0] - self.low[0]) * self.scale, self.margin + (self.high[1] - p[1]) * self.scale
 
-    def line(self, points: Iterable[Place], kind: str = "line", *, width: float = 1.5, closed: bool = False, dashed: bool = False) -> None:
-        path = "L".join("%.1f %.1f" % self.at(p) for p in points)
+    def line(
+        self,
+        points: Iterable[Place],
+        kind: str = "line",
+        *,
+        width: float = 1.5,
+        closed: bool = False,
+        dashed: bool = False,
+    ) -> None:
+        path = "L".join("{:.1f} {:.1f}".format(*self.at(p)) for p in points)
         dash = ' stroke-dasharray="5 4"' if dashed else ""
         end = "Z" if closed else ""
-        self.parts.append(f'<path class="{kind}" d="M{path}{end}" stroke-width="{width}" stroke-linejoin="round"{dash}/>')
+        self.parts.append(
+            f'<path class="{kind}" d="M{path}{end}" stroke-width="{width}" stroke-linejoin="round"{dash}/>'
+        )
 
     def area(self, points: Iterable[Place], kind: str) -> None:
         self.line(points, kind, closed=True, width=1)
@@ -37,7 +47,9 @@ class Drawing:
 
     def text(self, p: Place, words: str, *, anchor: str = "start", shift: Place = (0, 0), size: float = 14) -> None:
         x, y = self.at(p)
-        self.parts.append(f'<text x="{x + shift[0]:.1f}" y="{y - shift[1]:.1f}" text-anchor="{anchor}" font-size="{size}">{words}</text>')
+        self.parts.append(
+            f'<text x="{x + shift[0]:.1f}" y="{y - shift[1]:.1f}" text-anchor="{anchor}" font-size="{size}">{words}</text>'
+        )
 
     def save(self, file: Path, about: str) -> None:
         width, height = self.size
@@ -63,8 +75,12 @@ class Chart(Drawing):
             self.line([(x[0], 10.0**power), (x[1], 10.0**power)], "thin", width=0.5)
             self.text((x[0], 10.0**power), power_of_ten(power), anchor="end", shift=(-6, -4), size=12)
         self.line([(x[0], y[1]), (x[0], y[0]), (x[1], y[0])], "line", width=1)
-        self.parts.append(f'<text x="{(left + right) / 2}" y="{bottom + 38}" text-anchor="middle" font-size="13">{labels[0]}</text>')
-        self.parts.append(f'<text transform="translate(14 {(top + bottom) / 2}) rotate(-90)" text-anchor="middle" font-size="13">{labels[1]}</text>')
+        self.parts.append(
+            f'<text x="{(left + right) / 2}" y="{bottom + 38}" text-anchor="middle" font-size="13">{labels[0]}</text>'
+        )
+        self.parts.append(
+            f'<text transform="translate(14 {(top + bottom) / 2}) rotate(-90)" text-anchor="middle" font-size="13">{labels[1]}</text>'
+        )
 
     def at(self, p: Place) -> tuple[float, float]:
         left, top, right, bottom = self.frame

@@ -1,8 +1,9 @@
 """The files that the README's commands speak of, beside scan.ply."""
 
-import brushfire as bf
 import numpy as np
 from files.cortex import write_cortex
+
+import brushfire as bf
 
 write_cortex()
 mesh = bf.read("scan.ply")

@@ -1,8 +1,9 @@
 """A cortex that is none, in FreeSurfer's and GIFTI's files: a dented sphere in millimetres with a medial wall."""
 
-import brushfire as bf
 import nibabel
 import numpy as np
+
+import brushfire as bf
 
 
 def write_cortex() -> None:

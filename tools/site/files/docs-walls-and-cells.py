@@ -3,8 +3,9 @@
 import runpy
 from pathlib import Path
 
-import brushfire as bf
 import numpy as np
+
+import brushfire as bf
 
 runpy.run_path(str(Path(__file__).with_name("README.py")))
 mesh = bf.read("scan.ply")
