@@ -11,8 +11,6 @@
 namespace brushfire::tool {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, double>, 4> kLevels{
-    {{"draft", 1e-2}, {"standard", 1e-3}, {"fine", 1e-5}, {"exact", 0}}};
 constexpr std::array<std::pair<std::string_view, Bound>, 3> kBounds{
     {{"estimate", Bound::Estimate}, {"upper", Bound::Upper}, {"lower", Bound::Lower}}};
 
@@ -33,10 +31,8 @@ Precision precision_named(std::string_view name) { return name == "float64" ? Pr
 
 // What holds for all methods.
 DistanceOptions common(const SharedArguments& a) {
-  if (a.tolerance && !a.accuracy.empty()) refuse("--tolerance and --accuracy say the same: give one of them");
   DistanceOptions options;
   if (a.tolerance) options.tolerance = *a.tolerance;
-  if (!a.accuracy.empty()) options.tolerance = value_named(kLevels, a.accuracy);
   if (!a.bound.empty()) options.bound = value_named(kBounds, a.bound);
   options.precision = precision_named(a.precision);
   options.max_distance = a.radius.value_or(kInfinity);
@@ -87,7 +83,6 @@ void set_method(const std::string& text, DistanceOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> accuracy_names() { return names(kLevels); }
 std::vector<std::string> bound_names() { return names(kBounds); }
 
 std::string name_of(Bound bound) {
@@ -106,7 +101,7 @@ std::vector<DistanceOptions> computations(const SharedArguments& a, const std::v
   if (list.empty()) {
     for (const Method m : otherwise) list.emplace_back(all).method = m;
   }
-  const char* const asked = given(a, {Shared::Tolerance, Shared::Accuracy, Shared::Bound});
+  const char* const asked = given(a, {Shared::Tolerance, Shared::Bound});
   const auto keeps = [](const DistanceOptions& o) { return o.method == Method::Windows; };
   if (asked && std::none_of(list.begin(), list.end(), keeps)) {
     refuse(std::string(asked) + ": " + std::string(brushfire::name_of(list.front().method)) +
@@ -117,7 +112,7 @@ std::vector<DistanceOptions> computations(const SharedArguments& a, const std::v
 
 DistanceOptions computation(const SharedArguments& a, Method otherwise) {
   if (a.methods.size() > 1) refuse("--method: one at a time; brushfire render and bench compare several");
-  const bool asked = given(a, {Shared::Tolerance, Shared::Accuracy, Shared::Bound}) != nullptr;
+  const bool asked = given(a, {Shared::Tolerance, Shared::Bound}) != nullptr;
   return computations(a, {asked ? Method::Windows : otherwise}).front();
 }
 
