@@ -61,7 +61,7 @@ class _Neighbourhoods:
         a, b = flat[star[:, 1]], flat[star[:, 2]]
         clockwise = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] < 0
         star[clockwise] = star[clockwise][:, [0, 2, 1]]
-        return numbers[star]
+        return numbers[star]  # type: ignore[no-any-return]
 
     def mesh(self) -> Mesh:
         """All triangles once."""
