@@ -185,3 +185,23 @@ class TestHeat:
         plain = ours.MeshFastMarchingDistanceSolver(V, F).compute_distance([curve])
         assert np.array_equal(np.abs(d), plain)
         assert (d < 0).sum() > 60 and (d > 0).sum() > 60
+
+
+class TestAsPrograms:
+    def test_the_operators_of_diffusion_networks(self):
+        """The Laplacian with a small denominator, areas that are not 0, and the lowest eigenvectors of both."""
+        eigsh = pytest.importorskip("scipy.sparse.linalg").eigsh
+        diags = pytest.importorskip("scipy.sparse").diags
+        stiffness = ours.cotan_laplacian(V, F, denom_eps=1e-10)
+        areas = ours.vertex_areas(V, F)
+        areas += 1e-8 * np.mean(areas)
+        assert not np.isnan(stiffness.data).any()
+        values, vectors = eigsh((stiffness + 1e-8 * diags(np.ones(len(V)))).tocsc(), k=8, M=diags(areas), sigma=1e-8)
+        assert values[0] == pytest.approx(0, abs=1e-6)
+        assert (values[1:] > 1e-3).all()
+        assert vectors.shape == (len(V), 8)
+
+    def test_a_metric_made_of_single_rows(self):
+        solver = ours.MeshHeatMethodDistanceSolver(V, F)
+        rows = np.stack([solver.compute_distance(i) for i in (0, 7, 100)])
+        assert np.allclose(rows[0, [7, 100]], rows[1:, 0])
