@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from brushfire import _arrays, _core
+from brushfire import _arrays, _core, _viewer
 from brushfire._arrays import Floats, Ints, number
 from brushfire._cells import Cells
 from brushfire._certify import Certificates
@@ -362,6 +362,56 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pi
     ) -> Solver:
         """A solver for many calls on this mesh: see :class:`Solver`, which takes the same arguments."""
         return Solver(self, method, tolerance=tolerance, bound=bound, precision=precision)
+
+    def page(
+        self,
+        values: npt.ArrayLike | None = None,
+        *,
+        sources: Places | None = None,
+        method: str | None = None,
+        tolerance: float | None = None,
+        name: str = "mesh",
+    ) -> str:
+        """One HTML page with the mesh and the library in it, which computes as one clicks; what ``brushfire view`` writes.
+
+        :param values: (vertex_count,) distances that are shown until a source is set; None: the page computes those from
+            ``sources``.
+        :param sources: where the page starts from; None: the first corner of face 0.
+        :param method, tolerance: what it computes with, as for :meth:`distance`.
+        :param name: what it calls the mesh.
+        :raises BrushfireError: where the package was built without the page (``./run web`` in the sources builds it, the
+            environment's BRUSHFIRE_VIEWER names one that lies elsewhere); for a mesh without faces or positions, for
+            values that are not one per vertex, and as :meth:`distance` does.
+
+        >>> import brushfire as bf, pathlib
+        >>> mesh = bf.Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+        >>> pathlib.Path("page.html").write_text(mesh.page(sources=0))  # doctest: +SKIP
+        """
+        return _viewer.page_of(self, values, sources, method, tolerance, name)
+
+    def show(
+        self,
+        values: npt.ArrayLike | None = None,
+        *,
+        sources: Places | None = None,
+        method: str | None = None,
+        tolerance: float | None = None,
+        height: int = 480,
+    ) -> Any:
+        """In a notebook: the surface, which one turns and clicks on, and the distances from where one clicked.
+
+        The result is a widget (anywidget's) with ``sources``, a trait that follows the page's, and ``points``, the same as
+        :class:`Points`; ``widget.observe(f, "sources")`` calls ``f`` whenever they change. Where anywidget is not
+        installed, or this package was built without the page, it is a picture of ``values`` (:meth:`panel`).
+
+        :param height: of the frame, in pixels.
+        :param values, sources, method, tolerance: as for :meth:`page`, which raises the same.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+        >>> shown = mesh.show(mesh.distance(0))  # the last line of a notebook's cell, without a name
+        """
+        return _viewer.show(self, values, sources, method, tolerance, height)
 
     def _run(self) -> _core.Solver:
         return _core.Solver(self._space)

@@ -40,6 +40,10 @@ class Panel:
     def __repr__(self) -> str:
         return f"Panel({self.mesh!r})"
 
+    def _repr_png_(self) -> bytes:
+        """What a notebook shows."""
+        return bytes(_core.encode_png(render(self)))
+
 
 class Pictures(OnMesh):
     """The picture of a Mesh."""

@@ -130,6 +130,7 @@ void add_sample(CommandLine& command_line);
 void add_measure(CommandLine& command_line);
 void add_parcels(CommandLine& command_line);
 void add_smooth(CommandLine& command_line);
+void add_view(CommandLine& command_line);
 void add_bench(CommandLine& command_line);
 void add_convert(CommandLine& command_line);
 void add_shape(CommandLine& command_line);

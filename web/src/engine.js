@@ -1,12 +1,14 @@
 // The package in a worker: fields as fast as they come, never more than one waiting.
 import { createPool } from 'brushfire';
 
+import { poolParts } from './parts.js';
+
 export class Engine {
   #pool; #mesh = null; #running = null; #waiting = null;
 
   static async start() {
     const engine = new Engine();
-    engine.#pool = await createPool({ workers: 2 });
+    engine.#pool = await createPool({ workers: 2, ...(await poolParts()) });
     return engine;
   }
 
@@ -32,20 +34,22 @@ export class Engine {
     return { mesh, vertices, faces, report };
   }
 
-  // The newest question only: one that still waits when a newer one comes is dropped, and answers undefined.
-  solve(sources, options, progress) {
+  // A field for each of `computations`, side by side. The newest question only: one that still waits when a newer one
+  // comes is dropped, and answers undefined.
+  solve(sources, computations) {
     this.#waiting?.drop();
     return new Promise((resolve, reject) => {
-      this.#waiting = { drop: () => resolve(undefined), go: () => this.#go(sources, options, progress).then(resolve, reject) };
+      this.#waiting = { drop: () => resolve(undefined), go: () => this.#go(sources, computations).then(resolve, reject) };
       if (!this.#running) this.#next();
     });
   }
 
-  async #go(sources, options, progress) {
+  async #go(sources, computations) {
     const controller = new AbortController();
+    const { signal } = controller;
     this.#running = { controller };
     try {
-      return await this.#mesh.distance(sources, { ...options, signal: controller.signal, progress });
+      return await Promise.all(computations.map((options) => this.#mesh.distance(sources, { ...options, signal })));
     } finally {
       this.#running = null;
       this.#next();

@@ -5,12 +5,15 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 const VERTEX = `
   attribute float distance;
   attribute float cell;
+  attribute float error;
+  varying float vError;
   varying float vDistance;
   varying float vCell;
   varying vec3 vPosition;
   void main() {
     vDistance = distance;
     vCell = cell;
+    vError = error;
     vec4 p = modelViewMatrix * vec4(position, 1.0);
     vPosition = p.xyz;
     gl_Position = projectionMatrix * p;
@@ -22,6 +25,8 @@ const FRAGMENT = `
   uniform sampler2D colours;
   uniform float farthest, spacing, front, pixel;
   uniform bool showCells;
+  uniform float worst; // the largest error; below 0: errors are not shown
+  varying float vError;
   varying float vDistance;
   varying float vCell;
   varying vec3 vPosition;
@@ -30,6 +35,7 @@ const FRAGMENT = `
     bool reached = vDistance < 1e30;
     vec3 colour = reached ? texture2D(colours, vec2(clamp(vDistance / farthest, 0.0, 1.0), 0.5)).rgb : vec3(0.6);
     if (showCells && reached) colour = mix(hue(vCell * 0.382), colour, 0.35);
+    if (worst >= 0.0 && reached) colour = abs(vError) <= 1e30 ? texture2D(colours, vec2(worst > 0.0 ? abs(vError) / worst : 0.0, 0.5)).rgb : vec3(0.6);
     vec3 normal = normalize(cross(dFdx(vPosition), dFdy(vPosition)));
     float light = 0.35 + 0.65 * abs(normal.z);
     if (reached && spacing > 0.0) {
@@ -61,7 +67,7 @@ export class Scene {
     this.#scene.add(this.#marks);
     this.uniforms = {
       colours: { value: null }, farthest: { value: 1 }, spacing: { value: 0 }, front: { value: -1 },
-      pixel: { value: this.#renderer.getPixelRatio() }, showCells: { value: false },
+      pixel: { value: this.#renderer.getPixelRatio() }, showCells: { value: false }, worst: { value: -1 },
     };
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
   }
@@ -88,6 +94,7 @@ export class Scene {
     geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
     geometry.setAttribute('distance', new THREE.BufferAttribute(new Float32Array(vertices.length / 3).fill(1e31), 1));
     geometry.setAttribute('cell', new THREE.BufferAttribute(new Float32Array(vertices.length / 3), 1));
+    geometry.setAttribute('error', new THREE.BufferAttribute(new Float32Array(vertices.length / 3), 1));
     geometry.setIndex(new THREE.BufferAttribute(faces, 1));
     this.#surface = new THREE.Mesh(geometry, new THREE.ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: this.uniforms, side: THREE.DoubleSide }));
     this.#scene.add(this.#surface);
@@ -109,6 +116,15 @@ export class Scene {
     for (let v = 0; v < distance.length; ++v) to.array[v] = Number.isFinite(distance[v]) ? distance[v] : 1e31;
     cell.array.set(source);
     to.needsUpdate = cell.needsUpdate = true;
+    this.draw();
+  }
+
+  // Colours by errors instead, the largest of which is `worst`; null: by distances again.
+  showError(errors, worst) {
+    const to = this.#surface.geometry.getAttribute('error');
+    if (errors) for (let v = 0; v < errors.length; ++v) to.array[v] = Number.isNaN(errors[v]) ? 1e31 : errors[v];
+    to.needsUpdate = true;
+    this.uniforms.worst.value = errors ? worst : -1;
     this.draw();
   }
 

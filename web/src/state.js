@@ -11,7 +11,7 @@ export const SHAPES = {
   cone: ['cone', 60, 120, 1, 2],
 };
 
-export const initial = () => ({ shape: 'folded sphere', sources: [{ face: 0, weights: [1, 0, 0] }], method: 'windows', tolerance: '1e-3', colormap: 'viridis', lines: 20 });
+export const initial = () => ({ shape: 'folded sphere', sources: [{ face: 0, weights: [1, 0, 0] }], method: 'windows', tolerance: '1e-3', against: '', colormap: 'viridis', lines: 20 });
 
 const digits = (w) => String(Number(w.toFixed(12)));
 
@@ -24,7 +24,7 @@ export const tidy = ({ face, weights }) => {
 export const placeText = ({ face, weights }) => `f:${face}:${weights.map(digits).join(',')}`;
 
 export function toFragment(state) {
-  const words = new URLSearchParams({ shape: state.shape, method: state.method, tolerance: state.tolerance, colours: state.colormap, lines: String(state.lines) });
+  const words = new URLSearchParams({ shape: state.shape, method: state.method, tolerance: state.tolerance, against: state.against, colours: state.colormap, lines: String(state.lines) });
   for (const source of state.sources) words.append('source', placeText(source));
   return `#${words}`;
 }
@@ -39,7 +39,7 @@ export function fromFragment(fragment) {
   });
   const start = initial();
   if (sources.length === 0 || !sources.every((s) => Number.isInteger(s.face) && s.weights.length === 3 && s.weights.every(Number.isFinite))) return null;
-  return { ...start, shape: words.get('shape'), sources, method: words.get('method') ?? start.method, tolerance: words.get('tolerance') ?? start.tolerance,
+  return { ...start, shape: words.get('shape'), sources, method: words.get('method') ?? start.method, tolerance: words.get('tolerance') ?? start.tolerance, against: words.get('against') ?? start.against,
     colormap: words.get('colours') ?? start.colormap, lines: Math.min(60, Math.max(0, Number(words.get('lines') ?? start.lines) || 0)) };
 }
 
@@ -81,8 +81,10 @@ export class History {
   }
 }
 
-const solving = ({ method, tolerance }) => (method === 'windows' ? { method, tolerance: Number(tolerance) } : { method });
-export { solving };
+export const solving = ({ method, tolerance }) => (method === 'windows' ? { method, tolerance: Number(tolerance) } : { method });
+
+// The share by which a value differs from another one; NaN where one of them is nothing to compare with.
+export const relativeError = (value, against) => (value === against ? 0 : against > 0 ? (value - against) / against : NaN);
 
 // What does the same on the command line, and in Python.
 export function asCommand(state, file) {
