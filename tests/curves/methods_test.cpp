@@ -270,6 +270,9 @@ TEST(Curves, ThatAreNoneAreRefusedWithTheirPlaces) {
   EXPECT_NE(run({{a, b}, false, {0, kInfinity}}).find("offset inf of place 1"), std::string::npos);
   EXPECT_NE(run({{a, b}, false, {0, 0.1}}, {.method = Method::NovotniKlein}).find("not for novotni-klein"),
             std::string::npos);
+  if (std::ranges::count(all_methods(), Method::Heat) > 0) {
+    EXPECT_NE(run({{a, b}}, {.method = Method::Heat}).find("heat starts at points"), std::string::npos);
+  }
   EXPECT_EQ(run({{a, b}, false, {0, 0.25}}), "");
 }
 

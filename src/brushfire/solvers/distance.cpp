@@ -12,6 +12,8 @@
 #include <brushfire/solvers/detail/offsets.h>
 #include <brushfire/solvers/detail/walls.h>
 #include <brushfire/solvers/fast_marching/detail/fast_marching.h>
+#include <brushfire/solvers/heat/cholesky.h>
+#include <brushfire/solvers/heat/engine.h>
 #include <brushfire/solvers/windows/engine.h>
 
 #include <algorithm>
@@ -26,7 +28,7 @@ namespace {
 
 constexpr std::array kMethods{
     Method::Windows,          Method::Exact,         Method::CarriedSource, Method::NovotniKlein,
-    Method::NovotniKlein2002, Method::KimmelSethian, Method::Dijkstra};
+    Method::NovotniKlein2002, Method::KimmelSethian, Method::Dijkstra,      Method::Heat};
 
 // Methods that share one engine go by the name of the first.
 Method engine_of(Method method) {
@@ -44,6 +46,8 @@ std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
       return fast_marching::make_engine(mesh);
     case Method::Dijkstra:
       return detail::make_dijkstra(mesh);
+    case Method::Heat:
+      return heat::make_engine(mesh);
     default:
       break;
   }
@@ -208,20 +212,25 @@ std::string_view name_of(Method method) {
       return "kimmel-sethian";
     case Method::Dijkstra:
       return "dijkstra";
+    case Method::Heat:
+      return "heat";
   }
   return "unknown";
 }
 
 Method method_named(std::string_view name) {
   std::string known;
-  for (const Method m : kMethods) {
+  if (name == name_of(Method::Heat)) heat::require_factorization();
+  for (const Method m : all_methods()) {
     if (name_of(m) == name) return m;
     known += std::string(known.empty() ? "" : ", ") + std::string(name_of(m));
   }
   throw Error(ErrorCode::InvalidArgument, "unknown method '" + std::string(name) + "': it is one of " + known);
 }
 
-std::span<const Method> all_methods() { return kMethods; }
+std::span<const Method> all_methods() {
+  return heat::can_factor() ? std::span(kMethods) : std::span(kMethods).first(kMethods.size() - 1);  // heat is the last
+}
 
 Source source_along(CurveSource curve, double offset) {
   return {{}, offset, std::make_shared<const CurveSource>(std::move(curve))};
@@ -279,6 +288,10 @@ void DistanceSolver::Workspace::locate_all(std::span<const Source> from, const D
   locate_targets(mesh, options, targets);
   points.clear();
   if (!detail::any_curve(sources) || engine_of(options.method) == Method::Windows) return;
+  if (options.method == Method::Heat) {
+    throw Error(ErrorCode::InvalidArgument, "heat starts at points: curves are for windows, exact and the marching "
+                                            "methods");
+  }
   check_slopes(options.method, sources);
   points = sources;
   detail::replace_curves_by_feet(mesh, points);
