@@ -29,6 +29,7 @@ from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._regions import Border, Cut, Samples, Voronoi
+from brushfire._weighted import Costs, Weighted, WeightedPath
 
 __all__ = [
     "At",
@@ -41,6 +42,7 @@ __all__ = [
     "Centroidal",
     "Certificate",
     "Comparison",
+    "Costs",
     "Cut",
     "Descent",
     "Discs",
@@ -61,6 +63,8 @@ __all__ = [
     "Samples",
     "Solver",
     "Voronoi",
+    "Weighted",
+    "WeightedPath",
     "__version__",
     "animate",
     "at",

@@ -27,6 +27,7 @@ from brushfire._picture import Pictures
 from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
 from brushfire._progress import Progress, shown
 from brushfire._regions import Regions
+from brushfire._weighted import WithWeights
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -88,7 +89,7 @@ class MeshReport:
         return "\n".join([head, *self.remarks])
 
 
-class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pictures, Files):
+class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pictures, Files, WithWeights):
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
     :param vertices: (n, 3) positions, or (n, 2) for a flat mesh. Kept as float64.
