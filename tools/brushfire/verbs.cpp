@@ -19,6 +19,7 @@ void add_verbs(CommandLine& command_line) {
   add_compare(command_line);
   add_certify(command_line);
   add_render(command_line);
+  add_view(command_line);
   add_bench(command_line);
   add_convert(command_line);
   add_shape(command_line);

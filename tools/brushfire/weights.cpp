@@ -120,7 +120,7 @@ WeightedOptions weighted_computation(const SharedArguments& a) {
   }
   DistanceOptions plain = computation(a);
   WeightedOptions options;
-  options.tolerance = given(a, {Shared::Tolerance, Shared::Accuracy}) ? plain.tolerance : kDefaultTolerance;
+  options.tolerance = given(a, {Shared::Tolerance}) ? plain.tolerance : kDefaultTolerance;
   options.lower = plain.bound != Bound::Upper;
   options.max_distance = plain.max_distance;
   options.cancel = plain.cancel;
