@@ -47,6 +47,34 @@ class Solver:
         progress: _Progress,
     ) -> tuple[_Floats, _Signed, _Floats | None]: ...
 
+class WeightedSolver:
+    def __init__(
+        self, domain: Space, face: _Floats | None, edge_vertices: _Ints, along: _Floats, crossing: _Floats
+    ) -> None: ...
+    def solve(
+        self,
+        index: _Ints,
+        weights: _Floats | None,
+        offsets: _Floats,
+        target_index: _Ints | None,
+        target_weights: _Floats | None,
+        tolerance: float,
+        refinements: int,
+        lower: bool,
+        max_distance: float,
+        progress: _Progress,
+    ) -> tuple[_Floats, _Signed, _Floats | None, float, float]: ...
+    def paths(
+        self,
+        index: _Ints,
+        weights: _Floats | None,
+        offsets: _Floats,
+        target_index: _Ints,
+        target_weights: _Floats | None,
+        tolerance: float,
+        max_distance: float,
+    ) -> tuple[_Signed, list[tuple[PathArrays, float, float, _Signed, _Floats, _Floats, _Floats, _Signed]]]: ...
+
 def laplacian(mesh: Mesh, delaunay: bool) -> tuple[_Signed, _Signed, _Floats, _Floats]: ...
 
 class _Heat:
