@@ -11,7 +11,7 @@ from brushfire import _arrays, _core
 from brushfire._arrays import Floats, number, offsets
 from brushfire._curves import OnMesh
 from brushfire._errors import BrushfireError
-from brushfire._options import thread_count
+from brushfire._options import Tolerance, thread_count, tolerance_of
 from brushfire._places import Places
 from brushfire._progress import Progress, shown
 
@@ -69,7 +69,7 @@ class Certificates(OnMesh):
         sources: Places,
         *,
         within: float = 0.0,
-        tolerance: float = 0.0,
+        tolerance: Tolerance = 0.0,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         threads: int = 1,
@@ -110,7 +110,7 @@ class Certificates(OnMesh):
                 start.index,
                 start.weights,
                 offsets(offset, len(start.index)),
-                number(tolerance, "tolerance"),
+                tolerance_of(tolerance),
                 number(within, "within"),
                 number(radius, "radius"),
                 thread_count(threads),

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from brushfire import _core
 from brushfire._arrays import Floats, Labels, offsets
 from brushfire._errors import BrushfireError
-from brushfire._options import options
+from brushfire._options import Tolerance, options
 from brushfire._places import PlaceArrays, Places
 from brushfire._progress import Progress, shown
 
@@ -36,7 +36,7 @@ class Distances:
         sources: Places,
         *,
         method: str | None = ...,
-        tolerance: float | None = ...,
+        tolerance: Tolerance | None = ...,
         bound: str | None = ...,
         precision: str | None = ...,
         threads: int = ...,
@@ -53,7 +53,7 @@ class Distances:
         sources: Places,
         *,
         method: str | None = ...,
-        tolerance: float | None = ...,
+        tolerance: Tolerance | None = ...,
         bound: str | None = ...,
         precision: str | None = ...,
         threads: int = ...,
@@ -70,7 +70,7 @@ class Distances:
         sources: Places,
         *,
         method: str | None = ...,
-        tolerance: float | None = ...,
+        tolerance: Tolerance | None = ...,
         bound: str | None = ...,
         precision: str | None = ...,
         threads: int = ...,
@@ -87,7 +87,7 @@ class Distances:
         sources: Places,
         *,
         method: str | None = ...,
-        tolerance: float | None = ...,
+        tolerance: Tolerance | None = ...,
         bound: str | None = ...,
         precision: str | None = ...,
         threads: int = ...,
@@ -103,7 +103,7 @@ class Distances:
         sources: Places,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
         bound: str | None = None,
         precision: str | None = None,
         threads: int = 1,
@@ -121,7 +121,8 @@ class Distances:
             :func:`at` positions; at least one. Numbers count from 0, and negative ones do not exist.
         :param method: one of :func:`methods`; the library's default if none is given.
         :param tolerance: for method ``"windows"``, which is meant where a tolerance is given: the relative error at every
-            vertex is at most this; in [0, 0.1], 0 is exact, and so are those so small that an exact run is quicker.
+            vertex is at most this; in [0, 0.1], 0 is exact, and so are those so small that an exact run is quicker. In
+            words: ``"draft"``, ``"standard"``, ``"fine"``, ``"exact"`` are 1e-2, 1e-3, 1e-5 and 0.
         :param bound: for method ``"windows"``: ``"lower"`` gives values never above the distance, ``"upper"`` never below
             it, ``"estimate"`` (the default) values in between.
         :param precision: in which the marching methods compute: ``"float32"``, the default, is faster and good for about 6

@@ -12,7 +12,7 @@ from brushfire import _arrays, _core
 from brushfire._arrays import Floats, number, offsets, whole
 from brushfire._curves import OnMesh, Path
 from brushfire._errors import BrushfireError
-from brushfire._options import options
+from brushfire._options import Tolerance, options, tolerance_of
 from brushfire._places import Places
 from brushfire._progress import Progress, shown
 
@@ -164,7 +164,7 @@ class Fields(OnMesh):
         every: float | None = None,
         count: int | None = None,
         chord_error: float | None = None,
-        tolerance: float = 0.0,
+        tolerance: Tolerance = 0.0,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         progress: Progress = None,
@@ -195,7 +195,7 @@ class Fields(OnMesh):
                 start.index,
                 start.weights,
                 offsets(offset, len(start.index)),
-                options("windows", number(tolerance, "tolerance"), radius),
+                options("windows", tolerance_of(tolerance), radius),
                 None if levels is None else _levels(levels),
                 None if every is None else number(every, "every"),
                 0 if count is None else whole(count, "count", _MOST_LEVELS),

@@ -12,7 +12,7 @@ from brushfire import _arrays, _core
 from brushfire._arrays import Floats, Ints, Labels, offsets, whole
 from brushfire._curves import OnMesh, Path
 from brushfire._errors import BrushfireError
-from brushfire._options import options
+from brushfire._options import Tolerance, options
 from brushfire._places import Places, Points
 from brushfire._progress import Progress, shown
 
@@ -135,14 +135,17 @@ class Regions(OnMesh):
         sources: Places,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
+        threads: int = 1,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         progress: Progress = None,
     ) -> Voronoi:
         """The geodesic Voronoi diagram: which source is nearest where, the borders in between, the area of each cell.
 
-        :param sources, method, tolerance, offset, radius, progress: as for :meth:`distance`.
+        :param sources, method, tolerance, bound, precision, threads, offset, radius, progress: as for :meth:`distance`.
         :raises BrushfireError: as :meth:`distance` does.
 
         >>> import brushfire as bf
@@ -152,7 +155,7 @@ class Regions(OnMesh):
         ([0, 1, 1, 0], 4.0, (0, 1))
         """
         start = self._arrays(sources, "sources")
-        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, radius)
+        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, radius, bound, precision, threads)
         with shown(progress, "voronoi") as report:
             found = _core.voronoi(self._space, start.index, start.weights, given, chosen, report)
         distance, source, area, borders, dual = found
@@ -164,7 +167,10 @@ class Regions(OnMesh):
         first: Places | None = None,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
+        threads: int = 1,
         radius: float = np.inf,
         progress: Progress = None,
     ) -> Samples:
@@ -172,7 +178,7 @@ class Regions(OnMesh):
 
         :param count: how many; fewer where every vertex is a sample before.
         :param first: vertices to begin with; the lowest vertex that is in a face if none are given.
-        :param method, tolerance, radius, progress: as for :meth:`distance`.
+        :param method, tolerance, bound, precision, threads, radius, progress: as for :meth:`distance`.
         :raises BrushfireError: for a first vertex that is in no face or repeats, and for more of them than ``count``.
 
         Runs are limited to what still matters: all together they cost about log(count) whole fields.
@@ -190,7 +196,7 @@ class Regions(OnMesh):
                 raise BrushfireError("first: vertices are needed, not points of faces")
             index = arrays.index
         taken = whole(count, "count", np.iinfo(np.int32).max)
-        chosen = options(method, tolerance, radius)
+        chosen = options(method, tolerance, radius, bound, precision, threads)
         with shown(progress, "farthest points") as report:
             return Samples(*_core.farthest_points(self._space, taken, index, chosen, report))
 

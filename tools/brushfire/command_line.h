@@ -43,6 +43,8 @@ class Verb {
 
   // A required argument without a dash.
   void argument(const char* name, std::string& value, const char* help);
+  // Further ones behind it, as many as there are.
+  void arguments(const char* name, std::vector<std::string>& values, const char* help);
   // `names`: "-o,--output". `placeholder` is what the help shows for the value.
   void required_option(const char* names, std::string& value, const char* placeholder, const char* help);
   void option(const char* names, std::string& value, const char* placeholder, const char* help);

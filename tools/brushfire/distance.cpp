@@ -31,11 +31,12 @@ Examples:
   brushfire distance bunny.ply --source 0 --target 5000 --target f:120:.2,.3,.5
   brushfire distance bunny.ply --source 0 --method dijkstra --json
   brushfire distance bunny.ply --source 0 --tolerance 1e-4 -o within-0.01-percent.npy
-  brushfire distance bunny.ply --source 0 --target 5000 --accuracy fine --bound upper
+  brushfire distance bunny.ply --source 0 --target 5000 --tolerance fine --bound upper
   brushfire distance bunny.ply --source 0 -o - | sort -t, -gk2 | tail -1
 
 The extension of -o decides: .ply (MeshLab; colours, and the distance as vertex quality), .vtk .vtp (ParaView), .obj
-(colours only), .npy (float64), .csv, .json, .gii, .curv.
+(colours only), .npy (float64), .csv, .json, .gii, .curv. Only .json tells vertices that were not visited from those that
+cannot be reached.
 Without -o and --target the result is told in words. Targets print one distance per line, inf and exit code 4
 where no source reaches; the run ends once their distances are final, so that a file written beside them may hold less
 than all. Vertices that cannot be reached, or lie beyond the radius, read inf in files.)";
@@ -147,7 +148,9 @@ void write(const Arguments& arguments, const Run& run, const Surface& surface) {
   const std::vector<double> values = surface.on_file<double>(run.field.distance);
   std::vector<Index> labels;
   if (arguments.labels || !arguments.output.ends_with(".gii")) labels = surface.on_file<Index>(run.field.source);
-  write_values(surface, arguments.output, {.values = values, .labels = labels});
+  const std::vector<std::uint8_t> not_visited = run.reached.not_visited(run.field.distance);
+  write_values(surface, arguments.output,
+               {.values = values, .labels = labels, .not_visited = surface.on_file<std::uint8_t>(not_visited)});
 }
 
 int distance_verb(const Arguments& arguments, const Talk& talk) {

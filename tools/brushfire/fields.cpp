@@ -40,7 +40,8 @@ void write_values(const Surface& surface, const std::string& output, const Value
                .name = v.name,
                .label_name = v.label_name,
                .mask = open,
-               .structure = surface.file().structure},
+               .structure = surface.file().structure,
+               .not_visited = v.not_visited},
               output == "-" ? "csv" : "");
 }
 

@@ -30,6 +30,7 @@ struct Values {
   std::vector<Index> labels{};
   std::string name = "distance";
   std::string label_name = "source";
+  std::vector<std::uint8_t> not_visited{};  // FieldView::not_visited
 };
 
 // In the format that the extension names, "-" is CSV on standard output. What lies behind walls is no number in GIFTI,

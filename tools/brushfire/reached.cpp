@@ -36,6 +36,16 @@ bool Reached::is_unreachable(const SurfacePoint& point) const {
                       [&](const SurfacePoint& p) { return is_reachable_[domain_.open().faces()[p.face][0]] != 0; });
 }
 
+std::vector<std::uint8_t> Reached::not_visited(std::span<const double> distance) const {
+  if (beyond_radius_ + not_visited_ == 0) return {};
+  std::vector<std::uint8_t> not_visited(distance.size(), 0);
+  for (Index v = 0; v < is_reachable_.size(); ++v) {
+    const Index of_mesh = domain_.vertex(v);
+    if (is_reachable_[v] && distance[of_mesh] == kInfinity) not_visited[of_mesh] = 1;
+  }
+  return not_visited;
+}
+
 void Reached::add_to(Record& record) const {
   record.add("reached", std::int64_t{reached_})
       .add("unreachable", std::int64_t{unreachable_})

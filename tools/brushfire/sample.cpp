@@ -87,8 +87,7 @@ int sample_verb(const Arguments& a, const Talk& talk) {
   if (!a.count) refuse("how many? give --count");
   if (a.output == "-") refuse("the list has the standard output: -o takes a file");
   if (a.rounds && !a.lloyd) refuse("--rounds is for --lloyd");
-  if (a.lloyd &&
-      given(a.shared, {Shared::Method, Shared::Tolerance, Shared::Accuracy, Shared::Bound, Shared::Radius})) {
+  if (a.lloyd && given(a.shared, {Shared::Method, Shared::Tolerance, Shared::Bound, Shared::Radius})) {
     refuse("--lloyd is exact: there is no --method, tolerance or radius to choose");
   }
   DistanceOptions options = computation(a.shared);

@@ -136,6 +136,7 @@ void Rows::fill(const SparseField& field, std::span<double> values) const {
 }
 
 void Rows::run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense& take) {
+  if (can_group()) return run_grouped(numbers, progress, take);
   run_sparse(numbers, 1, progress, [&](unsigned worker, std::size_t k, const SparseField& field) {
     std::vector<double>& values = workers_[worker].values;
     values.resize(column_count_);

@@ -11,6 +11,8 @@
 #include <brushfire/solvers/detail/offsets.h>
 #include <brushfire/solvers/detail/walls.h>
 #include <brushfire/solvers/fast_marching/detail/fast_marching.h>
+#include <brushfire/solvers/heat/cholesky.h>
+#include <brushfire/solvers/heat/engine.h>
 #include <brushfire/solvers/windows/engine.h>
 
 #include <algorithm>
@@ -25,7 +27,7 @@ namespace {
 
 constexpr std::array kMethods{
     Method::Windows,          Method::Exact,         Method::CarriedSource, Method::NovotniKlein,
-    Method::NovotniKlein2002, Method::KimmelSethian, Method::Dijkstra};
+    Method::NovotniKlein2002, Method::KimmelSethian, Method::Dijkstra,      Method::Heat};
 
 // Methods that share one engine go by the name of the first.
 Method engine_of(Method method) {
@@ -43,6 +45,8 @@ std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
       return fast_marching::make_engine(mesh);
     case Method::Dijkstra:
       return detail::make_dijkstra(mesh);
+    case Method::Heat:
+      return heat::make_engine(mesh);
     default:
       break;
   }
@@ -62,19 +66,59 @@ void assign(std::vector<T>& array, std::size_t size, T value) {
 
 using detail::Offsets;
 
-void locate_sources(const Mesh& mesh, std::span<const Source> sources, std::vector<detail::LocatedSource>& located,
+// As engines see it: in mesh.unit(), offsets from the least one on.
+std::shared_ptr<const LocatedCurve> for_engines(const Mesh& mesh, LocatedCurve curve) {
+  const double unit = mesh.unit(), least = curve.least_offset;
+  for (CurvePlace& p : curve.places) p.offset = (p.offset - least) / unit;
+  for (CurveSegment& s : curve.segments) {
+    s.from_offset = (s.from_offset - least) / unit;
+    s.to_offset = (s.to_offset - least) / unit;
+    s.length /= unit;
+  }
+  curve.least_offset = 0;
+  return std::make_shared<const LocatedCurve>(std::move(curve));
+}
+
+// With the offset in the mesh's units.
+detail::LocatedSource located(const Mesh& mesh, const Source& source, Index label) {
+  if (!source.curve) return {locate(mesh, source.point), source.offset, label};
+  LocatedCurve curve;
+  try {
+    curve = locate(mesh, *source.curve);
+  } catch (const Error& e) {
+    throw Error(e.code(), "source " + std::to_string(label) + ": " + e.what());
+  }
+  const double offset = source.offset + curve.least_offset;
+  return {curve.places.front().at, offset, label, for_engines(mesh, std::move(curve))};
+}
+
+// Curves are for methods that have true segments as sources.
+void check_curves(Method method, std::span<const Source> sources) {
+  if (engine_of(method) == Method::Windows) return;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (!sources[i].curve) continue;
+    throw Error(ErrorCode::InvalidArgument, "source " + std::to_string(i) + " is a curve, and " +
+                                                std::string(name_of(method)) +
+                                                " starts at points: use the method windows or exact");
+  }
+}
+
+void locate_sources(const Mesh& mesh, std::span<const Source> sources, std::vector<detail::LocatedSource>& all,
                     Offsets& offsets) {
   if (sources.empty()) throw Error(ErrorCode::InvalidArgument, "no source given: a distance needs at least one");
-  located.clear();
-  located.reserve(sources.size());
+  all.clear();
+  all.reserve(sources.size());
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (!std::isfinite(sources[i].offset)) {
       throw Error(ErrorCode::InvalidArgument,
                   "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
     }
-    located.push_back({locate(mesh, sources[i].point), 0, static_cast<Index>(i)});
+    all.push_back(located(mesh, sources[i], static_cast<Index>(i)));
+    if (!std::isfinite(all.back().offset)) {
+      throw Error(ErrorCode::InvalidArgument, "the offsets of source " + std::to_string(i) + " add up to no number");
+    }
   }
-  offsets.split(mesh, sources, located);
+  offsets.split(mesh, all);
 }
 
 // Targets that are nowhere are not for engines: they read +inf.
@@ -195,20 +239,29 @@ std::string_view name_of(Method method) {
       return "kimmel-sethian";
     case Method::Dijkstra:
       return "dijkstra";
+    case Method::Heat:
+      return "heat";
   }
   return "unknown";
 }
 
 Method method_named(std::string_view name) {
   std::string known;
-  for (const Method m : kMethods) {
+  if (name == name_of(Method::Heat)) heat::require_factorization();
+  for (const Method m : all_methods()) {
     if (name_of(m) == name) return m;
     known += std::string(known.empty() ? "" : ", ") + std::string(name_of(m));
   }
   throw Error(ErrorCode::InvalidArgument, "unknown method '" + std::string(name) + "': it is one of " + known);
 }
 
-std::span<const Method> all_methods() { return kMethods; }
+std::span<const Method> all_methods() {
+  return heat::can_factor() ? std::span(kMethods) : std::span(kMethods).first(kMethods.size() - 1);  // heat is the last
+}
+
+Source source_along(CurveSource curve, double offset) {
+  return {{}, offset, std::make_shared<const CurveSource>(std::move(curve))};
+}
 
 struct DistanceSolver::Workspace {
   explicit Workspace(Domain given) : domain(std::move(given)), mesh(domain.open()) {}
@@ -287,6 +340,7 @@ void DistanceSolver::Workspace::run(std::span<const Source> from, const Distance
                                     DistanceField& field) {
   const CancelScope listen(options.cancel);
   check(options);
+  check_curves(options.method, from);
   detail::Engine& chosen = engine(options.method);  // first: what it derives of the mesh is not found twice
   locate_sources(mesh, from, sources, offsets);
   locate_targets(mesh, options, targets);
@@ -315,6 +369,7 @@ void DistanceSolver::Workspace::run_sparse(std::span<const Source> from, const D
                                            SparseField& field) {
   const CancelScope listen(options.cancel);
   check(options);
+  check_curves(options.method, from);
   locate_sources(mesh, from, sources, offsets);
   locate_targets(mesh, options, targets);
   detail::Engine& chosen = engine(options.method);

@@ -9,12 +9,17 @@
 #include <span>
 #include <vector>
 
+namespace brushfire::carried_source {
+class GroupRunner;
+}
+
 namespace brushfire::detail {
 
 class Rows {
  public:
   // Checks all places and options. Throws as distance_matrix() does.
   Rows(const Domain& domain, Places rows, Places columns, const MatrixOptions& options);
+  ~Rows();
 
   std::size_t count() const noexcept { return row_count_; }
   std::size_t columns() const noexcept { return column_count_; }
@@ -37,7 +42,11 @@ class Rows {
  private:
   // What a thread keeps; no two share a cache line.
   struct alignas(128) Worker {
-    std::unique_ptr<DistanceSolver> solver;  // made for its first row
+    Worker();
+    Worker(Worker&&) noexcept;
+    ~Worker();
+    std::unique_ptr<DistanceSolver> solver;               // made for its first row
+    std::unique_ptr<carried_source::GroupRunner> groups;  // made for its first group
     SparseField field;
     std::vector<double> values;
   };
@@ -45,6 +54,9 @@ class Rows {
   std::optional<SurfacePoint> place(std::size_t i) const;
   void compute_row(Worker& worker, std::size_t i);
   void fill(const SparseField& field, std::span<double> values) const;
+  // Whether rows of neighbouring vertices are to be run together: for methods that can, where all columns are vertices.
+  bool can_group() const;
+  void run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense& take);
 
   Domain domain_;
   Mesh mesh_;  // the whole

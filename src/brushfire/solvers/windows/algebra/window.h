@@ -102,6 +102,12 @@ inline Window mirrored(const Window& w, Real length) {
          (w.source.y == 0 && w.kind == WindowKind::Circular && w.source.x > w.b0 && w.source.x < w.b1);
 }
 
+// How far from the edge places may be that the window is described by: what turns of the frame move is some epsilons of
+// that.
+inline Real extent_of(const Window& w) {
+  return w.kind == WindowKind::Circular ? norm(w.source) : std::max(abs(w.d0), abs(w.d1));
+}
+
 // Whether the source lies on the edge, within the interval, or as good as: its light then leaves through one point, and
 // parts of the interval do not stand for parts of the light. A cut beside a source that is kOnEdge of the interval away
 // turns the limit ray by up to epsilon / kOnEdge = 2e-8; who is missed by that is reached round the cut with a detour
