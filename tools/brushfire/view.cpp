@@ -102,7 +102,7 @@ void add_view(CommandLine& command_line) {
     add_shared(verb, a->shared,
                {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed in the page, not read"},
                             {kWalls, "the page computes on the whole mesh"},
-                            {{Shared::Bound, Shared::Precision, Shared::Radius, Shared::Threads, Shared::Accuracy},
+                            {{Shared::Bound, Shared::Precision, Shared::Radius, Shared::Threads},
                              "the page computes whole fields on one thread; it takes --method and --tolerance"},
                             {{Shared::Unit}, "the page shows lengths in the mesh's own unit"}}});
     verb.examples(kExamples);
