@@ -29,6 +29,7 @@ from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._regions import Border, Cut, Samples, Voronoi
+from brushfire._sources import Curve
 
 __all__ = [
     "At",
@@ -41,6 +42,7 @@ __all__ = [
     "Centroidal",
     "Certificate",
     "Comparison",
+    "Curve",
     "Cut",
     "Descent",
     "Discs",
