@@ -62,32 +62,6 @@ void assign(std::vector<T>& array, std::size_t size, T value) {
 
 using detail::Offsets;
 
-// As engines see it: in mesh.unit(), offsets from the least one on.
-std::shared_ptr<const LocatedCurve> for_engines(const Mesh& mesh, LocatedCurve curve) {
-  const double unit = mesh.unit(), least = curve.least_offset;
-  for (CurvePlace& p : curve.places) p.offset = (p.offset - least) / unit;
-  for (CurveSegment& s : curve.segments) {
-    s.from_offset = (s.from_offset - least) / unit;
-    s.to_offset = (s.to_offset - least) / unit;
-    s.length /= unit;
-  }
-  curve.least_offset = 0;
-  return std::make_shared<const LocatedCurve>(std::move(curve));
-}
-
-// With the offset in the mesh's units.
-detail::LocatedSource located(const Mesh& mesh, const Source& source, Index label) {
-  if (!source.curve) return {locate(mesh, source.point), source.offset, label};
-  LocatedCurve curve;
-  try {
-    curve = locate(mesh, *source.curve);
-  } catch (const Error& e) {
-    throw Error(e.code(), "source " + std::to_string(label) + ": " + e.what());
-  }
-  const double offset = source.offset + curve.least_offset;
-  return {curve.places.front().at, offset, label, for_engines(mesh, std::move(curve))};
-}
-
 // Curves are for methods that have true segments as sources.
 void check_curves(Method method, std::span<const Source> sources) {
   if (engine_of(method) == Method::Windows) return;
@@ -109,7 +83,7 @@ void locate_sources(const Mesh& mesh, std::span<const Source> sources, std::vect
       throw Error(ErrorCode::InvalidArgument,
                   "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
     }
-    all.push_back(located(mesh, sources[i], static_cast<Index>(i)));
+    all.push_back(detail::located(mesh, sources[i], static_cast<Index>(i)));
     if (!std::isfinite(all.back().offset)) {
       throw Error(ErrorCode::InvalidArgument, "the offsets of source " + std::to_string(i) + " add up to no number");
     }
