@@ -26,6 +26,7 @@ namespace nb = nanobind;
 
 void bind_errors(nb::module_& m);
 void bind_mesh(nb::module_& m);
+void bind_sources(nb::module_& m);
 void bind_distance(nb::module_& m);
 void bind_matrix(nb::module_& m);
 void bind_curves(nb::module_& m);
@@ -76,6 +77,10 @@ std::vector<SurfacePoint> targets_from(const Mesh& mesh, const PlaceArrays& arra
 SurfacePoint single_point_from(const Mesh& mesh, const PlaceArrays& arrays);
 // Throws Error(InvalidArgument) unless there is one offset per source.
 std::vector<Source> sources_from(const Mesh& mesh, const PlaceArrays& places, const Vector<double>& offsets);
+// _core.Sources: the points and curves of one mesh that distances start from.
+struct Sources {
+  std::vector<Source> list;
+};
 
 // (face, weights): int32 [points], float64 [points, 3].
 nb::tuple points_to_numpy(std::span<const SurfacePoint> points);

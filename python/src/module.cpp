@@ -7,6 +7,7 @@ NB_MODULE(_core, m) {
   m.attr("version") = brushfire::kVersion;
   brushfire::python::bind_errors(m);
   brushfire::python::bind_mesh(m);
+  brushfire::python::bind_sources(m);
   brushfire::python::bind_distance(m);
   brushfire::python::bind_matrix(m);
   brushfire::python::bind_curves(m);
