@@ -39,6 +39,7 @@ void bind_heat(nb::module_& m);
 void bind_figure(nb::module_& m);
 void bind_files(nb::module_& m);
 void bind_derivatives(nb::module_& m);
+void bind_flatten(nb::module_& m);
 
 // Arrays as the Python files hand them over: converted already, C order, exactly these types.
 template <class T>

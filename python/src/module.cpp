@@ -20,4 +20,5 @@ NB_MODULE(_core, m) {
   brushfire::python::bind_figure(m);
   brushfire::python::bind_files(m);
   brushfire::python::bind_derivatives(m);
+  brushfire::python::bind_flatten(m);
 }

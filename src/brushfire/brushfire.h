@@ -40,6 +40,7 @@
 #include <brushfire/queries/distance_gradient.h>
 #include <brushfire/queries/distance_matrix.h>
 #include <brushfire/queries/extent.h>
+#include <brushfire/queries/flatten.h>
 #include <brushfire/queries/gradient.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/karcher_mean.h>
