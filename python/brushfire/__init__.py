@@ -25,6 +25,7 @@ from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireType
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
 from brushfire._flatten import Distortion, Flattening, decal, distortion, flatten
+from brushfire._heat import HeatSolver, SignedHeatSolver, VectorHeatSolver, laplacian
 from brushfire._io import FileInfo, read
 from brushfire._lines import read_lines
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
@@ -34,6 +35,8 @@ from brushfire._places import At, Point, Points, at
 from brushfire._reeb import ReebGraph, reeb_graph
 from brushfire._regions import Border, Cut, Samples, Voronoi
 from brushfire._sets import distance_matrices
+from brushfire._sources import Curve
+from brushfire._weighted import Costs, Weighted, WeightedPath
 
 __all__ = [
     "At",
@@ -46,6 +49,8 @@ __all__ = [
     "Centroidal",
     "Certificate",
     "Comparison",
+    "Costs",
+    "Curve",
     "Cut",
     "Descent",
     "DifferentiableDistance",
@@ -56,6 +61,7 @@ __all__ = [
     "Extent",
     "FileInfo",
     "Flattening",
+    "HeatSolver",
     "Isoline",
     "LogMap",
     "Mean",
@@ -70,8 +76,12 @@ __all__ = [
     "Points",
     "ReebGraph",
     "Samples",
+    "SignedHeatSolver",
     "Solver",
+    "VectorHeatSolver",
     "Voronoi",
+    "Weighted",
+    "WeightedPath",
     "__version__",
     "animate",
     "at",
@@ -82,6 +92,7 @@ __all__ = [
     "flatten",
     "from_any",
     "k_medoids",
+    "laplacian",
     "methods",
     "patches",
     "read",

@@ -23,12 +23,13 @@ from brushfire._fields import Fields
 from brushfire._files import Files
 from brushfire._matrices import Matrices, float_type, sparse_matrix
 from brushfire._notebook import mesh_table
-from brushfire._options import Options, options
+from brushfire._options import Options, Tolerance, options
 from brushfire._picture import Pictures
 from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
 from brushfire._progress import Progress, shown
 from brushfire._regions import Regions
 from brushfire._sets import Pairs
+from brushfire._weighted import WithWeights
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -90,7 +91,9 @@ class MeshReport:
         return "\n".join([head, *self.remarks])
 
 
-class Mesh(Distances, Derivatives, Curves, Fields, Certificates, Regions, Cells, Matrices, Pairs, Pictures, Files):
+class Mesh(
+    Distances, Derivatives, Curves, Fields, Certificates, Regions, Cells, Matrices, Pairs, Pictures, Files, WithWeights
+):
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
     :param vertices: (n, 3) positions, or (n, 2) for a flat mesh. Kept as float64.
@@ -193,14 +196,14 @@ class Mesh(Distances, Derivatives, Curves, Fields, Certificates, Regions, Cells,
         xyz = self._mesh.positions(arrays.index, arrays.weights)
         return xyz[0] if is_one(places) else xyz
 
-    def nearest(self, xyz: npt.ArrayLike, *, within: float = np.inf) -> tuple[Points, Floats]:
+    def nearest(self, xyz: npt.ArrayLike, *, snap_within: float = np.inf) -> tuple[Points, Floats]:
         """The points of the surface nearest to positions in space, and how far away they are.
 
         :param xyz: (k, 3), or (3,) for a single one.
-        :param within: farther than this from the surface no position may be.
+        :param snap_within: farther than this from the surface no position may be.
         :return: :class:`Points` and distances, (k,) each.
         :raises BrushfireError: for a mesh from lengths or without faces, for positions that are not finite, and for those
-            that are farther away than ``within``.
+            that are farther away than ``snap_within``.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
@@ -210,25 +213,25 @@ class Mesh(Distances, Derivatives, Curves, Fields, Certificates, Regions, Cells,
         """
         if self._finder is None:
             self._finder = _core.NearestPointFinder(self._mesh)
-        positions = at(xyz, within=within)
+        positions = at(xyz, snap_within=snap_within)
         face, weights, distance = self._finder.nearest(positions.xyz)
-        too_far = distance > positions.within
+        too_far = distance > positions.snap_within
         if too_far.any():
             bad = int(np.argmax(too_far))
             raise BrushfireError(
-                f"position {bad} is {distance[bad]:.6g} from the surface, farther than within={positions.within:.6g}"
+                f"position {bad} is {distance[bad]:.6g} from the surface, farther than snap_within={positions.snap_within:.6g}"
             )
         return Points(face, weights), distance
 
     def _snapped(self, positions: At) -> Points:
         """Not without a word where that is far, for the size of the mesh."""
-        points, distance = self.nearest(positions.xyz, within=positions.within)
+        points, distance = self.nearest(positions.xyz, snap_within=positions.snap_within)
         size = self._mesh.size
-        if np.isinf(positions.within) and distance.size and distance.max() > _FAR * size:
+        if np.isinf(positions.snap_within) and distance.size and distance.max() > _FAR * size:
             far = int(np.argmax(distance))
             warnings.warn(
                 f"position {far} is {distance[far]:.6g} from the surface (the mesh is {size:.6g} across): its nearest "
-                "point was taken; at(..., within=...) says how far is near enough",
+                "point was taken; at(..., snap_within=...) says how far is near enough",
                 BrushfireWarning,
                 stacklevel=4,
             )
@@ -358,7 +361,7 @@ class Mesh(Distances, Derivatives, Curves, Fields, Certificates, Regions, Cells,
         self,
         method: str | None = None,
         *,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
         bound: str | None = None,
         precision: str | None = None,
     ) -> Solver:
@@ -475,7 +478,7 @@ class Solver(Distances, Curves, Fields):
         mesh: Mesh,
         method: str | None = None,
         *,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
         bound: str | None = None,
         precision: str | None = None,
     ) -> None:
@@ -493,14 +496,15 @@ class Solver(Distances, Curves, Fields):
         rows: Places,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         progress: Progress = None,
     ) -> csr_matrix:
         """Rows of :meth:`Mesh.distances_within`, computed one after the other: for few of them at a time.
 
-        :param radius, rows, method, tolerance, precision, dtype, progress: as there; many rows are faster there.
+        :param radius, rows, method, tolerance, bound, precision, dtype, progress: as there; many rows are faster there.
 
         >>> import brushfire as bf
         >>> solver = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]]).solver()
@@ -508,7 +512,7 @@ class Solver(Distances, Curves, Fields):
         [[3.0, 0.0, 0.0, 0.0]]
         """
         row = self._arrays(rows, "rows")
-        chosen = options(*self._or_defaults(method, tolerance, None, precision, limit=np.inf))
+        chosen = options(*self._or_defaults(method, tolerance, bound, precision, limit=np.inf))
         wanted = float_type(dtype)
         limit = number(radius, "radius")
         with shown(progress, "rows") as report:

@@ -27,7 +27,7 @@ constexpr const char* kExamples = R"(Rows and columns:
 
 Examples:
   brushfire matrix cortex.gii -o d.npy
-  brushfire matrix cortex.gii --rows 0,5,9 --cols landmarks.txt --dtype float64 -o d.npy
+  brushfire matrix cortex.gii --rows 0,5,9 --columns landmarks.txt --dtype float64 -o d.npy
   brushfire matrix cortex.gii --radius 20 --method exact -o near.npz
   brushfire matrix pose1.off pose2.off pose3.off -o matrices/
 
@@ -62,7 +62,7 @@ std::vector<Where> parse_list(const std::string& text) {
 std::optional<std::vector<Where>> parse_rows(const Arguments& a) {
   if (given(a.shared, {Shared::Source, Shared::Sources})) {
     if (!a.rows.empty()) refuse("--rows and --source both say where the rows start from: give one");
-    return parse_sources(a.shared);
+    return parse_point_sources(a.shared, "rows start from places");
   }
   if (a.rows.empty() || a.rows == "all") return std::nullopt;
   return parse_list(a.rows);
@@ -231,7 +231,7 @@ void add_matrix(CommandLine& command_line) {
     add_surface(verb, arguments->file);
     verb.arguments("MORE", arguments->more, "Further meshes: every one's matrix goes into a folder, -o FOLDER/");
     verb.option("--rows", arguments->rows, "PLACES", "all, a list of vertices, or a file with one place per line");
-    verb.option("--cols,--columns", arguments->columns, "PLACES", "The same for the columns");
+    verb.option("--columns,--cols", arguments->columns, "PLACES", "The same for the columns");
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
     verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy, with --radius also .npz .mtx");
     verb.talks();

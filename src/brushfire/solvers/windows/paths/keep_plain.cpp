@@ -6,7 +6,9 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 brushfire::Vec2 plain(const Vec2& p) { return {to_double(p.x), to_double(p.y)}; }
-PlainRay plain(const Ray& ray) { return {plain(ray.source), ray.halfedge, ray.pseudo_source}; }
+PlainRay plain(const Ray& ray) {
+  return {plain(ray.source), ray.halfedge, ray.pseudo_source, ray.kind == WindowKind::Linear};
+}
 
 }  // namespace
 
@@ -15,6 +17,8 @@ void Results::keep() {
   run.mesh = run_.structure.mesh;
   run.problem = run_.problem;
   run.shift = to_double(run_.shift);
+  run.relative = run_.rounding.relative;
+  run.absolute = run_.rounding.absolute;
   run.exact = !run_.merges();
   run.whole = !(run_.radius < kInfinity);
   for (const Part& part : parts_) {
