@@ -131,7 +131,7 @@ Results::Tally Results::write_vertices(const Part& part) {
     field_.distance[outer] = to_double(r.value - run_.shift);
     field_.source[outer] = label;
     if (!run_.problem->touched) field_.error_bound[outer] = r.bound;
-    if (r.value <= run_.radius) tally.largest_bound = std::max(tally.largest_bound, r.relative);
+    if (r.value <= run_.radius && r.relative > tally.largest_bound) tally.largest_bound = r.relative;
     ++tally.seen;
   });
   return tally;

@@ -29,6 +29,7 @@ class EventQueue {
     current_ = current;
     near_count_ = 0;
     list_position_ = vertex_position_ = 0;
+    vertices_turn_ = false;
   }
 
   bool empty() const { return near_count_ == 0 && far_.empty(); }
@@ -82,8 +83,8 @@ class EventQueue {
     do {
       Bucket& b = buckets_[current_ % kBuckets];
       const bool lists = list_position_ < b.lists.size(), vertices = vertex_position_ < b.vertices.size();
-      if (!lists && !vertices) continue;
       vertices_turn_ = vertices && (vertices_turn_ || !lists);
+      if (!lists && !vertices) continue;
       --near_count_;
       event =
           vertices_turn_ ? Event{0, b.vertices[vertex_position_++], false} : Event{0, b.lists[list_position_++], true};
