@@ -52,6 +52,8 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/brushfire.pc DESTINATION ${CMAKE_INSTA
 
 if(BRUSHFIRE_BUILD_TOOLS)
   install(TARGETS brushfire_cli DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # What `brushfire view` puts meshes into, where `./run web` has built it.
+  install(FILES web/dist-single/index.html DESTINATION ${CMAKE_INSTALL_DATADIR}/brushfire RENAME viewer.html OPTIONAL)
   # The program describes itself; where it cannot be run, because it is for another machine, it is installed bare.
   if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
     set(share ${CMAKE_CURRENT_BINARY_DIR}/share)

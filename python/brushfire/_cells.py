@@ -9,12 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, Labels, number, offsets, whole
+from brushfire._arrays import Floats, Labels, number, whole
 from brushfire._curves import OnMesh, Path
-from brushfire._errors import BrushfireError
-from brushfire._options import options, thread_count
+from brushfire._errors import BrushfireError, BrushfireIndexError
+from brushfire._options import Options, Tolerance, options, thread_count
 from brushfire._places import Places, Points
 from brushfire._progress import Progress, shown
+from brushfire._sources import Curve, Sources, sources_of
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -87,7 +88,7 @@ class Medoids:
 @dataclass(frozen=True)
 class Parcels:
     """``distance[i, j]`` is that of the parcels of ``labels[i]`` and ``labels[j]``, which ascend. ``sizes``: how many
-    vertices each has. ``centroids``: the vertices in their middles where ``kind="centroid"``, None otherwise."""
+    vertices each has. ``centroids``: the vertices in their middles where ``distance="centroid"``, None otherwise."""
 
     labels: npt.NDArray[np.int64]
     distance: Floats
@@ -170,20 +171,52 @@ class Cells(OnMesh):
         path, gap, _ = _core.project_curve(self._space, _arrays.triples(xyz, "xyz"), bool(closed))
         return self._path(path), gap
 
+    def region(self, *, vertices: npt.ArrayLike | None = None, faces: npt.ArrayLike | None = None) -> Curve:
+        """A region as a source: distances are 0 at all of its vertices and along its border, and outside from there on.
+
+        :param vertices: numbers, or a mask with one bool per vertex (``labels == 3``): these, and the edges and faces
+            between them; or
+        :param faces: numbers, or a mask with one bool per face.
+        :raises BrushfireError: for an empty region.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.distance(mesh.region(vertices=[0, 1])).round(9).tolist()
+        [0.0, 0.0, 4.0, 4.0]
+        >>> mesh.distance(mesh.region(faces=[0])).round(9).tolist()
+        [0.0, 0.0, 0.0, 2.4]
+        """
+        if (vertices is None) == (faces is None):
+            raise BrushfireError("region: one of vertices and faces is needed")
+        if faces is not None:
+            face, weights, starts = _core.region_of_faces(self._mesh, _arrays.numbers(faces, self._mesh.face_count, "faces"))
+        else:
+            inside = np.zeros(self._mesh.vertex_count, dtype=np.uint8)
+            chosen = _arrays.numbers(vertices, self._mesh.vertex_count, "vertices")
+            if chosen.size and (chosen.min() < 0 or chosen.max() >= len(inside)):
+                bad = chosen[(chosen < 0) | (chosen >= len(inside))][0]
+                raise BrushfireIndexError(f"vertices: there is no vertex {bad}, the mesh has {len(inside)}")
+            inside[chosen] = 1
+            face, weights, starts = _core.region_of_vertices(self._mesh, inside)
+        return Curve(Points(face, weights), starts=starts)
+
     def nearest_sources(
         self,
-        sources: Places,
+        sources: Sources,
         count: int,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
+        threads: int = 1,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         progress: Progress = None,
     ) -> tuple[Floats, Labels]:
         """The ``count`` nearest sources of every vertex.
 
-        :param sources, method, tolerance, offset, radius, progress: as for :meth:`distance`.
+        :param sources, method, tolerance, bound, precision, threads, offset, radius, progress: as for :meth:`distance`.
         :return: distances, (vertex_count, count), ascending along each row, +inf for no more; and which source each is of.
 
         >>> import brushfire as bf
@@ -192,19 +225,19 @@ class Cells(OnMesh):
         >>> distance[3].tolist(), source[3].tolist()
         ([3.0, 4.0], [2, 0])
         """
-        start = self._arrays(sources, "sources")
-        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, radius)
+        start = sources_of(self, sources, offset)
+        chosen = options(method, tolerance, radius, bound, precision, threads)
         with shown(progress, "nearest sources") as report:
             return _core.nearest_sources(
-                self._space, start.index, start.weights, given, whole(count, "count", _MOST), chosen, report
+                self._space, start, whole(count, "count", _MOST), chosen, report
             )
 
     def extent(
-        self, *, tolerance: float = 1e-9, most_runs: int = 0, threads: int = 1, progress: Progress = None
+        self, *, within: float = 1e-9, most_runs: int = 0, threads: int = 1, progress: Progress = None
     ) -> Extent:
         """Diameter, radius and centre, with bounds that hold.
 
-        :param tolerance: how near the bounds come to each other, as a share.
+        :param within: how near the bounds come to each other, as a share.
         :param most_runs: exact fields at most, with the bounds reached by then; 0: as many as it takes, which on surfaces
             as round as a sphere is one per vertex.
 
@@ -217,7 +250,7 @@ class Cells(OnMesh):
         with shown(progress, "extent") as report:
             found = _core.extent(
                 self._space,
-                number(tolerance, "tolerance"),
+                number(within, "within"),
                 whole(most_runs, "most_runs", _MOST),
                 thread_count(threads),
                 report,
@@ -229,14 +262,17 @@ class Cells(OnMesh):
         places: Places | None = None,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
+        radius: float = np.inf,
         threads: int = 0,
         progress: Progress = None,
     ) -> Floats:
         """How far the vertex is that is farthest from each place, of those that can be reached: (places,).
 
         :param places: every vertex if none are given.
-        :param method, tolerance, progress: as for :meth:`distance`; one field per place.
+        :param method, tolerance, bound, precision, radius, progress: as for :meth:`distance`; one field per place.
         :param threads: that share out the places; 0 means one per processor.
 
         >>> import brushfire as bf
@@ -244,14 +280,18 @@ class Cells(OnMesh):
         >>> mesh.eccentricity(method="exact").tolist()
         [5.0, 5.0, 5.0, 5.0]
         """
-        return self._measured(_core.eccentricities, places, method, tolerance, threads, progress, "eccentricity")
+        chosen = options(method, tolerance, radius, bound, precision)
+        return self._measured(_core.eccentricities, places, chosen, threads, progress, "eccentricity")
 
     def average_distance(
         self,
         places: Places | None = None,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
+        radius: float = np.inf,
         threads: int = 0,
         progress: Progress = None,
     ) -> Floats:
@@ -262,7 +302,8 @@ class Cells(OnMesh):
         >>> mesh.average_distance(1, method="exact").round(6).tolist()
         [3.166667]
         """
-        return self._measured(_core.average_distances, places, method, tolerance, threads, progress, "average distance")
+        chosen = options(method, tolerance, radius, bound, precision)
+        return self._measured(_core.average_distances, places, chosen, threads, progress, "average distance")
 
     def discs(
         self,
@@ -270,14 +311,17 @@ class Cells(OnMesh):
         places: Places | None = None,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
+        radius: float = np.inf,
         threads: int = 0,
         progress: Progress = None,
     ) -> Discs:
         """The geodesic disc around each place that holds a share of the surface (of the place's component).
 
         :param share: in (0, 1]: 0.05 is 5 %.
-        :param places, method, tolerance, threads, progress: as for :meth:`eccentricity`.
+        :param places, method, tolerance, bound, precision, radius, threads, progress: as for :meth:`eccentricity`.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
@@ -285,7 +329,7 @@ class Cells(OnMesh):
         [5.0, 0.0, 12.0]
         """
         index, weights = self._given(places)
-        chosen = options(method, tolerance, np.inf)
+        chosen = options(method, tolerance, radius, bound, precision)
         with shown(progress, "discs") as report:
             found = _core.discs(
                 self._space, number(share, "share"), index, weights, chosen, thread_count(threads), report
@@ -365,19 +409,22 @@ class Cells(OnMesh):
     def parcels(
         self,
         labels: npt.ArrayLike,
-        kind: Literal["min", "hausdorff", "centroid", "mean", "max"] = "min",
+        distance: Literal["min", "hausdorff", "centroid", "mean", "max"] = "min",
         *,
         ignore: npt.ArrayLike = (),
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
+        radius: float = np.inf,
         threads: int = 0,
         progress: Progress = None,
     ) -> Parcels:
         """Distances between the regions of a labelled surface.
 
         :param labels: one whole number per vertex, (vertex_count,); vertices below 0 are in no parcel.
-        :param kind: ``"min"``, of the nearest two vertices; ``"hausdorff"``, of the vertex of either that is farthest from
-            the other parcel; ``"centroid"``, of the vertices in their middles; ``"mean"`` and ``"max"``, over all pairs.
+        :param distance: ``"min"``, of the nearest two vertices; ``"hausdorff"``, of the vertex of either that is
+            farthest from the other parcel; ``"centroid"``, of the vertices in their middles; ``"mean"`` and ``"max"``, over all pairs.
         :param ignore: labels that are no parcel.
 
         ``"min"`` and ``"hausdorff"`` are one run per parcel, ``"mean"`` and ``"max"`` one per vertex; no dense matrix of
@@ -393,12 +440,12 @@ class Cells(OnMesh):
         if len(keys) != self._mesh.vertex_count:
             raise BrushfireError(f"labels: one per vertex is needed, {self._mesh.vertex_count}, not {len(keys)}")
         keys[np.isin(keys, _arrays.integers(ignore, "ignore"))] = -1
-        chosen = options(method, tolerance, np.inf)
+        chosen = options(method, tolerance, radius, bound, precision)
         with shown(progress, "parcels") as report:
-            label, distance, sizes, centroids = _core.parcels(
-                self._space, keys, str(kind), 0, chosen, thread_count(threads), report
+            label, between, sizes, centroids = _core.parcels(
+                self._space, keys, str(distance), 0, chosen, thread_count(threads), report
             )
-        return Parcels(label, distance, sizes, centroids if len(centroids) else None)
+        return Parcels(label, between, sizes, centroids if len(centroids) else None)
 
     def smoothing_kernel(
         self,
@@ -406,7 +453,9 @@ class Cells(OnMesh):
         sigma: float | None = None,
         fwhm: float | None = None,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
         threads: int = 0,
         progress: Progress = None,
     ) -> csr_matrix:
@@ -419,7 +468,8 @@ class Cells(OnMesh):
         """
         from scipy.sparse import csr_matrix
 
-        value, column, starts = self._kernel(sigma, fwhm, method, tolerance, threads, progress)
+        chosen = options(method, tolerance, np.inf, bound, precision)
+        value, column, starts = self._kernel(sigma, fwhm, chosen, threads, progress)
         return csr_matrix((value, column, starts), shape=(len(starts) - 1, self._mesh.vertex_count))
 
     def smooth(
@@ -429,14 +479,16 @@ class Cells(OnMesh):
         sigma: float | None = None,
         fwhm: float | None = None,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
         threads: int = 0,
         progress: Progress = None,
     ) -> Floats:
         """Values smoothed along the surface, within walls: (vertex_count,) or (vertex_count, k), as given.
 
         :param values: NaN does not count, and stays; so does what is in no open face.
-        :param sigma, fwhm, method, tolerance, threads, progress: as for :meth:`smoothing_kernel`.
+        :param sigma, fwhm, method, tolerance, bound, precision, threads, progress: as for :meth:`smoothing_kernel`.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
@@ -446,7 +498,8 @@ class Cells(OnMesh):
         array = _arrays.floats(values, "values")
         if array.ndim not in (1, 2) or array.shape[0] != self._mesh.vertex_count:
             raise BrushfireError(f"values: one row per vertex is needed, {self._mesh.vertex_count}, not {array.shape}")
-        value, column, starts = self._kernel(sigma, fwhm, method, tolerance, threads, progress)
+        chosen = options(method, tolerance, np.inf, bound, precision)
+        value, column, starts = self._kernel(sigma, fwhm, chosen, threads, progress)
         columns = array.reshape(len(array), -1)
         there = ~np.isnan(columns)
         rows = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
@@ -460,12 +513,11 @@ class Cells(OnMesh):
         return result.reshape(array.shape)
 
     def _kernel(
-        self, sigma: Any, fwhm: Any, method: Any, tolerance: Any, threads: Any, progress: Progress
+        self, sigma: Any, fwhm: Any, chosen: Options, threads: Any, progress: Progress
     ) -> tuple[Floats, Labels, npt.NDArray[np.int64]]:
         if (sigma is None) == (fwhm is None):
             raise BrushfireError("how wide? one of sigma and fwhm is needed")
         width = number(sigma, "sigma") if sigma is not None else number(fwhm, "fwhm") / _FWHM_PER_SIGMA
-        chosen = options(method, tolerance, np.inf)
         with shown(progress, "smooth") as report:
             return _core.smoothing_kernel(self._space, width, chosen, thread_count(threads), report)
 
@@ -476,10 +528,9 @@ class Cells(OnMesh):
         return arrays.index, arrays.weights
 
     def _measured(
-        self, measure: Any, places: Any, method: Any, tolerance: Any, threads: Any, progress: Progress, what: str
+        self, measure: Any, places: Any, chosen: Options, threads: Any, progress: Progress, what: str
     ) -> Floats:
         index, weights = self._given(places)
-        chosen = options(method, tolerance, np.inf)
         with shown(progress, what) as report:
             found: Floats = measure(self._space, index, weights, chosen, thread_count(threads), report)
         return found

@@ -9,12 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, number, offsets, whole
+from brushfire._arrays import Floats, number, whole
 from brushfire._curves import OnMesh, Path
 from brushfire._errors import BrushfireError
-from brushfire._options import options
+from brushfire._options import Tolerance, options, tolerance_of
 from brushfire._places import Places
 from brushfire._progress import Progress, shown
+from brushfire._sources import Sources, sources_of
 
 _MOST_LEVELS = 1_000_000
 
@@ -52,7 +53,7 @@ class Descent:
 
 @dataclass(frozen=True)
 class Errors:
-    """Over some vertices, of |field - reference|. ``max_vertex``: the lowest where it is greatest, -1 for none."""
+    """Over some vertices, of ``|field - reference|``. ``max_vertex``: the lowest where it is greatest, -1 for none."""
 
     mean: float
     root_mean_square: float
@@ -158,13 +159,13 @@ class Fields(OnMesh):
 
     def curved_isolines(
         self,
-        sources: Places,
+        sources: Sources,
         levels: npt.ArrayLike | None = None,
         *,
         every: float | None = None,
         count: int | None = None,
         chord_error: float | None = None,
-        tolerance: float = 0.0,
+        tolerance: Tolerance = 0.0,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         progress: Progress = None,
@@ -186,16 +187,14 @@ class Fields(OnMesh):
         (True, True)
         """
         _choose_one(levels, every, count)
-        start = self._arrays(sources, "sources")
+        start = sources_of(self, sources, offset)
         if chord_error is None:
             chord_error = 0.01 * float(self._mesh.report()["mean_edge_length"])  # type: ignore[arg-type]
         with shown(progress, "isolines") as report:
             found = _core.curved_isolines(
                 self._run(),
-                start.index,
-                start.weights,
-                offsets(offset, len(start.index)),
-                options("windows", number(tolerance, "tolerance"), radius),
+                start,
+                options("windows", tolerance_of(tolerance), radius),
                 None if levels is None else _levels(levels),
                 None if every is None else number(every, "every"),
                 0 if count is None else whole(count, "count", _MOST_LEVELS),

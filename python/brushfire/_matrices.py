@@ -12,7 +12,7 @@ from brushfire import _core
 from brushfire._arrays import floating_type, number, path_text, whole
 from brushfire._curves import OnMesh
 from brushfire._errors import BrushfireError, BrushfireTypeError
-from brushfire._options import Options, options, thread_count
+from brushfire._options import Options, Tolerance, options, thread_count
 from brushfire._places import PlaceArrays, Places
 from brushfire._progress import Progress, Reporter, shown
 
@@ -34,7 +34,8 @@ class Matrices(OnMesh):
         columns: Places | None = None,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
         radius: float = np.inf,
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
@@ -47,7 +48,7 @@ class Matrices(OnMesh):
 
         :param rows: places: vertices, points or a mask; all vertices if none are given.
         :param columns: likewise.
-        :param method, tolerance, precision: as for :meth:`distance`.
+        :param method, tolerance, bound, precision: as for :meth:`distance`.
         :param radius: what is farther reads +inf.
         :param dtype: float32 (rounded from float64, 7 digits), float64, or float16 (3 digits, up to 65504: what does not
             fit is an error).
@@ -69,7 +70,7 @@ class Matrices(OnMesh):
         if symmetric is not None:
             _check_symmetric(symmetric, row, column)
         shape = (self._count(row), self._count(column))
-        chosen = options(method, tolerance, radius, precision=precision)
+        chosen = options(method, tolerance, radius, bound, precision)
         team = thread_count(threads)
         result = _new_matrix(shape, dtype) if out is None else out
         array = _memory_of(result)
@@ -128,7 +129,8 @@ class Matrices(OnMesh):
         rows: Places | None = None,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         symmetric: Symmetric | None = None,
@@ -143,7 +145,7 @@ class Matrices(OnMesh):
 
         :param radius: finite, >= 0.
         :param rows: vertices, points or a mask; all vertices if none are given.
-        :param method, tolerance, precision: as for :meth:`distance`.
+        :param method, tolerance, bound, precision: as for :meth:`distance`.
         :param symmetric: for all vertices as rows: ``"mean"`` or ``"min"`` of both directions, of the one that is within
             the radius where the other is not.
         :param memory_limit: bytes that the result may take; 0 means what the machine has left.
@@ -162,7 +164,7 @@ class Matrices(OnMesh):
         compute = _core.sparse_float32 if float_type(dtype) == np.float32 else _core.sparse_float64
         most = whole(memory_limit, "memory_limit", np.iinfo(np.int64).max)
         _scipy_sparse()  # before anything is computed
-        chosen = options(method, tolerance, np.inf, precision=precision)
+        chosen = options(method, tolerance, np.inf, bound, precision)
         limit, team = number(radius, "radius"), thread_count(threads)
         with shown(progress, "rows") as report:
             data, indices, starts = compute(self._space, limit, *_pair(row), chosen, team, most, report)
@@ -177,7 +179,8 @@ class Matrices(OnMesh):
         columns: Places | None = None,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
         radius: float = np.inf,
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
@@ -199,7 +202,7 @@ class Matrices(OnMesh):
         [[3.0, 0.0, 4.0, 7.0]]
         """
         row, column = self._optional(rows, "rows"), self._optional(columns, "columns")
-        chosen = options(method, tolerance, radius, precision=precision)
+        chosen = options(method, tolerance, radius, bound, precision)
         single = bool(float_type(dtype) == np.float32)
         team = thread_count(threads)
         with shown(progress, "matrix") as report:

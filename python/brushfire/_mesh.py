@@ -11,22 +11,25 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from brushfire import _arrays, _core
+from brushfire import _arrays, _core, _viewer
 from brushfire._arrays import Floats, Ints, number
 from brushfire._cells import Cells
 from brushfire._certify import Certificates
 from brushfire._curves import Curves
+from brushfire._derivatives import Derivatives
 from brushfire._distance import Distances
 from brushfire._errors import BrushfireError, BrushfireWarning
 from brushfire._fields import Fields
 from brushfire._files import Files
 from brushfire._matrices import Matrices, float_type, sparse_matrix
 from brushfire._notebook import mesh_table
-from brushfire._options import Options, options
+from brushfire._options import Options, Tolerance, options
 from brushfire._picture import Pictures
 from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
 from brushfire._progress import Progress, shown
 from brushfire._regions import Regions
+from brushfire._sets import Pairs
+from brushfire._weighted import WithWeights
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -88,7 +91,9 @@ class MeshReport:
         return "\n".join([head, *self.remarks])
 
 
-class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pictures, Files):
+class Mesh(
+    Distances, Derivatives, Curves, Fields, Certificates, Regions, Cells, Matrices, Pairs, Pictures, Files, WithWeights
+):
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
     :param vertices: (n, 3) positions, or (n, 2) for a flat mesh. Kept as float64.
@@ -191,14 +196,14 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pi
         xyz = self._mesh.positions(arrays.index, arrays.weights)
         return xyz[0] if is_one(places) else xyz
 
-    def nearest(self, xyz: npt.ArrayLike, *, within: float = np.inf) -> tuple[Points, Floats]:
+    def nearest(self, xyz: npt.ArrayLike, *, snap_within: float = np.inf) -> tuple[Points, Floats]:
         """The points of the surface nearest to positions in space, and how far away they are.
 
         :param xyz: (k, 3), or (3,) for a single one.
-        :param within: farther than this from the surface no position may be.
+        :param snap_within: farther than this from the surface no position may be.
         :return: :class:`Points` and distances, (k,) each.
         :raises BrushfireError: for a mesh from lengths or without faces, for positions that are not finite, and for those
-            that are farther away than ``within``.
+            that are farther away than ``snap_within``.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
@@ -208,25 +213,25 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pi
         """
         if self._finder is None:
             self._finder = _core.NearestPointFinder(self._mesh)
-        positions = at(xyz, within=within)
+        positions = at(xyz, snap_within=snap_within)
         face, weights, distance = self._finder.nearest(positions.xyz)
-        too_far = distance > positions.within
+        too_far = distance > positions.snap_within
         if too_far.any():
             bad = int(np.argmax(too_far))
             raise BrushfireError(
-                f"position {bad} is {distance[bad]:.6g} from the surface, farther than within={positions.within:.6g}"
+                f"position {bad} is {distance[bad]:.6g} from the surface, farther than snap_within={positions.snap_within:.6g}"
             )
         return Points(face, weights), distance
 
     def _snapped(self, positions: At) -> Points:
         """Not without a word where that is far, for the size of the mesh."""
-        points, distance = self.nearest(positions.xyz, within=positions.within)
+        points, distance = self.nearest(positions.xyz, snap_within=positions.snap_within)
         size = self._mesh.size
-        if np.isinf(positions.within) and distance.size and distance.max() > _FAR * size:
+        if np.isinf(positions.snap_within) and distance.size and distance.max() > _FAR * size:
             far = int(np.argmax(distance))
             warnings.warn(
                 f"position {far} is {distance[far]:.6g} from the surface (the mesh is {size:.6g} across): its nearest "
-                "point was taken; at(..., within=...) says how far is near enough",
+                "point was taken; at(..., snap_within=...) says how far is near enough",
                 BrushfireWarning,
                 stacklevel=4,
             )
@@ -356,12 +361,62 @@ class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pi
         self,
         method: str | None = None,
         *,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
         bound: str | None = None,
         precision: str | None = None,
     ) -> Solver:
         """A solver for many calls on this mesh: see :class:`Solver`, which takes the same arguments."""
         return Solver(self, method, tolerance=tolerance, bound=bound, precision=precision)
+
+    def page(
+        self,
+        values: npt.ArrayLike | None = None,
+        *,
+        sources: Places | None = None,
+        method: str | None = None,
+        tolerance: float | None = None,
+        name: str = "mesh",
+    ) -> str:
+        """One HTML page with the mesh and the library in it, which computes as one clicks; what ``brushfire view`` writes.
+
+        :param values: (vertex_count,) distances that are shown until a source is set; None: the page computes those from
+            ``sources``.
+        :param sources: where the page starts from; None: the first corner of face 0.
+        :param method, tolerance: what it computes with, as for :meth:`distance`.
+        :param name: what it calls the mesh.
+        :raises BrushfireError: where the package was built without the page (``./run web`` in the sources builds it, the
+            environment's BRUSHFIRE_VIEWER names one that lies elsewhere); for a mesh without faces or positions, for
+            values that are not one per vertex, and as :meth:`distance` does.
+
+        >>> import brushfire as bf, pathlib
+        >>> mesh = bf.Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+        >>> pathlib.Path("page.html").write_text(mesh.page(sources=0))  # doctest: +SKIP
+        """
+        return _viewer.page_of(self, values, sources, method, tolerance, name)
+
+    def show(
+        self,
+        values: npt.ArrayLike | None = None,
+        *,
+        sources: Places | None = None,
+        method: str | None = None,
+        tolerance: float | None = None,
+        height: int = 480,
+    ) -> Any:
+        """In a notebook: the surface, which one turns and clicks on, and the distances from where one clicked.
+
+        The result is a widget (anywidget's) with ``sources``, a trait that follows the page's, and ``points``, the same as
+        :class:`Points`; ``widget.observe(f, "sources")`` calls ``f`` whenever they change. Where anywidget is not
+        installed, or this package was built without the page, it is a picture of ``values`` (:meth:`panel`).
+
+        :param height: of the frame, in pixels.
+        :param values, sources, method, tolerance: as for :meth:`page`, which raises the same.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+        >>> shown = mesh.show(mesh.distance(0))  # the last line of a notebook's cell, without a name
+        """
+        return _viewer.show(self, values, sources, method, tolerance, height)
 
     def _run(self) -> _core.Solver:
         return _core.Solver(self._space)
@@ -423,7 +478,7 @@ class Solver(Distances, Curves, Fields):
         mesh: Mesh,
         method: str | None = None,
         *,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
         bound: str | None = None,
         precision: str | None = None,
     ) -> None:
@@ -441,14 +496,15 @@ class Solver(Distances, Curves, Fields):
         rows: Places,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         progress: Progress = None,
     ) -> csr_matrix:
         """Rows of :meth:`Mesh.distances_within`, computed one after the other: for few of them at a time.
 
-        :param radius, rows, method, tolerance, precision, dtype, progress: as there; many rows are faster there.
+        :param radius, rows, method, tolerance, bound, precision, dtype, progress: as there; many rows are faster there.
 
         >>> import brushfire as bf
         >>> solver = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]]).solver()
@@ -456,7 +512,7 @@ class Solver(Distances, Curves, Fields):
         [[3.0, 0.0, 0.0, 0.0]]
         """
         row = self._arrays(rows, "rows")
-        chosen = options(*self._or_defaults(method, tolerance, None, precision, limit=np.inf))
+        chosen = options(*self._or_defaults(method, tolerance, bound, precision, limit=np.inf))
         wanted = float_type(dtype)
         limit = number(radius, "radius")
         with shown(progress, "rows") as report:

@@ -19,10 +19,10 @@ from brushfire._options import thread_count
 from brushfire._places import Places
 from brushfire._progress import Progress, shown
 
-_SCALE_TEXTS = ("colormap", "unit")
+_SCALE_TEXTS = ("colormap", "bar_title")
 _SCALE_NUMBERS = ("low", "high")
 _TEXTS = ("up", "view", "font")
-_SWITCHES = ("perspective", "bands", "colour_bar", "wireframe", "silhouettes", "transparent")
+_SWITCHES = ("perspective", "bands", "bar", "wireframe", "silhouettes", "transparent")
 _NUMBERS = ("azimuth", "elevation", "zoom", "line_width", "path_width", "dot_size")
 _COUNTS = ("width", "height", "samples")
 _MOST = np.iinfo(np.int32).max
@@ -39,6 +39,10 @@ class Panel:
 
     def __repr__(self) -> str:
         return f"Panel({self.mesh!r})"
+
+    def _repr_png_(self) -> bytes:
+        """What a notebook shows."""
+        return bytes(_core.encode_png(render(self)))
 
 
 class Pictures(OnMesh):
@@ -75,7 +79,7 @@ class Pictures(OnMesh):
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
         >>> pair = [mesh.panel(mesh.distance(0, method=m)) for m in ("dijkstra", "exact")]
-        >>> bf.render(pair, width=64, height=48, colour_bar=False).shape
+        >>> bf.render(pair, width=64, height=48, bar=False).shape
         (48, 128, 4)
         """
         shown: dict[str, Any] = {
@@ -123,7 +127,7 @@ class Pictures(OnMesh):
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
-        >>> mesh.render(mesh.distance(0), isolines=[0.5], dots=0, width=64, height=48, colour_bar=False).shape
+        >>> mesh.render(mesh.distance(0), isolines=[0.5], dots=0, width=64, height=48, bar=False).shape
         (48, 64, 4)
         """
         panel = self.panel(
@@ -172,9 +176,9 @@ def render(panels: Panel | Iterable[Panel], *, file: str | os.PathLike[str] | No
     :param file: also written there, as PNG or, with lines and text as vectors, as SVG; the extension decides.
     :param look: ``width``, ``height`` (of a panel, pixels), ``view`` ("front", "back", "left", "right", "top", "bottom",
         "iso"), ``azimuth``, ``elevation`` (degrees), ``up`` ("x", "y", "z"), ``perspective``, ``zoom``; ``colormap``
-        ("viridis", "magma", "cividis"), ``low``, ``high``, ``unit``, ``bands``, ``colour_bar``; ``wireframe``,
+        ("viridis", "magma", "cividis"), ``low``, ``high``, ``bar_title``, ``bands``, ``bar``; ``wireframe``,
         ``silhouettes``, ``transparent``, ``line_width``, ``path_width``, ``dot_size``, ``samples``, ``threads``, ``font``
-        (a TrueType file). Panels with scales of their own: instead of ``colormap``, ``low``, ``high`` and ``unit`` a list
+        (a TrueType file). Panels with scales of their own: instead of ``colormap``, ``low``, ``high`` and ``bar_title`` a list
         ``scales`` of dicts of these. Each scale has one range and one colour bar for all of its panels.
     :raises BrushfireError: for a mesh from lengths, for arrays of another size, for what is out of range, for a file that
         cannot be written.
@@ -184,7 +188,7 @@ def render(panels: Panel | Iterable[Panel], *, file: str | os.PathLike[str] | No
     >>> mesh = bf.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
     >>> edges, exact = mesh.distance(1, method="dijkstra"), mesh.distance(1, method="exact")
     >>> panels = [mesh.panel(edges, title="edges"), mesh.panel(exact), mesh.panel(edges - exact, scale=1)]
-    >>> scales = [{"unit": "mm"}, {"colormap": "magma", "low": 0, "unit": "error, mm"}]
+    >>> scales = [{"bar_title": "mm"}, {"colormap": "magma", "low": 0, "bar_title": "error, mm"}]
     >>> bf.render(panels, scales=scales, width=64, height=48).ndim
     3
     """
@@ -227,7 +231,7 @@ def animate(
 
     >>> import brushfire as bf
     >>> mesh = bf.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
-    >>> bf.animate(mesh.panel(mesh.distance(0)), wave=3, width=64, height=48, colour_bar=False).shape
+    >>> bf.animate(mesh.panel(mesh.distance(0)), wave=3, width=64, height=48, bar=False).shape
     (3, 48, 64, 4)
     """
     if (turntable is None) == (wave is None):

@@ -102,28 +102,28 @@ class At:
     """Positions in space that stand for the surface points nearest to them: see :func:`at`."""
 
     xyz: Floats
-    within: float = np.inf
+    snap_within: float = np.inf
 
     def __repr__(self) -> str:
         return f"At({len(self.xyz)} positions)"
 
 
-def at(xyz: npt.ArrayLike, *, within: float = np.inf) -> At:
+def at(xyz: npt.ArrayLike, *, snap_within: float = np.inf) -> At:
     """Positions in space as sources, targets, rows or columns: each is snapped to the nearest point of the surface.
 
     :param xyz: (3,) or (k, 3).
-    :param within: farther than this from the surface no position may be: a BrushfireError says which one is, and how
+    :param snap_within: farther than this from the surface no position may be: a BrushfireError says which one is, and how
         far. Where nothing is said, one that is farther than a tenth of the mesh's size is a :class:`BrushfireWarning`.
 
     >>> import brushfire as bf
     >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
-    >>> mesh.distance(bf.at([1, 0, 0.3], within=0.5), method="exact").round(6).tolist()
+    >>> mesh.distance(bf.at([1, 0, 0.3], snap_within=0.5), method="exact").round(6).tolist()
     [1.0, 1.0, 2.236068]
     """
     array = floats(xyz, "at")
-    limit = number(within, "within")
+    limit = number(snap_within, "snap_within")
     if not limit >= 0:
-        raise BrushfireError(f"within: a number >= 0 is needed, not {limit}")
+        raise BrushfireError(f"snap_within: a number >= 0 is needed, not {limit}")
     return At(triples(array.reshape(1, 3) if array.shape == (3,) else array, "at"), limit)
 
 

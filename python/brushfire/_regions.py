@@ -9,12 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, Ints, Labels, offsets, whole
+from brushfire._arrays import Floats, Ints, Labels, whole
 from brushfire._curves import OnMesh, Path
 from brushfire._errors import BrushfireError
-from brushfire._options import options
+from brushfire._options import Tolerance, options
 from brushfire._places import Places, Points
 from brushfire._progress import Progress, shown
+from brushfire._sources import Sources, sources_of
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -132,17 +133,20 @@ class Regions(OnMesh):
 
     def voronoi(
         self,
-        sources: Places,
+        sources: Sources,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
+        threads: int = 1,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         progress: Progress = None,
     ) -> Voronoi:
         """The geodesic Voronoi diagram: which source is nearest where, the borders in between, the area of each cell.
 
-        :param sources, method, tolerance, offset, radius, progress: as for :meth:`distance`.
+        :param sources, method, tolerance, bound, precision, threads, offset, radius, progress: as for :meth:`distance`.
         :raises BrushfireError: as :meth:`distance` does.
 
         >>> import brushfire as bf
@@ -151,10 +155,10 @@ class Regions(OnMesh):
         >>> cells.source.tolist(), cells.area.sum().item(), cells.borders[0].sources
         ([0, 1, 1, 0], 4.0, (0, 1))
         """
-        start = self._arrays(sources, "sources")
-        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, radius)
+        start = sources_of(self, sources, offset)
+        chosen = options(method, tolerance, radius, bound, precision, threads)
         with shown(progress, "voronoi") as report:
-            found = _core.voronoi(self._space, start.index, start.weights, given, chosen, report)
+            found = _core.voronoi(self._space, start, chosen, report)
         distance, source, area, borders, dual = found
         return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders], dual)
 
@@ -164,7 +168,10 @@ class Regions(OnMesh):
         first: Places | None = None,
         *,
         method: str | None = None,
-        tolerance: float | None = None,
+        tolerance: Tolerance | None = None,
+        bound: str | None = None,
+        precision: str | None = None,
+        threads: int = 1,
         radius: float = np.inf,
         progress: Progress = None,
     ) -> Samples:
@@ -172,7 +179,7 @@ class Regions(OnMesh):
 
         :param count: how many; fewer where every vertex is a sample before.
         :param first: vertices to begin with; the lowest vertex that is in a face if none are given.
-        :param method, tolerance, radius, progress: as for :meth:`distance`.
+        :param method, tolerance, bound, precision, threads, radius, progress: as for :meth:`distance`.
         :raises BrushfireError: for a first vertex that is in no face or repeats, and for more of them than ``count``.
 
         Runs are limited to what still matters: all together they cost about log(count) whole fields.
@@ -190,7 +197,7 @@ class Regions(OnMesh):
                 raise BrushfireError("first: vertices are needed, not points of faces")
             index = arrays.index
         taken = whole(count, "count", np.iinfo(np.int32).max)
-        chosen = options(method, tolerance, radius)
+        chosen = options(method, tolerance, radius, bound, precision, threads)
         with shown(progress, "farthest points") as report:
             return Samples(*_core.farthest_points(self._space, taken, index, chosen, report))
 
@@ -219,8 +226,8 @@ class Regions(OnMesh):
         if ends.size and (ends.ndim != 2 or ends.shape[1] != 2):
             raise BrushfireError(f"edges: shape (k, 2) is needed, not {ends.shape}")
         return (
-            _numbers(vertices, self._mesh.vertex_count, "vertices"),
-            _numbers(faces, self._mesh.face_count, "faces"),
+            _arrays.numbers(vertices, self._mesh.vertex_count, "vertices"),
+            _arrays.numbers(faces, self._mesh.face_count, "faces"),
             ends.reshape(-1),
         )
 
@@ -230,16 +237,3 @@ class Regions(OnMesh):
 
     def _whole(self) -> Mesh:
         raise NotImplementedError
-
-
-def _numbers(chosen: Any, count: int, what: str) -> Ints:
-    """Of a mask or of numbers, flat."""
-    array = _arrays.any_array(chosen, what)
-    if array.dtype == np.bool_:
-        if array.shape != (count,):
-            raise BrushfireError(f"{what}: a mask needs shape ({count},), not {array.shape}")
-        return np.flatnonzero(array).astype(np.int64)
-    numbers = _arrays.integers(array, what)
-    if numbers.ndim > 1 and numbers.size:
-        raise BrushfireError(f"{what}: shape (k,) is needed, not {numbers.shape}")
-    return numbers.reshape(-1)

@@ -43,7 +43,7 @@ ColorScale scale_from(const nb::dict& given) {
   if (given.contains("colormap")) scale.colormap = colormap_named(nb::cast<std::string>(given["colormap"]));
   if (given.contains("low")) scale.low = nb::cast<double>(given["low"]);
   if (given.contains("high")) scale.high = nb::cast<double>(given["high"]);
-  scale.unit = value_or<std::string>(given, "unit", "");
+  scale.unit = value_or<std::string>(given, "bar_title", "");
   return scale;
 }
 
@@ -55,7 +55,7 @@ RenderOptions render_options_from(const nb::dict& given) {
   o.scales.clear();
   for (const nb::handle scale : given["scales"]) o.scales.push_back(scale_from(nb::cast<nb::dict>(scale)));
   o.fill = value_or(given, "bands", false) ? Fill::Bands : Fill::Smooth;
-  o.colour_bar = value_or(given, "colour_bar", o.colour_bar);
+  o.colour_bar = value_or(given, "bar", o.colour_bar);
   o.wireframe = value_or(given, "wireframe", o.wireframe);
   o.silhouettes = value_or(given, "silhouettes", o.silhouettes);
   o.transparent = value_or(given, "transparent", o.transparent);

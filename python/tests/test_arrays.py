@@ -154,8 +154,8 @@ def calls_with_numbers(mesh: bf.Mesh) -> list[Any]:
         lambda x: mesh.render(d, zoom=x),
         lambda x: mesh.render(d, low=x),
         lambda x: mesh.panel(d, front=x),
-        lambda x: mesh.nearest([[0, 0, 0]], within=x),
-        lambda x: bf.at([0, 0, 0], within=x),
+        lambda x: mesh.nearest([[0, 0, 0]], snap_within=x),
+        lambda x: bf.at([0, 0, 0], snap_within=x),
         lambda x: mesh.ambient_occlusion(reach=x),
     ]
 
@@ -215,12 +215,12 @@ def test_a_position_far_off_is_not_taken_without_a_word() -> None:
     mesh = grid()
     with pytest.warns(bf.BrushfireWarning, match="from the surface"):
         mesh.distance(bf.at([1000, 2000, 3000]))
-    with pytest.raises(bf.BrushfireError, match="farther than within=5"):
-        mesh.distance(bf.at([1000, 2000, 3000], within=5))
+    with pytest.raises(bf.BrushfireError, match="farther than snap_within=5"):
+        mesh.distance(bf.at([1000, 2000, 3000], snap_within=5))
     with pytest.raises(bf.BrushfireError, match="position 1 is"):
-        mesh.nearest([[0, 0, 0], [1000, 2000, 3000]], within=5)
+        mesh.nearest([[0, 0, 0], [1000, 2000, 3000]], snap_within=5)
     with pytest.raises(bf.BrushfireError):
-        bf.at([0, 0, 0], within=-1)
+        bf.at([0, 0, 0], snap_within=-1)
     points, distance = mesh.nearest([1000, 2000, 3000])
     assert np.isclose(distance[0], np.linalg.norm(mesh.position(points) - [1000, 2000, 3000]))
 

@@ -212,7 +212,7 @@ def calls(mesh: bf.Mesh):
     yield from (lambda x: mesh.log_map(x), lambda x: mesh.angle_of(x, [1, 0, 0]), lambda x: mesh.voronoi(x))
     yield from (lambda x: mesh.steepest_descent(d, x), lambda x: mesh.curved_isolines(x, [1.0]))
     yield from (lambda x: mesh.farthest_points(3, x), lambda x: mesh.cut(vertices=x), lambda x: mesh.cut(faces=x))
-    yield from (lambda x: mesh.render(dots=x, width=32, height=32, colour_bar=False),)
+    yield from (lambda x: mesh.render(dots=x, width=32, height=32, bar=False),)
 
 
 def array_calls(mesh: bf.Mesh):

@@ -99,7 +99,7 @@ def test_comparison_counts_and_weighs():
 
 def test_pictures_show_what_they_are_asked_for(plane, tmp_path):
     d = plane.distance(0, method="exact")
-    look = {"width": 120, "height": 90, "view": "front", "up": "y", "colour_bar": False, "samples": 1}
+    look = {"width": 120, "height": 90, "view": "front", "up": "y", "bar": False, "samples": 1}
     bare = plane.render(**look)
     assert bare.shape == (90, 120, 4)
     assert bare.dtype == np.uint8
@@ -115,7 +115,7 @@ def test_pictures_show_what_they_are_asked_for(plane, tmp_path):
     assert (labels != bare).any()
 
 
-LOOK = {"width": 64, "height": 48, "view": "front", "up": "y", "colour_bar": False, "samples": 1}
+LOOK = {"width": 64, "height": 48, "view": "front", "up": "y", "bar": False, "samples": 1}
 
 
 def test_panels_stand_side_by_side_and_share_their_scale(plane):
@@ -132,7 +132,7 @@ def test_panels_stand_side_by_side_and_share_their_scale(plane):
     assert not np.array_equal(own[:, 64:], alone)
     titled = bf.render([plane.panel(d, title="one"), plane.panel(d)], **LOOK)
     assert not np.array_equal(titled, both)
-    legend = LOOK | {"width": 240, "height": 180, "colour_bar": True}
+    legend = LOOK | {"width": 240, "height": 180, "bar": True}
     names = plane.render(labels=np.arange(plane.vertex_count) % 2, label_names=["one", "two"], **legend)
     numbers = plane.render(labels=np.arange(plane.vertex_count) % 2, **legend)
     assert names.shape != numbers.shape or not np.array_equal(names, numbers)

@@ -8,6 +8,7 @@
 #include <brushfire/core/progress.h>
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/boundaries.h>
+#include <brushfire/mesh/curve_source.h>
 #include <brushfire/mesh/cut.h>
 #include <brushfire/mesh/delaunay.h>
 #include <brushfire/mesh/domain.h>
@@ -21,15 +22,25 @@
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/steiner/weights.h>
+#include <brushfire/solvers/heat.h>
+#include <brushfire/solvers/heat_options.h>
+#include <brushfire/solvers/laplacian.h>
+#include <brushfire/solvers/signed_heat.h>
+#include <brushfire/solvers/vector_heat.h>
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>
 #if BRUSHFIRE_QUERIES
 #include <brushfire/queries/centroidal.h>
 #include <brushfire/queries/certify.h>
 #include <brushfire/queries/compare.h>
+#include <brushfire/queries/curve_sources.h>
 #include <brushfire/queries/curved_isolines.h>
+#include <brushfire/queries/distance_gradient.h>
 #include <brushfire/queries/distance_matrix.h>
 #include <brushfire/queries/extent.h>
+#include <brushfire/queries/flatten.h>
 #include <brushfire/queries/gradient.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/karcher_mean.h>
@@ -45,6 +56,7 @@
 #include <brushfire/queries/surface_path.h>
 #include <brushfire/queries/vertex_measures.h>
 #include <brushfire/queries/voronoi.h>
+#include <brushfire/queries/weighted_path.h>
 #endif
 #if BRUSHFIRE_IO
 #include <brushfire/io/byte_stream.h>

@@ -130,7 +130,8 @@ TEST_F(Convert, HelpNamesEveryFormat) {
 
 TEST_F(Convert, APlaceOutOfABinaryFileIsShownAsText) {
   write("thick.gii.gz", std::string("\x1f\x8b\x08\0\xff\xfe\x01", 7) + std::string(200, '\xaa'));
-  const Ended ended = run_program({"matrix", path("square.off"), "--cols", path("thick.gii.gz"), "-o", path("m.npy")});
+  const Ended ended =
+      run_program({"matrix", path("square.off"), "--columns", path("thick.gii.gz"), "-o", path("m.npy")});
   EXPECT_EQ(ended.code, 2);
   for (const char c : ended.err) EXPECT_TRUE((c >= ' ' && c < 127) || c == '\n') << ended.err;
   EXPECT_LT(ended.err.size(), 500u);

@@ -75,7 +75,8 @@ TEST_F(Curves, IsolinesAreWrittenWithTheirLevels) {
 
 TEST_F(Curves, CurvedIsolinesHaveMoreNodesThanStraightOnes) {
   EXPECT_EQ(run({"isolines", "--source", "0", "--levels", "0.5", "-o", path("a.csv"), "-q"}).err, "");
-  EXPECT_EQ(run({"isolines", "--source", "0", "--levels", "0.5", "--curved", "1e-5", "-o", path("b.csv")}).code, 0);
+  EXPECT_EQ(run({"isolines", "--source", "0", "--levels", "0.5", "--chord-error", "1e-5", "-o", path("b.csv")}).code,
+            0);
   EXPECT_GT(content("b.csv").size(), 5 * content("a.csv").size());
 }
 

@@ -39,7 +39,7 @@ TEST_F(Lies, AnEmptyValueIsAnErrorOfEveryOption) {
       {"path", square(), "--from", "0", "--to", "1", "--via", ""},
       {"isolines", square(), "--source", "0", "--every", "", "-o", path("a.obj")},
       {"isolines", square(), "--source", "0", "--levels", "", "--count", "3", "-o", path("a.obj")},
-      {"isolines", square(), "--source", "0", "--count", "3", "--curved", "", "-o", path("a.obj")},
+      {"isolines", square(), "--source", "0", "--count", "3", "--chord-error", "", "-o", path("a.obj")},
       {"matrix", square(), "--rows", "", "-o", path("a.npy")},
       {"render", square(), "--source", "0", "--size", "", "-o", path("a.png")},
       {"render", square(), "--source", "0", "--range", "", "-o", path("a.png")},

@@ -22,13 +22,28 @@ class MatrixVerb : public InFolder {
 
 TEST_F(MatrixVerb, WritesTheDenseMatrixOfChosenRowsAndColumns) {
   write("columns.txt", "3 # a corner\nat:1.5,2,7\nf:0:0,1,0\n");
-  const Ended ended = run({"--rows", "1,4", "--cols", path("columns.txt"), "--dtype", "float64", "-o", path("d.npy")});
+  const Ended ended =
+      run({"--rows", "1,4", "--columns", path("columns.txt"), "--dtype", "float64", "-o", path("d.npy")});
   EXPECT_EQ(ended.code, 0) << ended.err;
   const NpyArray d = read_npy(path("d.npy"));
   EXPECT_EQ(d.type, "<f8");
   EXPECT_EQ(d.shape, (std::vector<std::size_t>{2, 3}));
   const double inf = std::numeric_limits<double>::infinity();
   EXPECT_EQ(d.values, (std::vector<double>{5, 2.5, 0, inf, inf, inf}));
+}
+
+TEST_F(MatrixVerb, WritesThoseOfSeveralMeshesIntoAFolder) {
+  write("n.off", "OFF\n3 1 0\n0 0 0\n6 0 0\n0 8 0\n3 0 1 2\n");
+  const Ended ended = run({path("n.off"), "-o", path("all/")});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(read_npy(path("all/n.npy")).values, (std::vector<double>{0, 6, 8, 6, 0, 10, 8, 10, 0}));
+  EXPECT_EQ(run({"-o", path("m.npy"), "--quiet"}).code, 0);
+  const NpyArray alone = read_npy(path("m.npy")), in_set = read_npy(path("all/m.npy"));
+  EXPECT_EQ(alone.values, in_set.values);
+  EXPECT_EQ(run({path("m.off"), "-o", path("all/")}).code, 2);   // of one name
+  EXPECT_EQ(run({path("n.off"), "-o", path("d.npy")}).code, 2);  // no folder
+  const Ended json = run({path("n.off"), "-o", path("all/"), "--json"});
+  EXPECT_NE(json.out.find("\"files\": 2,"), std::string::npos) << json.out;
 }
 
 TEST_F(MatrixVerb, WritesAllPairsInFloatByDefault) {
@@ -58,9 +73,9 @@ TEST_F(MatrixVerb, WritesAnArchiveOfArraysForScipy) {
 
 TEST_F(MatrixVerb, SourcesAreRows) {
   write("rows.txt", "1\n3\n");
-  EXPECT_EQ(run({"-s", "0,2", "--sources", path("rows.txt"), "--cols", "4", "--unit", "mm", "-o", path("a.npy")}).code,
-            0);
-  EXPECT_EQ(run({"--rows", "0,2,1,3", "--cols", "4", "-o", path("b.npy")}).code, 0);
+  EXPECT_EQ(
+      run({"-s", "0,2", "--sources", path("rows.txt"), "--columns", "4", "--unit", "mm", "-o", path("a.npy")}).code, 0);
+  EXPECT_EQ(run({"--rows", "0,2,1,3", "--columns", "4", "-o", path("b.npy")}).code, 0);
   EXPECT_EQ(content("a.npy"), content("b.npy"));
   EXPECT_EQ(run({"--rows", "0", "-s", "1", "-o", path("c.npy")}).code, 2);
   EXPECT_EQ(run({"-s", "1@2", "-o", path("c.npy")}).code, 2);
@@ -71,7 +86,7 @@ TEST_F(MatrixVerb, RefusesWhatMakesNoSenseWithOneLine) {
            {},
            {"-o", path("d.txt")},
            {"-o", path("d.npz")},
-           {"-o", path("d.npz"), "--radius", "3", "--cols", "0"},
+           {"-o", path("d.npz"), "--radius", "3", "--columns", "0"},
            {"-o", path("d.npy"), "--radius", "-1"},
            {"-o", path("d.npy"), "--threads", "1.5"},
            {"-o", path("d.npy"), "--rows", "0,5"},

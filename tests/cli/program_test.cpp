@@ -175,7 +175,7 @@ TEST_F(Program, AToleranceIsKeptAndItsProofIsReported) {
   run_program({"distance", path("mesh.ply"), "-s", "0", "-m", "exact", "-o", path("exact.npy"), "-q"});
   for (const auto& [level, tolerance] : {std::pair{"draft", 1e-2}, {"standard", 1e-3}, {"fine", 1e-5}, {"exact", 0.}}) {
     const Ended ended =
-        run_program({"distance", path("mesh.ply"), "-s", "0", "--accuracy", level, "-o", path("field.npy"), "--json"});
+        run_program({"distance", path("mesh.ply"), "-s", "0", "--tolerance", level, "-o", path("field.npy"), "--json"});
     EXPECT_EQ(ended.code, 0) << ended.err;
     EXPECT_NE(ended.out.find("\"method\": \"windows\""), std::string::npos) << ended.out;
     EXPECT_EQ(number_of(ended.out, "tolerance"), tolerance) << ended.out;
@@ -206,10 +206,26 @@ TEST_F(Program, AToleranceThatNobodyKeepsIsAUsageError) {
          "brushfire: --tolerance: dijkstra has no tolerance to set; --method windows has");
   expect({"--bound", "upper", "-m", "exact"},
          "brushfire: --bound: exact has no tolerance to set; --method windows has");
-  expect({"--tolerance", "0.2"}, "brushfire: --tolerance takes a number from 0 to 0.1, not '0.2'");
-  expect({"--tolerance", "nan"}, "brushfire: --tolerance takes a number from 0 to 0.1, not 'nan'");
-  expect({"--tolerance", "0.01", "--accuracy", "fine"},
-         "brushfire: --tolerance and --accuracy say the same: give one of them");
+  const std::string takes = "brushfire: --tolerance takes a number from 0 to 0.1, draft, standard, fine or exact, not ";
+  expect({"--tolerance", "0.2"}, takes + "'0.2'");
+  expect({"--tolerance", "nan"}, takes + "'nan'");
+  expect({"--tolerance", "coarse"}, takes + "'coarse'");
+  expect({"--method", "windows:coarse"}, "brushfire: 'windows:coarse': a tolerance" + takes.substr(22) + "'coarse'");
+}
+
+TEST_F(Program, WordsForTolerancesHaveASecondName) {
+  const auto field = [&](const std::vector<std::string>& how) {
+    std::vector<std::string> words{"distance", path("square.off"), "--source", "0", "-o", "-"};
+    words.insert(words.end(), how.begin(), how.end());
+    const Ended ended = run_program(words);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return ended.err.substr(0, ended.err.find("read in"));
+  };
+  const std::string fine = field({"--tolerance", "fine"});
+  EXPECT_NE(fine.find("asked for: 0.001 %"), std::string::npos) << fine;
+  EXPECT_EQ(field({"--accuracy", "fine"}), fine);
+  EXPECT_EQ(field({"--tolerance", "1e-5"}), fine);
+  EXPECT_EQ(field({"--method", "windows:fine"}), fine);
 }
 
 TEST_F(Program, DistanceIsTheSameToTheBitForAnyNumberOfThreads) {
@@ -277,6 +293,16 @@ TEST_F(Program, JsonTellsWhatNobodyWentToFromWhatNobodyCanReach) {
         number_of(small.out, "vertices"))
         << method;
   }
+}
+
+TEST_F(Program, AFieldInJsonSaysWhereNobodyWentAndConvertKeepsIt) {
+  run_program({"distance", path("islands.off"), "-s", "0", "-r", "0.5", "-o", path("disc.json"), "-q"});
+  const std::string expected = "\"not_visited\": [1, 2, 3]}";
+  EXPECT_NE(content("disc.json").find(expected), std::string::npos) << content("disc.json");
+  EXPECT_EQ(run_program({"convert", path("disc.json"), path("copy.json"), "-q"}).code, 0);
+  EXPECT_NE(content("copy.json").find(expected), std::string::npos) << content("copy.json");
+  run_program({"distance", path("islands.off"), "-s", "0", "-o", path("whole.json"), "-q"});
+  EXPECT_EQ(content("whole.json").find("not_visited"), std::string::npos) << content("whole.json");
 }
 
 TEST_F(Program, ATargetBeyondTheRadiusIsToldFromOneThatCannotBeReached) {

@@ -177,7 +177,7 @@ std::vector<Case> cases(const Folder& f) {
        {"isolines", terrain, "-s", "0", "-m", "novotni-klein", "--count", "20000", "-o", out + ".json"},
        milliseconds(900)},
       {"curved curves",
-       {"isolines", small, "-s", "0", "--count", "300", "--curved", "1e-13", "-o", out + ".json"},
+       {"isolines", small, "-s", "0", "--count", "300", "--chord-error", "1e-13", "-o", out + ".json"},
        milliseconds(500)},
       {"rows", {"matrix", sphere, "-o", out + ".npy", "-m", "exact"}, milliseconds(500)},
       {"rows within a radius", {"matrix", sphere, "-r", "1", "-m", "exact", "-o", out + ".npz"}, milliseconds(500)},

@@ -148,7 +148,7 @@ TEST_F(Walls, EveryVerbOfDistancesTakesThem) {
                 {"isolines", path("m.off"), "-s", "1", "--levels", "1.5", "-o", path("l.json"), "--block-edges", edges})
                 .code,
             0);
-  EXPECT_EQ(run_program({"isolines", path("m.off"), "-s", "1", "--levels", "1.5", "--curved", "1e-3", "-o",
+  EXPECT_EQ(run_program({"isolines", path("m.off"), "-s", "1", "--levels", "1.5", "--chord-error", "1e-3", "-o",
                          path("c.json"), "--block-edges", edges})
                 .code,
             0);

@@ -188,6 +188,17 @@ TEST(FieldDefects, HaveTheirMessages) {
   EXPECT_EQ(field_error("[" + std::string(200, '['), "a.json"),
             "file_malformed: a.json: the list '' holds other lists");
   EXPECT_EQ(field_error("{\"a\": 1", "a.json"), "file_malformed: a.json: byte 7: not JSON");
+  const auto not_visited = [&](const std::string& list) {
+    return field_error("{\"d\": [1, null], \"not_visited\": " + list + "}", "a.json");
+  };
+  EXPECT_EQ(not_visited("[1]"), "");
+  EXPECT_EQ(not_visited("[0]"), "file_malformed: a.json: vertex 0 in 'not_visited' is not null in 'd'");
+  EXPECT_EQ(not_visited("[2]"), "file_malformed: a.json: vertex 2 in 'not_visited' is not null in 'd'");
+  EXPECT_EQ(not_visited("[18446744073709551615]"),
+            "file_malformed: a.json: vertex 4294967295 in 'not_visited' is not null in 'd'");
+  for (const char* list : {"[-1]", "[1.5]", "[null]", "[true]"}) {
+    EXPECT_EQ(not_visited(list), "file_malformed: a.json: 'not_visited' holds what is no vertex number") << list;
+  }
   EXPECT_EQ(field_error("\xff\xff\xff\x7f\xff\xff\xff\0\0\0\0\0\0\0\1", "lh.curv").substr(0, 24),
             "file_malformed: lh.curv:");
   EXPECT_EQ(field_error(std::string("\0\0\0\2\0\0\0\0", 8), "a.annot"),

@@ -3,6 +3,7 @@
 
 #include <brushfire/io/read_field.h>
 #include <brushfire/io/write_field.h>
+#include <brushfire/mesh/shapes.h>
 
 #include <cmath>
 #include <cstring>
@@ -116,6 +117,25 @@ TEST_P(NarrowFieldRoundTrip, KeepsTheNearestFloatOfEveryValue) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, NarrowFieldRoundTrip, testing::Values("gii", "curv"));
+
+TEST(WriteField, JsonTellsNotVisitedFromOutOfReachAndReadsItBack) {
+  const TemporaryDirectory dir;
+  const Mesh mesh = shapes::plane(1, 1).mesh();
+  const std::vector<double> values{1, kInfinity, kInfinity, kInfinity};
+  const std::vector<std::uint8_t> not_visited{0, 1, 0, 1};
+  write_field(dir / "a.json", mesh, {.values = values, .not_visited = not_visited});
+  EXPECT_NE(test::read_file(dir / "a.json").find("\"distance\": [1, null, null, null],\n \"not_visited\": [1, 3]}"),
+            std::string::npos)
+      << test::read_file(dir / "a.json");
+  const LoadedField read = read_field(dir / "a.json");
+  EXPECT_TRUE(same_bits(read.values, values));
+  EXPECT_EQ(read.not_visited, (std::vector<Index>{1, 3}));
+  write_field(dir / "b.json", mesh, {.values = values});
+  EXPECT_EQ(read_field(dir / "b.json").not_visited, std::vector<Index>{}) << "where nobody said";
+  const std::vector<std::uint8_t> too_few{1};
+  EXPECT_EQ(test::error_of([&] { write_field(dir / "a.json", mesh, {.values = values, .not_visited = too_few}); }),
+            "invalid_argument: 1 entries of not_visited for a mesh of 4 vertices");
+}
 
 TEST(WriteField, LabelsAloneGoIntoNpyAsInt32) {
   const TemporaryDirectory dir;

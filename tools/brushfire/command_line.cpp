@@ -69,8 +69,11 @@ struct Verb::Parser {
 
   CLI::Option* placed(CLI::Option* option) const { return group.empty() ? option : option->group(group); }
   void number(const char* names, const std::function<void(const std::string&)>& parse, const char* placeholder,
-              const char* help) {
-    numbers.insert(placed(app->add_option_function<std::string>(names, parse, help)->type_name(placeholder)));
+              const Range& range, const char* help) {
+    const CLI::Option* option =
+        placed(app->add_option_function<std::string>(names, parse, help)->type_name(placeholder));
+    numbers.insert(option);
+    for (const NumberWord& w : range.words) choices[option].emplace_back(w.first);
   }
   CLI::Option* choice(CLI::Option* option, const char* help, const std::vector<std::string>& words, bool may_go_on);
 };
@@ -82,6 +85,10 @@ struct CommandLine::Implementation {
 
 void Verb::argument(const char* name, std::string& value, const char* help) {
   parser_.app->add_option(name, value, help)->required()->check(not_empty())->type_name("");
+}
+
+void Verb::arguments(const char* name, std::vector<std::string>& values, const char* help) {
+  parser_.app->add_option(name, values, help)->check(not_empty())->type_name("");
 }
 
 void Verb::required_option(const char* names, std::string& value, const char* placeholder, const char* help) {
@@ -107,7 +114,7 @@ void Verb::option(const char* names, std::optional<double>& value, const char* p
   const auto parse = [&value, range, name = long_name(names)](const std::string& text) {
     value = number_in(range, name, text);
   };
-  parser_.number(names, parse, placeholder, help);
+  parser_.number(names, parse, placeholder, range, help);
 }
 
 void Verb::option(const char* names, std::optional<int>& value, const char* placeholder, const Range& range,
@@ -115,7 +122,7 @@ void Verb::option(const char* names, std::optional<int>& value, const char* plac
   const auto parse = [&value, range, name = long_name(names)](const std::string& text) {
     value = static_cast<int>(number_in(range, name, text));
   };
-  parser_.number(names, parse, placeholder, help);
+  parser_.number(names, parse, placeholder, range, help);
 }
 
 void Verb::option(const char* names, std::vector<std::string>& values, const char* placeholder, const char* help) {
@@ -186,7 +193,6 @@ CommandLine::CommandLine() : implementation_(std::make_unique<Implementation>())
   app.set_help_flag("-h,--help", "Print this help");
   app.require_subcommand(0, 1);
   app.get_formatter()->label("SUBCOMMAND", "VERB");
-  app.get_formatter()->label("Subcommands", "Verbs");
   app.get_formatter()->label("Positionals", "Arguments");
   app.get_formatter()->label("REQUIRED", "");
   app.get_formatter()->column_width(28);
@@ -207,7 +213,7 @@ CommandLine::~CommandLine() = default;
 void CommandLine::add(const char* name, const char* help, const std::function<void(Verb&)>& describe) {
   Verb::Parser& parser = *implementation_->verbs.emplace_back(std::make_unique<Verb::Parser>());
   parser.app = implementation_->app.add_subcommand(name, help);
-  parser.app->set_help_flag("-h,--help", "Print this help");
+  parser.app->group("Verbs")->set_help_flag("-h,--help", "Print this help");
   Verb verb(parser);
   describe(verb);
 }

@@ -11,8 +11,6 @@
 namespace brushfire::tool {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, double>, 4> kLevels{
-    {{"draft", 1e-2}, {"standard", 1e-3}, {"fine", 1e-5}, {"exact", 0}}};
 constexpr std::array<std::pair<std::string_view, Bound>, 3> kBounds{
     {{"estimate", Bound::Estimate}, {"upper", Bound::Upper}, {"lower", Bound::Lower}}};
 
@@ -33,10 +31,8 @@ Precision precision_named(std::string_view name) { return name == "float64" ? Pr
 
 // What holds for all methods.
 DistanceOptions common(const SharedArguments& a) {
-  if (a.tolerance && !a.accuracy.empty()) refuse("--tolerance and --accuracy say the same: give one of them");
   DistanceOptions options;
   if (a.tolerance) options.tolerance = *a.tolerance;
-  if (!a.accuracy.empty()) options.tolerance = value_named(kLevels, a.accuracy);
   if (!a.bound.empty()) options.bound = value_named(kBounds, a.bound);
   options.precision = precision_named(a.precision);
   options.max_distance = a.radius.value_or(kInfinity);
@@ -45,7 +41,28 @@ DistanceOptions common(const SharedArguments& a) {
   return options;
 }
 
-// "windows:1e-4", "novotni-klein:float64", "exact".
+constexpr std::array<std::pair<std::string_view, HeatBoundary>, 3> kBoundaries{
+    {{"neumann", HeatBoundary::Neumann}, {"dirichlet", HeatBoundary::Dirichlet}, {"averaged", HeatBoundary::Averaged}}};
+constexpr Range kTimeFactors{.low = 0, .high = 1e6, .above_low = true};
+
+// "4", "averaged", "4,averaged".
+void set_heat(const std::string& text, HeatOptions& heat) {
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string word = text.substr(begin, comma - begin);
+    const auto named = [&](const auto& entry) { return entry.first == word; };
+    const auto found = std::find_if(kBoundaries.begin(), kBoundaries.end(), named);
+    if (found != kBoundaries.end()) {
+      heat.boundary = found->second;
+    } else {
+      heat.time_factor = number_in(kTimeFactors, "heat: a time factor (or neumann, dirichlet, averaged)", word);
+    }
+    begin = comma + 1;
+  }
+}
+
+// "windows:1e-4", "novotni-klein:float64", "heat:4", "exact".
 void set_method(const std::string& text, DistanceOptions& options) {
   const std::size_t colon = text.find(':');
   options.method = method_named(text.substr(0, colon));
@@ -54,6 +71,8 @@ void set_method(const std::string& text, DistanceOptions& options) {
   const bool marches = has_precision(options.method);
   if (marches && (detail == "float32" || detail == "float64")) {
     options.precision = precision_named(detail);
+  } else if (options.method == Method::Heat) {
+    set_heat(detail, options.heat);
   } else if (options.method == Method::Windows) {
     options.tolerance = number_in(kTolerances, in_quotes(text) + ": a tolerance", detail);
   } else {
@@ -64,7 +83,6 @@ void set_method(const std::string& text, DistanceOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> accuracy_names() { return names(kLevels); }
 std::vector<std::string> bound_names() { return names(kBounds); }
 
 std::string name_of(Bound bound) {
@@ -83,7 +101,7 @@ std::vector<DistanceOptions> computations(const SharedArguments& a, const std::v
   if (list.empty()) {
     for (const Method m : otherwise) list.emplace_back(all).method = m;
   }
-  const char* const asked = given(a, {Shared::Tolerance, Shared::Accuracy, Shared::Bound});
+  const char* const asked = given(a, {Shared::Tolerance, Shared::Bound});
   const auto keeps = [](const DistanceOptions& o) { return o.method == Method::Windows; };
   if (asked && std::none_of(list.begin(), list.end(), keeps)) {
     refuse(std::string(asked) + ": " + std::string(brushfire::name_of(list.front().method)) +
@@ -94,7 +112,7 @@ std::vector<DistanceOptions> computations(const SharedArguments& a, const std::v
 
 DistanceOptions computation(const SharedArguments& a, Method otherwise) {
   if (a.methods.size() > 1) refuse("--method: one at a time; brushfire render and bench compare several");
-  const bool asked = given(a, {Shared::Tolerance, Shared::Accuracy, Shared::Bound}) != nullptr;
+  const bool asked = given(a, {Shared::Tolerance, Shared::Bound}) != nullptr;
   return computations(a, {asked ? Method::Windows : otherwise}).front();
 }
 

@@ -53,6 +53,12 @@ FieldView view_of(const std::vector<double>& values, const LoadedField& field) {
   return view;
 }
 
+std::vector<std::uint8_t> not_visited_of(const LoadedField& field, Index vertices) {
+  std::vector<std::uint8_t> out(field.not_visited.empty() ? 0 : vertices, 0);
+  for (const Index v : field.not_visited) out[v] = 1;
+  return out;
+}
+
 std::string convert_field(const Arguments& a, const std::string& file) {
   const LoadedField field = read_field(file, a.shared.array_name);
   Index vertices = static_cast<Index>(field.values.size());
@@ -60,7 +66,10 @@ std::string convert_field(const Arguments& a, const std::string& file) {
   const std::vector<double> values = values_on_vertices(field, vertices);
   // Formats of values know the number of vertices of a mesh, and nothing else of it.
   const Mesh mesh(std::vector<Vec3>(vertices), {});
-  write_field(a.output, mesh, view_of(values, field));
+  const std::vector<std::uint8_t> not_visited = not_visited_of(field, vertices);
+  FieldView view = view_of(values, field);
+  view.not_visited = not_visited;
+  write_field(a.output, mesh, view);
   return field.format;
 }
 
@@ -75,6 +84,8 @@ std::string convert_mesh(const Arguments& a) {
       surface.on_mesh(values_on_vertices(field, surface.file().mesh.vertex_count()), a.shared.scalar_file);
   FieldView view = view_of(values, field);
   view.structure = surface.file().structure;
+  const std::vector<std::uint8_t> not_visited = not_visited_of(field, surface.file().mesh.vertex_count());
+  if (!surface.is_welded()) view.not_visited = not_visited;
   write_field(a.output, surface.mesh(), view);
   return surface.file().format;
 }

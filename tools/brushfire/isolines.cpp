@@ -22,17 +22,18 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   brushfire isolines bunny.ply --source 0 --count 20 -o lines.obj
   brushfire isolines part.stl --source 0 --source 99 --every 0.4 -o toolpath.svg
-  brushfire isolines bunny.ply --source 0 --levels 0.01,0.02,0.05 --curved 1e-5 -o arcs.json
+  brushfire isolines bunny.ply --source 0 --levels 0.01,0.02,0.05 --chord-error 1e-5 -o arcs.json
   brushfire isolines bunny.ply --scalar thickness.npy --levels 2.5 -o contour.vtp
 
-Straight pieces between the mesh's edges, or with --curved E exact arcs within the chord error E. Each curve is ordered
-and oriented: smaller values on its left. Places are written as for brushfire distance.)";
+Straight pieces between the mesh's edges, or with --chord-error E exact arcs, written as chords that are no farther
+than E from them. Each curve is ordered and oriented: smaller values on its left. Places are written as for brushfire
+distance.)";
 
 struct Arguments {
   std::string file, output, levels;
   SharedArguments shared;
   DrawingArguments drawing;
-  std::optional<double> every, curved;
+  std::optional<double> every, chord_error;
   std::optional<int> count;
 };
 
@@ -44,11 +45,12 @@ void check(const Arguments& a) {
   if (!a.levels.empty() && !decimals(a.levels)) {
     refuse("--levels takes numbers between commas (1,2.5,3), not " + in_quotes(a.levels));
   }
-  if (a.curved) {
-    if (!a.shared.scalar_file.empty()) refuse("--curved follows distances: give --source in place of --scalar");
+  if (a.chord_error) {
+    if (!a.shared.scalar_file.empty())
+      refuse("--chord-error: arcs follow distances: give --source in place of --scalar");
     const Method method = computation(a.shared, Method::Exact).method;
     if (method != Method::Exact && method != Method::Windows) {
-      refuse("--curved: " + std::string(name_of(method)) + " has no arcs to follow; exact and windows have");
+      refuse("--chord-error: " + std::string(name_of(method)) + " has no arcs to follow; exact and windows have");
     }
   }
   if (a.output.empty()) refuse("where to? give -o lines.obj or another of " + extensions_of(lines_written()));
@@ -96,7 +98,7 @@ DistanceField solve(const Arguments& a, const Surface& surface, PlaceFinder& pla
   const std::vector<Source> sources = sources_on(surface, places, parse_sources(a.shared));
   places.tell(talk);
   DistanceOptions options = computation(a.shared, Method::Exact);
-  options.keep_windows = a.curved.has_value();
+  options.keep_windows = a.chord_error.has_value();
   options.progress = talk.progress("distance");
   DistanceField field = distance(surface.domain(), sources, options);
   talk.end_progress();
@@ -105,8 +107,9 @@ DistanceField solve(const Arguments& a, const Surface& surface, PlaceFinder& pla
 
 std::vector<Isoline> curves_of(const Arguments& a, const Domain& domain, const DistanceField& field,
                                const std::vector<double>& levels) {
-  if (!a.curved) return isolines(domain, field.side_distance.empty() ? field.distance : field.side_distance, levels);
-  std::vector<Isoline> found = curved_isolines(*field.windows, levels, *a.curved);
+  if (!a.chord_error)
+    return isolines(domain, field.side_distance.empty() ? field.distance : field.side_distance, levels);
+  std::vector<Isoline> found = curved_isolines(*field.windows, levels, *a.chord_error);
   for (Isoline& line : found) domain.to_mesh(line.line.points);
   return found;
 }
@@ -167,7 +170,7 @@ void add_isolines(CommandLine& command_line) {
     verb.option("--levels", a->levels, "L,L,...", "At these values");
     verb.option("--every", a->every, "H", kPositive, "At the multiples of H");
     verb.option("--count", a->count, "N", whole_from(1, 1000000), "At N values that divide the range evenly");
-    verb.option("--curved", a->curved, "E", kPositive, "Exact arcs, as polylines within this chord error");
+    verb.option("--chord-error,--curved", a->chord_error, "E", kPositive, "Exact arcs, as polylines that near to them");
     add_lines_output(verb, a->output, a->drawing);
     verb.talks();
     add_shared(verb, a->shared, {.method = "exact"});

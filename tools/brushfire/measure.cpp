@@ -24,7 +24,7 @@ constexpr const char* kExamples = R"(Examples:
 
 Without --of: the two vertices that are farthest apart (the diameter) and the one from which no vertex is far (the
 centre), each with a lower and an upper bound; exact fields are computed until the bounds are within --within of each
-other (1e-6), or --most of them were.
+other (1e-6), or --most-runs of them were.
 
 --of computes a number for every vertex, from a field of its own each: how far the farthest vertex is (eccentricity),
 the mean distance of the surface (average), or of the disc around it that holds --share of the surface the radius, the
@@ -34,19 +34,18 @@ struct Arguments {
   std::string file, output, of;
   SharedArguments shared;
   std::optional<double> within, share;
-  std::optional<int> most;
+  std::optional<int> most_runs;
 };
 
 void check(const Arguments& a, const Talk& talk) {
   check_output(a.output);
   if (a.of.empty()) {
     if (!a.output.empty()) refuse("-o writes a number for every vertex: which? give --of");
-    if (given(a.shared, {Shared::Method, Shared::Tolerance, Shared::Accuracy, Shared::Bound, Shared::Precision,
-                         Shared::Radius})) {
+    if (given(a.shared, {Shared::Method, Shared::Tolerance, Shared::Bound, Shared::Precision, Shared::Radius})) {
       refuse("diameter and centre are proven by exact fields; --method and the like are for --of");
     }
   } else {
-    if (a.within || a.most) refuse("--within and --most are for the diameter: no --of");
+    if (a.within || a.most_runs) refuse("--within and --most-runs are for the diameter: no --of");
     if (a.output.empty()) refuse("where to? give -o FILE for the number of every vertex");
     if (a.output == "-" && talk.json) refuse("only one of -o - and --json can have the standard output");
   }
@@ -95,7 +94,7 @@ int of_every_vertex(const Arguments& a, const Surface& surface, const Talk& talk
 int of_all(const Arguments& a, const Surface& surface, const Talk& talk) {
   ExtentOptions options;
   options.tolerance = a.within.value_or(1e-6);
-  options.max_runs = static_cast<Index>(a.most.value_or(0));
+  options.max_runs = static_cast<Index>(a.most_runs.value_or(0));
   options.threads = static_cast<unsigned>(a.shared.threads.value_or(0));
   options.cancel = &cancel_token();
   options.progress = talk.progress("extent");
@@ -148,7 +147,7 @@ void add_measure(CommandLine& command_line) {
     verb.option("--share", a->share, "P", {.low = 0, .high = 1, .above_low = true},
                 "Of the surface, that the disc holds: 0.05 is 5 %");
     verb.option("--within", a->within, "E", kLength, "How near the bounds come to each other, as a share (1e-6)");
-    verb.option("--most", a->most, "N", whole_from(1, 1000000000), "At most so many fields for the bounds");
+    verb.option("--most-runs", a->most_runs, "N", whole_from(1, 1000000000), "At most so many fields for the bounds");
     verb.option("-o,--output", a->output, "FILE",
                 ("Write the numbers: " + extensions_of(fields_written()) + "; - prints CSV").c_str());
     verb.talks();

@@ -13,8 +13,12 @@ namespace {
 std::string described(const Range& range) {
   const bool has_low = range.low > kAnyNumber.low, has_high = range.high < kAnyNumber.high;
   std::string text = range.whole ? "a whole number" : "a number";
-  if (has_low && has_high) return text + " from " + exact(range.low) + " to " + exact(range.high);
-  if (has_low) text += (range.above_low ? " > " : " >= ") + exact(range.low);
+  if (has_low && has_high) {
+    text += " from " + exact(range.low) + " to " + exact(range.high);
+  } else if (has_low) {
+    text += (range.above_low ? " > " : " >= ") + exact(range.low);
+  }
+  for (const NumberWord& w : range.words) text += (&w == &range.words.back() ? " or " : ", ") + std::string(w.first);
   return text + (range.high == kInfinity ? " or inf" : "");
 }
 
@@ -56,6 +60,9 @@ std::optional<double> decimal(std::string_view text) {
 }
 
 double number_in(const Range& range, std::string_view option, std::string_view text) {
+  for (const NumberWord& w : range.words) {
+    if (trimmed(text) == w.first) return w.second;
+  }
   std::optional<double> value = decimal(text);
   if (range.high == kInfinity && trimmed(text) == "inf") value = kInfinity;
   if (value && is_in(range, *value)) return *value;

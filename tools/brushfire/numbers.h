@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,12 +13,16 @@
 
 namespace brushfire::tool {
 
+// A word that stands for a number.
+using NumberWord = std::pair<std::string_view, double>;
+
 // Which numbers an option takes.
 struct Range {
   double low = -std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::max();  // kInfinity: "inf" is taken too, and sets no limit
   bool whole = false;
-  bool above_low = false;  // low itself is not taken
+  bool above_low = false;                  // low itself is not taken
+  std::span<const NumberWord> words = {};  // taken too
 };
 
 inline constexpr Range kAnyNumber{};

@@ -1,6 +1,8 @@
 // Counts of vertices, and the words for them.
 #include "reached.h"
 
+#include "sources.h"
+
 #include <brushfire/mesh/reachable.h>
 
 #include <algorithm>
@@ -15,12 +17,7 @@ Reached::Reached(const Domain& domain, std::span<const Source> sources, const Di
       has_radius_(options.max_distance < kInfinity),
       domain_(domain) {
   if (!has_radius_ && options.targets.empty()) return;
-  std::vector<SurfacePoint> points;
-  for (const Source& s : sources) {
-    const std::vector<SurfacePoint> sides = domain.on_open(s.point);
-    points.insert(points.end(), sides.begin(), sides.end());
-  }
-  is_reachable_ = reachable(domain.open(), points);
+  is_reachable_ = reachable(domain.open(), open_places_of(domain, sources));
   std::vector<std::uint8_t> on_any_side(domain.mesh().vertex_count(), 0);
   for (Index v = 0; v < is_reachable_.size(); ++v) {
     if (is_reachable_[v]) on_any_side[domain.vertex(v)] = 1;
@@ -34,6 +31,16 @@ bool Reached::is_unreachable(const SurfacePoint& point) const {
   const std::vector<SurfacePoint> sides = domain_.on_open(point);
   return std::none_of(sides.begin(), sides.end(),
                       [&](const SurfacePoint& p) { return is_reachable_[domain_.open().faces()[p.face][0]] != 0; });
+}
+
+std::vector<std::uint8_t> Reached::not_visited(std::span<const double> distance) const {
+  if (beyond_radius_ + not_visited_ == 0) return {};
+  std::vector<std::uint8_t> not_visited(distance.size(), 0);
+  for (Index v = 0; v < is_reachable_.size(); ++v) {
+    const Index of_mesh = domain_.vertex(v);
+    if (is_reachable_[v] && distance[of_mesh] == kInfinity) not_visited[of_mesh] = 1;
+  }
+  return not_visited;
 }
 
 void Reached::add_to(Record& record) const {

@@ -23,6 +23,10 @@ class Reached {
   // Whether no way leads there at all, whatever the radius. For targets that the run did not reach.
   bool is_unreachable(const SurfacePoint& point) const;
 
+  // [vertex_count] 1 for vertices of infinite `distance` to which a way leads: the radius, or the last target, was
+  // nearer. Empty where there is none.
+  std::vector<std::uint8_t> not_visited(std::span<const double> distance) const;
+
   // reached, unreachable (no way leads there), beyond_radius (seen by the front, but farther than the radius or not
   // final), not_visited (the run was over before): counts of vertices.
   void add_to(Record& record) const;

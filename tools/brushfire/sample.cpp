@@ -44,7 +44,7 @@ struct Found {
 std::vector<Index> first_vertices(const Arguments& a, const Surface& surface, PlaceFinder& finder) {
   std::vector<Index> first;
   if (!given(a.shared, {Shared::Source, Shared::Sources})) return first;
-  for (const Source& s : sources_on(surface, finder, parse_sources(a.shared))) {
+  for (const Source& s : sources_on(surface, finder, parse_point_sources(a.shared, "samples are vertices"))) {
     const PointLocation at = locate(surface.mesh(), s.point);
     if (at.on != PointLocation::On::Vertex) refuse("samples are vertices: --source takes vertices here");
     first.push_back(at.vertex);
@@ -87,8 +87,7 @@ int sample_verb(const Arguments& a, const Talk& talk) {
   if (!a.count) refuse("how many? give --count");
   if (a.output == "-") refuse("the list has the standard output: -o takes a file");
   if (a.rounds && !a.lloyd) refuse("--rounds is for --lloyd");
-  if (a.lloyd &&
-      given(a.shared, {Shared::Method, Shared::Tolerance, Shared::Accuracy, Shared::Bound, Shared::Radius})) {
+  if (a.lloyd && given(a.shared, {Shared::Method, Shared::Tolerance, Shared::Bound, Shared::Radius})) {
     refuse("--lloyd is exact: there is no --method, tolerance or radius to choose");
   }
   DistanceOptions options = computation(a.shared);

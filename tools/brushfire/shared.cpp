@@ -24,111 +24,110 @@ std::vector<std::string> unit_names() {
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const Method m : all_methods()) names.emplace_back(name_of(m));
+  // Where the build lacks it, what is missing is said later.
+  if (names.back() != name_of(Method::Heat)) names.emplace_back(name_of(Method::Heat));
   return names;
 }
 
 struct Row {
   Shared option;
-  const char* names;
+  const char* name;
+  const char* also;  // another name for it, "-r", or ""
   void (*bind)(Verb& verb, const char* names, SharedArguments& a, const SharedOptions& own);
   bool (*is_given)(const SharedArguments& a);
 };
 
 const std::vector<Row>& table() {
   static const std::vector<Row> rows{
-      {Shared::Source, "-s,--source",
+      {Shared::Source, "--source", "-s",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
-         verb.option(names, a.sources, "PLACE", "Distances start from here; may be repeated");
+         verb.option(names, a.sources, "PLACE", "Distances start from here, a place or a curve; may be repeated");
        },
        [](const SharedArguments& a) { return !a.sources.empty(); }},
-      {Shared::Sources, "--sources",
+      {Shared::Sources, "--sources", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.sources_file, "LIST", "File of places to start from, one per line, # comments");
        },
        [](const SharedArguments& a) { return !a.sources_file.empty(); }},
-      {Shared::SnapWithin, "--snap-within",
+      {Shared::SnapWithin, "--snap-within", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.snap_within, "R", kLimit,
                      "Refuse positions (at:x,y,z) that are farther than this from the surface");
        },
        [](const SharedArguments& a) { return a.snap_within.has_value(); }},
-      {Shared::Scalar, "--scalar",
+      {Shared::Scalar, "--scalar", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.scalar_file, "FIELD",
                      "The values of this file, one per vertex, in place of distances: .npy .csv .txt .gii ...");
        },
        [](const SharedArguments& a) { return !a.scalar_file.empty(); }},
-      {Shared::Name, "--name",
+      {Shared::Name, "--name", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.array_name, "NAME", "Which array or column of a file of values; the first if not given");
        },
        [](const SharedArguments& a) { return !a.array_name.empty(); }},
-      {Shared::Method, "-m,--method",
+      {Shared::Method, "--method", "-m",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions& own) {
          verb.choice(names, a.methods, method_names(), ("How to compute (" + own.method + ")").c_str());
        },
        [](const SharedArguments& a) { return !a.methods.empty(); }},
-      {Shared::Tolerance, "--tolerance",
+      {Shared::Tolerance, "--tolerance", "--accuracy",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.tolerance, "T", kTolerances,
-                     "Relative error that windows keeps at every vertex, 0 to 0.1 (1e-3)");
+                     "Relative error that windows keeps at every vertex, 0 to 0.1; or draft, standard, fine,\n"
+                     "exact: 0.01, 0.001, 0.00001, 0 (1e-3)");
        },
        [](const SharedArguments& a) { return a.tolerance.has_value(); }},
-      {Shared::Accuracy, "--accuracy",
-       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
-         verb.choice(names, a.accuracy, accuracy_names(), "The same in words, 0.01, 0.001, 0.00001 and 0");
-       },
-       [](const SharedArguments& a) { return !a.accuracy.empty(); }},
-      {Shared::Bound, "--bound",
+      {Shared::Bound, "--bound", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.choice(names, a.bound, bound_names(), "Never shorter (upper), never longer (lower) than the truth");
        },
        [](const SharedArguments& a) { return !a.bound.empty(); }},
-      {Shared::Precision, "--precision",
+      {Shared::Precision, "--precision", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.choice(names, a.precision, {"float32", "float64"}, "Arithmetic of the marching methods (float32)");
        },
        [](const SharedArguments& a) { return !a.precision.empty(); }},
-      {Shared::Radius, "-r,--radius",
+      {Shared::Radius, "--radius", "-r",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.radius, "R", kLimit, "Stop at this distance; what is farther reads inf");
        },
        [](const SharedArguments& a) { return a.radius.has_value(); }},
-      {Shared::Threads, "--threads",
+      {Shared::Threads, "--threads", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions& own) {
          verb.option(names, a.threads, "N", whole_from(0, kMostThreads),
                      ("Threads to work with; 0: one per processor (" + own.threads + ")").c_str());
        },
        [](const SharedArguments& a) { return a.threads.has_value(); }},
-      {Shared::Weld, "--weld",
+      {Shared::Weld, "--weld", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.weld, "T", kLength, "Join vertices within T of one another (0: equal ones)");
        },
        [](const SharedArguments& a) { return a.weld.has_value(); }},
-      {Shared::Mask, "--mask",
+      {Shared::Mask, "--mask", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.mask_file, "FIELD",
                      "Stay where these values are above 0: in faces whose three vertices are");
        },
        [](const SharedArguments& a) { return !a.mask_file.empty(); }},
-      {Shared::Region, "--region",
+      {Shared::Region, "--region", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.region, "FILE:LABEL",
                      "Stay where the file's values are these labels, by number or name, with commas");
        },
        [](const SharedArguments& a) { return !a.region.empty(); }},
-      {Shared::BlockFaces, "--block-faces",
+      {Shared::BlockFaces, "--block-faces", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.faces_file, "FILE", "Nothing enters these faces: their numbers, or a 0 or 1 for each");
        },
        [](const SharedArguments& a) { return !a.faces_file.empty(); }},
-      {Shared::BlockEdges, "--block-edges",
+      {Shared::BlockEdges, "--block-edges", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.edges_file, "FILE",
                      "Nothing crosses these edges: pairs of vertices, one to a line, or .npy");
        },
        [](const SharedArguments& a) { return !a.edges_file.empty(); }},
-      {Shared::Unit, "--unit",
+      {Shared::Unit, "--unit", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.choice(names, a.unit, unit_names(), "What the mesh is measured in");
        },
@@ -137,10 +136,7 @@ const std::vector<Row>& table() {
   return rows;
 }
 
-std::string name_of(const Row& row) {
-  const std::string_view names = row.names;
-  return std::string(names.substr(names.find("--")));
-}
+std::string names_of(const Row& row) { return row.name + std::string(*row.also ? "," : "") + row.also; }
 
 const std::string* reason_against(const Row& row, const SharedOptions& options) {
   for (const Without& w : options.without) {
@@ -155,11 +151,11 @@ void add_shared(Verb& verb, SharedArguments& arguments, const SharedOptions& opt
   verb.group("Options that verbs share");
   for (const Row& row : table()) {
     if (const std::string* reason = reason_against(row, options)) {
-      verb.refused(row.names, true, *reason);
+      verb.refused(names_of(row).c_str(), true, *reason);
       continue;
     }
     const auto also = options.also.find(row.option);
-    const std::string names = also == options.also.end() ? row.names : row.names + ("," + also->second);
+    const std::string names = names_of(row) + (also == options.also.end() ? "" : "," + also->second);
     row.bind(verb, names.c_str(), arguments, options);
   }
   verb.group("");
@@ -167,15 +163,14 @@ void add_shared(Verb& verb, SharedArguments& arguments, const SharedOptions& opt
 
 std::vector<std::string> shared_names() {
   std::vector<std::string> names;
-  for (const Row& row : table()) names.push_back(name_of(row));
+  for (const Row& row : table()) names.emplace_back(row.name);
   return names;
 }
 
 const char* given(const SharedArguments& arguments, const std::vector<Shared>& options) {
   for (const Row& row : table()) {
     const bool asked = std::find(options.begin(), options.end(), row.option) != options.end();
-    if (asked && row.is_given(arguments))
-      return std::string_view(row.names).substr(0, 2) == "--" ? row.names : row.names + 3;
+    if (asked && row.is_given(arguments)) return row.name;
   }
   return nullptr;
 }

@@ -24,7 +24,6 @@ enum class Shared : std::uint8_t {
   Name,
   Method,
   Tolerance,
-  Accuracy,
   Bound,
   Precision,
   Radius,
@@ -45,7 +44,7 @@ struct SharedArguments {
   std::string scalar_file, array_name;
   std::vector<std::string> methods;
   std::optional<double> tolerance;
-  std::string accuracy, bound, precision;
+  std::string bound, precision;
   std::optional<double> radius;
   std::optional<int> threads;
   std::optional<double> weld;
@@ -69,8 +68,8 @@ struct SharedOptions {
 
 // Where distances start from, and how they are computed: for those who do neither.
 inline const std::vector<Shared> kStarting{Shared::Source, Shared::Sources, Shared::SnapWithin};
-inline const std::vector<Shared> kAccuracy{Shared::Tolerance, Shared::Accuracy, Shared::Bound, Shared::Precision};
-inline const std::vector<Shared> kComputing{Shared::Method,    Shared::Tolerance, Shared::Accuracy, Shared::Bound,
+inline const std::vector<Shared> kAccuracy{Shared::Tolerance, Shared::Bound, Shared::Precision};
+inline const std::vector<Shared> kComputing{Shared::Method,    Shared::Tolerance, Shared::Bound,
                                             Shared::Precision, Shared::Radius,    Shared::Threads};
 
 inline const std::vector<Shared> kWalls{Shared::Mask, Shared::Region, Shared::BlockFaces, Shared::BlockEdges};

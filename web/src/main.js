@@ -1,15 +1,16 @@
 // The page: what the visitor does changes the state, and the state is shown.
 import { Engine } from './engine.js';
 import { save } from './exports.js';
+import { heldMesh, tellFrame } from './held.js';
 import { listen, openFiles } from './pointer.js';
 import { Scene } from './scene.js';
-import { asCommand, asPython, fromFragment, History, initial, SHAPES, solving, tidy, toFragment } from './state.js';
+import { asCommand, asPython, fromFragment, handles, History, initial, isCurve, relativeError, SHAPES, solving, tidy, toFragment } from './state.js';
 
 const $ = (id) => document.getElementById(id);
 const METHODS = ['windows', 'exact', 'novotni-klein', 'carried-source', 'kimmel-sethian', 'novotni-klein-2002', 'dijkstra'];
 const number = (x) => (Number.isFinite(x) ? Number(x.toPrecision(7)).toString() : 'unreachable');
 
-export const app = { state: fromFragment(location.hash) ?? initial(), history: new History(), scene: null, engine: null, field: null, path: null, file: null };
+export const app = { state: fromFragment(location.hash) ?? initial(), history: new History(), scene: null, engine: null, field: null, path: null, drawing: null, file: null };
 
 function say(error) {
   $('message').textContent = error ? String(error.message ?? error) : '';
@@ -26,7 +27,7 @@ async function guarded(run) {
   }
 }
 
-export async function open(make, name, file) {
+export async function open(make, name, file, values) {
   const opened = await guarded(() => app.engine.open(make));
   if (!opened) return;
   app.file = file ?? null;
@@ -34,7 +35,9 @@ export async function open(make, name, file) {
   const { mesh, vertices, faces, report } = opened;
   app.scene.showMesh(vertices, faces, mesh.bounds);
   $('report').textContent = [`${mesh.vertexCount} vertices, ${mesh.faceCount} faces, ${report.components} component${report.components === 1 ? '' : 's'}.`, ...report.remarks, ...(mesh.file?.remarks ?? [])].join(' ');
-  await refresh();
+  app.faces = faces;
+  if (values) await showGiven(values);
+  else await refresh();
 }
 
 export function openShape(name) {
@@ -48,30 +51,72 @@ export async function openFile(file) {
   return open((pool) => pool.read(bytes, file.name), file.name, bytes);
 }
 
+function openHeld({ bytes, name, state, values }) {
+  app.state = { ...initial(), shape: '', ...state };
+  return open((pool) => pool.read(bytes, `${name}.ply`), name, bytes, values);
+}
+
+// Values that were computed elsewhere: shown until a source is set.
+function showGiven(values) {
+  show();
+  const reached = values.reduce((n, d) => n + (Number.isFinite(d) ? 1 : 0), 0);
+  draw({ distance: values, source: new Int32Array(values.length), reached, given: true });
+}
+
 // The field of the state as it is now; pictures of older ones are not drawn.
 export async function refresh() {
+  forget();
   show();
   const busy = setTimeout(() => { $('busy').hidden = false; }, 200);
-  const field = await guarded(() => app.engine.solve(app.state.sources, solving(app.state), () => {}));
+  const { against } = app.state;
+  const computations = [solving(app.state), ...(against ? [{ method: against }] : [])];
+  const fields = await guarded(() => app.engine.solve(app.state.sources, computations));
   clearTimeout(busy);
   $('busy').hidden = true;
-  if (!field) return;
+  if (!fields) return;
+  draw(...fields);
+  tellFrame(app.state.sources);
+}
+
+function draw(field, other) {
   app.field = field;
   app.scene.showField(field.distance, field.source);
   const farthest = field.distance.reduce((most, d) => (Number.isFinite(d) && d > most ? d : most), 0);
   app.scene.uniforms.farthest.value = farthest || 1;
   app.scene.uniforms.spacing.value = app.state.lines > 0 ? farthest / app.state.lines : 0;
   $('legend-high').textContent = number(farthest);
+  const error = showError(field, other);
   const bound = Number.isFinite(field.maxErrorBound) ? `, every distance within ${(100 * field.maxErrorBound).toPrecision(2)} % (proven)` : '';
-  $('summary').textContent = `${app.name}: ${field.reached} of ${field.distance.length} vertices reached, the farthest at ${number(farthest)}${bound}`;
+  $('summary').textContent = `${app.name}: ${field.reached} of ${field.distance.length} vertices reached, the farthest at ${number(farthest)}${bound}${error}`;
   document.documentElement.dataset.solved = String(Number(document.documentElement.dataset.solved ?? 0) + 1);
+}
+
+const percent = (share) => `${(100 * share).toPrecision(2)} %`;
+
+// Colours by how far the field is from the other one, where there is one; a sentence about it.
+function showError(field, other) {
+  app.error = other ? field.distance.map((d, v) => relativeError(d, other.distance[v])) : null;
+  const most = app.error ? app.error.reduce((m, e) => Math.max(m, Math.abs(e) || 0), 0) : 0;
+  app.scene.showError(app.error, most);
+  if (!app.error) return '';
+  $('legend-high').textContent = percent(most);
+  const compared = app.error.filter((e) => !Number.isNaN(e));
+  const mean = compared.reduce((sum, e) => sum + Math.abs(e), 0) / Math.max(1, compared.length);
+  return `. Differs from ${app.state.against} by ${percent(mean)} on average and ${percent(most)} at most`;
+}
+
+// Also a value that is none of the choices, as a page that was made for it may have.
+function choose(select, value) {
+  if (![...select.options].some((o) => o.value === value)) select.add(new Option(value));
+  select.value = value;
 }
 
 function show() {
   const { state } = app;
   $('shape').value = state.shape;
   $('method').value = state.method;
-  $('tolerance').value = state.tolerance;
+  choose($('tolerance'), state.tolerance);
+  $('against').value = state.against;
   $('tolerance').disabled = state.method !== 'windows';
   $('colormap').value = state.colormap;
   $('lines').value = state.lines;
@@ -79,7 +124,35 @@ function show() {
   $('undo').disabled = !app.history.canUndo;
   $('redo').disabled = !app.history.canRedo;
   history.replaceState(null, '', state.shape ? toFragment(state) : '#');
-  app.engine.mesh?.position(state.sources).then((p) => app.scene.showSources(p), () => {});
+  showSources(state.sources);
+}
+
+// Curves, and the places that can be moved; what the places are that a curve is drawn through is not there to see yet.
+async function showSources(sources) {
+  const mine = (shown += 1);
+  await guarded(async () => {
+    const drawn = app.drawing?.length > 1 ? [...sources, { through: app.drawing, closed: false }] : sources;
+    const places = [...handles(drawn).map(({ place }) => place), ...(app.drawing?.length === 1 ? app.drawing : [])];
+    const [positions, curves] = await Promise.all([app.engine.mesh.position(places), Promise.all(drawn.filter(isCurve).map((s) => app.engine.curve(s)))]);
+    if (mine === shown) app.scene.showSources(positions, curves);
+  });
+}
+let shown = 0;
+
+// A curve is drawn by the places that it goes through. Null: none is.
+function drawCurve(places) {
+  if (places) forget();
+  app.drawing = places;
+  $('draw').setAttribute('aria-pressed', String(places !== null));
+  for (const id of ['end-curve', 'close-curve']) $(id).disabled = !(places?.length > 1);
+  if (places) $('readout').textContent = places.length === 0 ? 'Click where the curve goes' : `A curve through ${places.length} place${places.length > 1 ? 's' : ''}`;
+  showSources(app.state.sources);
+}
+
+function endCurve(closed, adds) {
+  const through = app.drawing;
+  drawCurve(null);
+  return setSources([...(adds ? app.state.sources : []), { through, closed }]);
 }
 
 // A change that can be undone.
@@ -95,24 +168,32 @@ export function setSources(sources, { remember = true } = {}) {
   return refresh();
 }
 
+// What was said of a point holds for the sources of then.
+function forget() {
+  ++asked;
+  app.path = null;
+  app.scene.showPath(null);
+  $('readout').textContent = 'Point at the surface';
+}
+
 // The number and the path at a point: exactly what the program says for it with the same options.
 let asked = 0;
 export async function look(point) {
   const mine = ++asked;
-  if (!point) return;
+  if (!point || app.drawing) return;
   await guarded(async () => {
-    const { mesh } = app.engine;
-    const { targetDistance, targetSource } = await mesh.distance(app.state.sources, { ...solving(app.state), targets: [point] });
+    if (app.field?.given) {
+      const value = point.weights.reduce((sum, w, k) => (w > 0 ? sum + w * app.field.distance[app.faces[3 * point.face + k]] : sum), 0);
+      $('readout').textContent = `Value ${number(value)}`;
+      return;
+    }
+    const { distance, path } = await app.engine.look(app.state.sources, solving(app.state), point, $('path').checked);
     if (mine !== asked) return;
     app.target = point;
-    $('readout').textContent = `Distance ${number(targetDistance[0])}`;
-    $('readout').dataset.distance = targetDistance[0];
-    if (!$('path').checked || targetSource[0] < 0) return;
-    const path = await mesh.path([app.state.sources[targetSource[0]], point]);
-    if (mine !== asked) return;
+    $('readout').textContent = `Distance ${number(distance)}${path ? `, path ${number(path.length)} long` : ''}`;
+    $('readout').dataset.distance = distance;
     app.path = path;
-    app.scene.showPath(path.positions);
-    $('readout').textContent = `Distance ${number(targetDistance[0])}, path ${number(path.length)} long`;
+    if (path) app.scene.showPath(path.positions);
   });
 }
 
@@ -157,6 +238,8 @@ function bind() {
   for (const name of Object.keys(SHAPES)) $('shape').add(new Option(name));
   $('shape').add(new Option('your file', ''));
   for (const name of METHODS) $('method').add(new Option(name));
+  $('against').add(new Option('nothing', ''));
+  for (const name of METHODS.filter((m) => m !== 'windows')) $('against').add(new Option(name));
   $('shape').onchange = async () => {
     if (!$('shape').value) return;
     app.history.add(app.state);
@@ -164,6 +247,7 @@ function bind() {
     await openShape(app.state.shape);
   };
   $('method').onchange = () => change({ method: $('method').value });
+  $('against').onchange = () => change({ against: $('against').value });
   $('tolerance').onchange = () => change({ tolerance: $('tolerance').value });
   $('colormap').onchange = async () => { await change({ colormap: $('colormap').value }); await colours(); };
   $('lines').oninput = () => {
@@ -175,6 +259,9 @@ function bind() {
   $('path').onchange = () => { if (!$('path').checked) app.scene.showPath(null); };
   $('cells').onchange = () => { app.scene.uniforms.showCells.value = $('cells').checked; app.scene.draw(); };
   $('wave').onclick = () => wave($('wave').getAttribute('aria-pressed') !== 'true');
+  $('draw').onclick = () => drawCurve(app.drawing ? null : []);
+  $('end-curve').onclick = (event) => endCurve(false, event.shiftKey);
+  $('close-curve').onclick = (event) => endCurve(true, event.shiftKey);
   $('undo').onclick = () => travel((s) => app.history.undo(s));
   $('redo').onclick = () => travel((s) => app.history.redo(s));
   $('cancel').onclick = () => app.engine.cancel();
@@ -183,7 +270,7 @@ function bind() {
   $('copy-command').onclick = () => guarded(() => navigator.clipboard.writeText(asCommand(app.state, file())));
   $('copy-python').onclick = () => guarded(() => navigator.clipboard.writeText(asPython(app.state, file())));
   $('controls').onsubmit = (event) => event.preventDefault();
-  listen($('canvas'), app, { setSources, look, undo: () => $('undo').click() });
+  listen($('canvas'), app, { setSources, drawCurve, look, undo: () => $('undo').click() });
   openFiles($('stage'), $('file'), openFile);
 }
 
@@ -193,7 +280,9 @@ try {
   app.engine = await Engine.start();
   bind();
   await colours();
-  await openShape(app.state.shape);
+  const held = heldMesh(document);
+  if (held) await openHeld(held);
+  else await openShape(app.state.shape);
 } catch (error) {
   say(error);
 }

@@ -5,12 +5,15 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 const VERTEX = `
   attribute float distance;
   attribute float cell;
+  attribute float error;
+  varying float vError;
   varying float vDistance;
   varying float vCell;
   varying vec3 vPosition;
   void main() {
     vDistance = distance;
     vCell = cell;
+    vError = error;
     vec4 p = modelViewMatrix * vec4(position, 1.0);
     vPosition = p.xyz;
     gl_Position = projectionMatrix * p;
@@ -22,6 +25,8 @@ const FRAGMENT = `
   uniform sampler2D colours;
   uniform float farthest, spacing, front, pixel;
   uniform bool showCells;
+  uniform float worst; // the largest error; below 0: errors are not shown
+  varying float vError;
   varying float vDistance;
   varying float vCell;
   varying vec3 vPosition;
@@ -30,6 +35,7 @@ const FRAGMENT = `
     bool reached = vDistance < 1e30;
     vec3 colour = reached ? texture2D(colours, vec2(clamp(vDistance / farthest, 0.0, 1.0), 0.5)).rgb : vec3(0.6);
     if (showCells && reached) colour = mix(hue(vCell * 0.382), colour, 0.35);
+    if (worst >= 0.0 && reached) colour = abs(vError) <= 1e30 ? texture2D(colours, vec2(worst > 0.0 ? abs(vError) / worst : 0.0, 0.5)).rgb : vec3(0.6);
     vec3 normal = normalize(cross(dFdx(vPosition), dFdy(vPosition)));
     float light = 0.35 + 0.65 * abs(normal.z);
     if (reached && spacing > 0.0) {
@@ -61,7 +67,7 @@ export class Scene {
     this.#scene.add(this.#marks);
     this.uniforms = {
       colours: { value: null }, farthest: { value: 1 }, spacing: { value: 0 }, front: { value: -1 },
-      pixel: { value: this.#renderer.getPixelRatio() }, showCells: { value: false },
+      pixel: { value: this.#renderer.getPixelRatio() }, showCells: { value: false }, worst: { value: -1 },
     };
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
   }
@@ -88,6 +94,7 @@ export class Scene {
     geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
     geometry.setAttribute('distance', new THREE.BufferAttribute(new Float32Array(vertices.length / 3).fill(1e31), 1));
     geometry.setAttribute('cell', new THREE.BufferAttribute(new Float32Array(vertices.length / 3), 1));
+    geometry.setAttribute('error', new THREE.BufferAttribute(new Float32Array(vertices.length / 3), 1));
     geometry.setIndex(new THREE.BufferAttribute(faces, 1));
     this.#surface = new THREE.Mesh(geometry, new THREE.ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: this.uniforms, side: THREE.DoubleSide }));
     this.#scene.add(this.#surface);
@@ -112,13 +119,23 @@ export class Scene {
     this.draw();
   }
 
+  // Colours by errors instead, the largest of which is `worst`; null: by distances again.
+  showError(errors, worst) {
+    const to = this.#surface.geometry.getAttribute('error');
+    if (errors) for (let v = 0; v < errors.length; ++v) to.array[v] = Number.isNaN(errors[v]) ? 1e31 : errors[v];
+    to.needsUpdate = true;
+    this.uniforms.worst.value = errors ? worst : -1;
+    this.draw();
+  }
+
   #inView(positions) {
     const out = new Float32Array(positions.length);
     for (let i = 0; i < positions.length; ++i) out[i] = (positions[i] - this.middle[i % 3]) / this.#size;
     return out;
   }
 
-  showSources(positions) {
+  // A dot at each place, and the curves among the sources.
+  showSources(positions, curves = []) {
     for (const m of this.#marks.children) { m.geometry.dispose(); m.material.dispose(); }
     this.#marks.clear();
     const p = this.#inView(positions);
@@ -127,26 +144,33 @@ export class Scene {
       mark.position.set(p[i], p[i + 1], p[i + 2]);
       this.#marks.add(mark);
     }
+    for (const { positions: line } of curves) if (line.length > 3) this.#marks.add(this.#tube(line, 0.009));
     this.draw();
   }
 
   showPath(positions) {
-    if (this.#path) {
-      this.#scene.remove(this.#path);
-      this.#path.geometry.dispose();
-      this.#path = null;
-    }
-    if (positions?.length > 3) {
-      const points = this.#inView(positions);
-      const curve = new THREE.CurvePath();
-      for (let i = 3; i < points.length; i += 3) {
-        curve.add(new THREE.LineCurve3(new THREE.Vector3(...points.subarray(i - 3, i)), new THREE.Vector3(...points.subarray(i, i + 3))));
-      }
-      const steps = Math.min(2000, 4 * (points.length / 3));
-      this.#path = new THREE.Mesh(new THREE.TubeGeometry(curve, steps, 0.006, 6), new THREE.MeshBasicMaterial({ color: 0xd62728 }));
-      this.#scene.add(this.#path);
-    }
+    this.#path = this.#replaced(this.#path, positions?.length > 3 ? this.#tube(positions, 0.006) : null);
     this.draw();
+  }
+
+  #replaced(old, tube) {
+    if (old) {
+      this.#scene.remove(old);
+      old.geometry.dispose();
+      old.material.dispose();
+    }
+    if (tube) this.#scene.add(tube);
+    return tube;
+  }
+
+  #tube(positions, radius) {
+    const points = this.#inView(positions);
+    const curve = new THREE.CurvePath();
+    for (let i = 3; i < points.length; i += 3) {
+      curve.add(new THREE.LineCurve3(new THREE.Vector3(...points.subarray(i - 3, i)), new THREE.Vector3(...points.subarray(i, i + 3))));
+    }
+    const steps = Math.min(2000, 4 * (points.length / 3));
+    return new THREE.Mesh(new THREE.TubeGeometry(curve, steps, radius, 6), new THREE.MeshBasicMaterial({ color: 0xd62728 }));
   }
 
   // {face, weights} under a point of the canvas, in pixels of the page; null: nothing.

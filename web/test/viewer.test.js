@@ -6,7 +6,8 @@ import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { gzipSync } from 'node:zlib';
 
 import { load } from 'brushfire';
 import { chromium } from 'playwright-core';
@@ -38,8 +39,8 @@ async function visit(fragment = '', options = {}) {
   const complaints = [];
   page.on('console', (m) => ['error', 'warning'].includes(m.type()) && !/GPU stall|GL Driver/.test(m.text()) && complaints.push(m.text()));
   page.on('pageerror', (e) => complaints.push(String(e)));
-  page.on('request', (r) => !r.url().startsWith(server.url) && !/^(data|blob):/.test(r.url()) && complaints.push(`asked for ${r.url()}`));
-  await page.goto(server.url + fragment);
+  page.on('request', (r) => !r.url().startsWith(server.url) && r.url() !== fragment && !/^(data|blob):/.test(r.url()) && complaints.push(`asked for ${r.url()}`));
+  await page.goto(fragment.startsWith('file:') ? fragment : server.url + fragment);
   await page.waitForSelector('html[data-solved]', { timeout: 60000 });
   const solved = () => page.evaluate('Number(document.documentElement.dataset.solved)');
   const nextField = async (act) => {
@@ -197,6 +198,107 @@ test('files are opened, and a bad one shows the library\'s own words', async () 
   await v.page.waitForSelector('#message:not([hidden])');
   assert.match(await v.page.textContent('#message'), /bad\.ply/);
   await v.shot('bad-file');
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
+test('two methods are compared, and the error is what the library says', async () => {
+  const v = await visit('#shape=torus&source=f:7:0.2,0.3,0.5&method=novotni-klein');
+  await v.nextField(() => v.page.selectOption('#against', 'exact'));
+  const said = await v.page.textContent('#summary');
+  const mesh = bf.shape('torus', 120, 60);
+  const [field, exact] = ['novotni-klein', 'exact'].map((method) => mesh.distance([{ face: 7, weights: [0.2, 0.3, 0.5] }], { method }).distance);
+  const most = Math.max(...field.map((d, k) => (exact[k] > 0 ? Math.abs(d - exact[k]) / exact[k] : 0)));
+  mesh.free();
+  assert.ok(most > 1e-4, `they differ by ${most}`);
+  assert.ok(said.includes(`and ${(100 * most).toPrecision(2)} % at most`), said);
+  assert.equal(await v.page.textContent('#legend-high'), `${(100 * most).toPrecision(2)} %`);
+  const errors = await v.shot('errors');
+  await v.nextField(() => v.page.selectOption('#against', ''));
+  assert.notDeepEqual(await v.shot('no-errors'), errors);
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+});
+
+test('a curve is drawn, is a source, is moved, shared and saved', async () => {
+  const v = await visit('#shape=sphere&source=f:0:1,0,0&method=exact');
+  const m = await middle(v.page);
+  await v.page.click('#draw');
+  for (const [x, y] of [[-90, -60], [80, -40], [20, 90]]) {
+    await v.page.mouse.click(m.x + x, m.y + y);
+    await v.page.waitForTimeout(150);
+  }
+  await v.nextField(() => v.page.click('#close-curve'));
+  const [source] = (await v.state()).sources;
+  assert.equal(source.through.length, 3);
+  assert.equal(source.closed, true);
+  const { length, least } = await v.page.evaluate('brushfire.engine.curve(brushfire.state.sources[0]).then((c) => ({ length: c.length, least: Math.min(...brushfire.field.distance) }))');
+  assert.ok(length > 0.5, `the curve is ${length} long`);
+  assert.ok(least < 0.05, `its nearest vertex is ${least} away`);
+  await v.shot('curve');
+  await v.page.mouse.move(m.x, m.y);
+  await v.page.waitForFunction("document.getElementById('readout').textContent.includes('path')");
+  const [distance, pathLength] = await v.page.evaluate("[Number(document.getElementById('readout').dataset.distance), brushfire.path.length]");
+  assert.ok(Math.abs(distance - pathLength) <= 1e-10, `${distance} away, a path of ${pathLength}`);
+  await v.page.selectOption('#export', 'curve.json');
+  const [download] = await Promise.all([v.page.waitForEvent('download'), v.page.click('#save')]);
+  const saved = join(folder, download.suggestedFilename());
+  await download.saveAs(saved);
+  assert.ok(readFileSync(saved, 'utf8').length > 100);
+  const address = new URL(v.page.url()).hash;
+  const sum = await v.page.evaluate('brushfire.field.distance.reduce((s, d) => s + d)');
+  await v.nextField(() => v.page.click('#undo'));
+  assert.equal((await v.state()).sources[0].face, 0);
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+  const w = await visit(address);
+  assert.equal(await w.page.evaluate('brushfire.field.distance.reduce((s, d) => s + d)'), sum);
+  await w.close();
+});
+
+test('brushfire view makes one file that works from the disk, offline', { skip: withoutNative }, async () => {
+  const file = fileOf('torus', 120, 60);
+  const page = join(folder, 'page.html');
+  const env = { ...process.env, BRUSHFIRE_VIEWER: join(here, 'dist-single/index.html') };
+  execFileSync(program, ['view', file, '--source', '5', '--method', 'windows', '--tolerance', '0.002', '-o', page], { env });
+  const v = await visit(pathToFileURL(page).href, { offline: true });
+  assert.match(await v.page.textContent('#summary'), /mesh\.ply: 7200 of 7200 vertices reached.*proven/);
+  assert.equal(await v.page.inputValue('#tolerance'), '0.002');
+  const [here_, farthest] = await v.page.evaluate('[brushfire.field.distance[5], Math.max(...brushfire.field.distance)]');
+  const said = JSON.parse(execFileSync(program, ['distance', file, '--source', '5', '--tolerance', '0.002', '--json'], { encoding: 'utf8' }));
+  assert.equal(here_, 0);
+  assert.ok(Math.abs(said.max_distance - farthest) <= 1e-12 * farthest, `${farthest} in the page, ${said.max_distance} by the program`);
+  const m = await middle(v.page);
+  await v.nextField(() => v.page.mouse.click(m.x, m.y + 100));
+  assert.deepEqual(v.complaints, []);
+  await v.shot('single');
+  await v.close();
+  const { length } = gzipSync(readFileSync(join(here, 'dist-single/index.html')));
+  assert.ok(length < 1.2e6, `the page without a mesh is ${length} bytes`);
+});
+
+test('the notebook\'s widget shows the page in a frame and hears of its sources', { skip: withoutNative }, async () => {
+  const source = readFileSync(join(here, '../python/brushfire/_viewer.py'), 'utf8');
+  const widget = /_WIDGET = """(.*?)"""/s.exec(source)[1];
+  const page = join(folder, 'framed.html');
+  const env = { ...process.env, BRUSHFIRE_VIEWER: join(here, 'dist-single/index.html') };
+  execFileSync(program, ['view', fileOf('torus', 120, 60), '--source', '5', '-o', page], { env });
+  const v = await visit();
+  await v.page.evaluate(async ([code, html]) => {
+    const { default: { render } } = await import(URL.createObjectURL(new Blob([code], { type: 'text/javascript' })));
+    const values = { page: html, height: 400 };
+    const model = { get: (name) => values[name], set: (name, value) => { values[name] = value; }, save_changes: () => { window.saved = structuredClone(values.sources); } };
+    window.stop = render({ model, el: document.body.insertBefore(document.createElement('div'), document.body.firstChild) });
+  }, [widget, readFileSync(page, 'utf8')]);
+  await v.page.waitForFunction('window.saved', null, { timeout: 60000 });
+  const [before_] = await v.page.evaluate('window.saved');
+  const box = await v.page.locator('iframe').boundingBox();
+  const frame = v.page.frames().find((f) => f !== v.page.mainFrame());
+  const canvas = await frame.locator('#canvas').boundingBox();
+  assert.equal(box.height, 400);
+  await v.page.mouse.click(canvas.x + canvas.width / 2, canvas.y + canvas.height * 0.7);
+  await v.page.waitForFunction((face) => window.saved[0].face !== face, before_.face);
+  await v.page.evaluate('window.stop()');
   assert.deepEqual(v.complaints, []);
   await v.close();
 });

@@ -101,10 +101,25 @@ class JsonList : public nlohmann::json_sax<nlohmann::json> {
   LoadedField field;
   bool found = false;
 
+  // What only makes sense when all was read.
+  void check() const {
+    for (const Index v : field.not_visited) {
+      if (v >= field.values.size() || field.values[v] != kInfinity) {
+        input_->fail("vertex " + std::to_string(v) + " in " + quote(kNotVisited) + " is not null in " +
+                     quote(field.name));
+      }
+    }
+  }
+
   bool null() override { return add(kInfinity); }
   bool boolean(bool v) override { return add(v ? 1 : 0); }
   bool number_integer(number_integer_t v) override { return add(static_cast<double>(v)); }
-  bool number_unsigned(number_unsigned_t v) override { return add(static_cast<double>(v)); }
+  bool number_unsigned(number_unsigned_t v) override {
+    if (!in_not_visited_) return add(static_cast<double>(v));
+    // Larger numbers are vertices of no file, and stay so.
+    field.not_visited.push_back(static_cast<Index>(std::min<number_unsigned_t>(v, kNoIndex)));
+    return true;
+  }
   bool number_float(number_float_t v, const string_t&) override { return add(v); }
   bool string(string_t&) override {
     if (inside_) input_->fail("the list " + quote(field.name) + " holds a string");
@@ -123,10 +138,11 @@ class JsonList : public nlohmann::json_sax<nlohmann::json> {
       inside_ = found = true;
       field.name = key_;
     }
+    in_not_visited_ = !is_it && depth_ == 1 && key_ == kNotVisited;
     return open();
   }
   bool end_array() override {
-    inside_ = false;
+    inside_ = in_not_visited_ = false;
     return --depth_, true;
   }
   bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception&) override {
@@ -135,6 +151,7 @@ class JsonList : public nlohmann::json_sax<nlohmann::json> {
 
  private:
   bool add(double v) {
+    if (in_not_visited_) input_->fail(quote(kNotVisited) + " holds what is no vertex number");
     if (inside_) field.values.push_back(v);
     return true;
   }
@@ -149,7 +166,7 @@ class JsonList : public nlohmann::json_sax<nlohmann::json> {
   const std::string* wanted_;
   std::string key_;
   int depth_ = 0;
-  bool inside_ = false;
+  bool inside_ = false, in_not_visited_ = false;
 };
 
 }  // namespace
@@ -158,6 +175,7 @@ LoadedField read_json_field(const Input& input, const std::string& name) {
   JsonList list(input, name);
   nlohmann::json::sax_parse(input.bytes().begin(), input.bytes().end(), &list);
   if (!list.found) input.fail(name.empty() ? "has no list of numbers" : "has no list " + quote(name));
+  list.check();
   return std::move(list.field);
 }
 

@@ -19,6 +19,10 @@ struct LoadedField {
   // with a column `vertex`); empty where values[v] is that of vertex v.
   std::vector<Index> vertices;
 
+  // Of infinite values: those of vertices to which the run that wrote them did not come, though a way may lead there.
+  // The others are out of reach. Ascending; empty where a file does not tell (only write_field()'s json does).
+  std::vector<Index> not_visited;
+
   struct Label {
     std::int64_t key;
     std::string name;
@@ -33,7 +37,7 @@ struct LoadedField {
 //   .npy                a vector (or one column)
 //   .csv .tsv           a header line of names, or none; separated by comma, semicolon or tab
 //   .txt .dat .asc .1D  numbers separated by space; # starts a comment
-//   .json               the object that write_field() writes; null reads as infinity
+//   .json               the object that write_field() writes; null reads as infinity, not_visited as that
 //   .gii                GIFTI shape, func or label
 //   .curv .annot .label FreeSurfer; also by the names lh.thickness, rh.sulc, lh.aparc.annot, ...
 //   .ply .vtk .vtp      a scalar that stands on the vertices of a mesh

@@ -58,6 +58,13 @@ void write_json(Output& out, const Mesh& mesh, const FieldView& field) {
     list(field.label_name, field.labels.size(),
          [&](std::size_t v) { out.number(static_cast<std::int32_t>(field.labels[v])); });
   }
+  if (!field.not_visited.empty()) {
+    std::vector<Index> vertices;
+    for (Index v = 0; v < field.not_visited.size(); ++v) {
+      if (field.not_visited[v] != 0) vertices.push_back(v);
+    }
+    list(kNotVisited, vertices.size(), [&](std::size_t i) { out.number(vertices[i]); });
+  }
   out.write("}\n");
 }
 
@@ -159,6 +166,7 @@ void write_field_to(const Destination& to, const Mesh& mesh, const FieldView& gi
   check_size(given.values.size(), mesh, "values");
   check_size(given.labels.size(), mesh, "labels");
   check_size(given.mask.size(), mesh, "entries of the mask");
+  check_size(given.not_visited.size(), mesh, "entries of not_visited");
   check_name(given.name);
   check_name(given.label_name);
   const std::string extension = known_extension(to.name, format);

@@ -1,22 +1,76 @@
 // Copies of a place are all sources, or all targets; of what is found at copies of a vertex the least counts.
 #include <brushfire/core/error.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/solvers/detail/walls.h>
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <utility>
 
 namespace brushfire::detail {
+namespace {
+
+Error behind_walls(std::size_t source) {
+  return {ErrorCode::InvalidArgument,
+          "source " + std::to_string(source) + " lies behind a wall: nothing can be reached from there"};
+}
+
+// A curve's segments where the mesh is open: along a wall on each side of it, each one a piece of its own, since walls
+// may part what meets in a place.
+std::shared_ptr<const CurveSource> open_part_of(const Domain& domain, const CurveSource& curve, std::size_t source) {
+  const Mesh& mesh = domain.mesh();
+  const std::vector<Index>& open_face = domain.cut()->cut_face;
+  const LocatedCurve located = locate(mesh, curve);
+  CurveSource open;
+  const auto add = [&](const SurfacePoint& p, double offset) {
+    open.places.push_back(p);
+    open.offsets.push_back(offset);
+  };
+  const auto add_segment = [&](Index face, const std::array<double, 3>& from, const std::array<double, 3>& to,
+                               const CurveSegment& s) {
+    if (open_face[face] == kNoIndex) return;
+    add({open_face[face], from}, s.from_offset);
+    add({open_face[face], to}, s.to_offset);
+    add({}, 0);
+  };
+  for (const CurveSegment& s : located.segments) {
+    if (!s.along_edge) {
+      add_segment(s.face, s.from, s.to, s);
+      continue;
+    }
+    const PointLocation& from = located.places[s.from_place].at;
+    const PointLocation& to = located.places[s.to_place].at;
+    for (const Index f : faces_at(mesh, from)) {
+      const auto a = weights_in(mesh, from, f), b = weights_in(mesh, to, f);
+      if (a && b) add_segment(f, *a, *b, s);
+    }
+  }
+  for (const CurvePlace& p : located.places) {
+    for (const SurfacePoint& side : domain.on_open({p.at.face, p.at.weights})) {
+      add(side, p.offset);
+      add({}, 0);
+    }
+  }
+  if (open.places.empty()) throw behind_walls(source);
+  return std::make_shared<const CurveSource>(std::move(open));
+}
+
+}  // namespace
 
 WalledRun::WalledRun(const Domain& domain, std::span<const Source> sources, const DistanceOptions& options)
     : domain_(domain), options_(options) {
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const std::vector<SurfacePoint> sides = domain.on_open(sources[i].point);
-    if (sides.empty()) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "source " + std::to_string(i) + " lies behind a wall: nothing can be reached from there");
+    if (sources[i].curve) {
+      sources_.push_back(
+          {{}, sources[i].offset, domain.has_walls() ? open_part_of(domain, *sources[i].curve, i) : sources[i].curve});
+      origin_.push_back(static_cast<Index>(i));
+      continue;
     }
+    const std::vector<SurfacePoint> sides = domain.on_open(sources[i].point);
+    if (sides.empty()) throw behind_walls(i);
     for (const SurfacePoint& p : sides) {
       sources_.push_back({p, sources[i].offset});
       origin_.push_back(static_cast<Index>(i));

@@ -41,6 +41,7 @@ LoadedField read_freesurfer_annot(const Input& input, const std::string& name);
 LoadedField read_freesurfer_curv(const Input& input, const std::string& name);
 LoadedField read_freesurfer_label(const Input& input, const std::string& name);
 LoadedField read_gifti_field(const Input& input, const std::string& name);
+inline constexpr const char* kNotVisited = "not_visited";  // the list in JSON that is not values
 LoadedField read_json_field(const Input& input, const std::string& name);
 LoadedField read_npy_field(const Input& input, const std::string& name);
 LoadedField read_ply_field(const Input& input, const std::string& name);

@@ -3,6 +3,7 @@
 
 #include <brushfire/solvers/distance.h>
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,7 +17,18 @@ struct LocatedSource {
   PointLocation at;
   double offset = 0;
   Index label = 0;  // position in the caller's list
+  // Where set, the source is this curve, with lengths and offsets in mesh.unit(), these from `offset` on (the least of
+  // them is 0); `at` is its first place.
+  std::shared_ptr<const LocatedCurve> curve = nullptr;
 };
+
+// A source of the caller's, with its offset (of a curve: the least) still in the mesh's units: see Offsets. Throws what
+// locate() throws for points and for curves.
+LocatedSource located(const Mesh& mesh, const Source& source, Index label);
+
+inline bool any_curve(std::span<const LocatedSource> sources) {
+  return std::any_of(sources.begin(), sources.end(), [](const LocatedSource& s) { return s.curve != nullptr; });
+}
 
 // One run as an engine sees it: validated, in mesh.unit().
 struct Problem {

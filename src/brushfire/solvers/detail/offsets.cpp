@@ -1,6 +1,7 @@
 // Bases of offsets, by component.
 #include <brushfire/solvers/detail/offsets.h>
 
+#include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/disjoint_sets.h>
 
 #include <algorithm>
@@ -9,6 +10,39 @@
 #include <map>
 
 namespace brushfire::detail {
+namespace {
+
+// Pieces of one curve may lie in several components, which then have one base: no source there is surely dominated.
+class Joined {
+ public:
+  Joined(const Mesh& mesh, std::span<const Index> component, std::span<const LocatedSource> sources)
+      : mesh_(mesh), component_(component) {
+    for (const LocatedSource& s : sources) {
+      if (!s.curve) continue;
+      const Index first = component_of(s.at);
+      for (const CurvePlace& p : s.curve->places) {
+        const Index other = component_of(p.at);
+        if (root(other) != root(first)) to_[root(other)] = root(first);
+      }
+    }
+  }
+  bool any() const { return !to_.empty(); }
+  Index component(const LocatedSource& s) const { return root(component_of(s.at)); }
+
+ private:
+  Index component_of(const PointLocation& at) const { return component_[mesh_.faces()[at.face][0]]; }
+  Index root(Index c) const {
+    for (auto next = to_.find(c); next != to_.end(); next = to_.find(c)) c = next->second;
+    return c;
+  }
+
+  const Mesh& mesh_;
+  std::span<const Index> component_;
+  std::map<Index, Index> to_;
+};
+
+}  // namespace
+
 // Faces that name a vertex twice conduct too.
 void Offsets::look_at(const Mesh& mesh) {
   DisjointSets sets(mesh.vertex_count());
@@ -26,29 +60,33 @@ void Offsets::look_at(const Mesh& mesh) {
   beyond_all_ = sum > 0 ? std::min(4 * sum, kLargest) : 1;
 }
 
-void Offsets::split(const Mesh& mesh, std::span<const Source> sources, std::span<LocatedSource> located) {
+void Offsets::split(const Mesh& mesh, std::span<LocatedSource> located) {
   bases_.clear();
   const double unit = mesh.unit();
-  const auto is_tame = [&](const Source& s) { return std::abs(s.offset) <= kTame * unit; };
-  if (std::all_of(sources.begin(), sources.end(), is_tame)) {
-    for (std::size_t i = 0; i < sources.size(); ++i) located[i].offset = sources[i].offset / unit;
+  const auto is_tame = [&](const LocatedSource& s) { return std::abs(s.offset) <= kTame * unit; };
+  if (std::all_of(located.begin(), located.end(), is_tame)) {
+    for (LocatedSource& s : located) s.offset /= unit;
     return;
   }
-  if (sources.size() == 1) {
-    bases_.push_back(sources[0].offset);
+  if (located.size() == 1) {
+    bases_.push_back(located[0].offset);
     located[0].offset = 0;
     return;
   }
   if (component_.empty()) look_at(mesh);
-  const auto component = [&](std::size_t i) { return component_[mesh.faces()[located[i].at.face][0]]; };
+  const Joined joined(mesh, component_, located);
   std::map<Index, double> least;
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    double& base = least.try_emplace(component(i), kInfinity).first->second;
-    base = std::min(base, sources[i].offset);
+  for (const LocatedSource& s : located) {
+    double& base = least.try_emplace(joined.component(s), kInfinity).first->second;
+    base = std::min(base, s.offset);
   }
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    bases_.push_back(least[component(i)]);
-    located[i].offset = std::min(beyond_all_, (sources[i].offset - bases_[i]) / unit);  // the difference may be +inf
+  for (LocatedSource& s : located) {
+    bases_.push_back(least[joined.component(s)]);
+    const double above = (s.offset - bases_.back()) / unit;  // it may be +inf
+    s.offset = joined.any() ? above : std::min(beyond_all_, above);
+    if (s.offset == kInfinity) {
+      throw Error(ErrorCode::InvalidArgument, "offsets differ by more than there are numbers for");
+    }
   }
 }
 

@@ -15,9 +15,10 @@ namespace brushfire::detail {
 // it reaches is moved down to where that is still so: what the engine sees is never beyond the size of the mesh.
 class Offsets {
  public:
-  // Sets the offset of every located source; `located` is in the order of `sources`. O(sources log sources); the first
-  // time that several sources have an offset beyond kTame also O(faces). The mesh is the same in every call.
-  void split(const Mesh& mesh, std::span<const Source> sources, std::span<LocatedSource> located);
+  // Takes the offset of every located source, in the mesh's units, and sets it as the engine sees it. O(sources log
+  // sources); the first time that several sources have an offset beyond kTame also O(faces). The mesh is the same in
+  // every call.
+  void split(const Mesh& mesh, std::span<LocatedSource> located);
 
   // By source, in the mesh's units; empty: 0.
   std::span<const double> bases() const { return bases_; }

@@ -53,6 +53,25 @@ std::vector<Index> lowest_copies(const Mesh& mesh, std::span<const Index> apart)
   return lowest;
 }
 
+// Whatever it lies on, by its face alone.
+PointLocation point_inside(Index face, const std::array<double, 3>& weights) {
+  PointLocation at;
+  at.face = face;
+  at.weights = weights;
+  return at;
+}
+
+PointLocation middle_of(const CurveSegment& s) {
+  PointLocation at = point_inside(s.face, s.from);
+  for (Index k = 0; k < 3; ++k) {
+    at.weights[k] = 0.5 * (s.from[k] + s.to[k]);
+    if (!s.along_edge || at.weights[k] > 0) continue;
+    at.on = PointLocation::On::Edge;
+    at.halfedge = 3 * s.face + (k + 1) % 3;
+  }
+  return at;
+}
+
 class OneSheet final : public Engine {
  public:
   OneSheet(std::shared_ptr<const Sheets> sheets, std::function<std::unique_ptr<Engine>(const Mesh&)> make)
@@ -76,12 +95,18 @@ class OneSheet final : public Engine {
   // copies are as near to the source as light makes them that comes over their edges.
   void find_apart(const Problem& problem) {
     apart_.clear();
-    for (const LocatedSource& s : problem.sources) {
-      if (!sheets_->is_inside_copy(s.at)) continue;
+    const auto look_at = [&](const PointLocation& at) {
+      if (!sheets_->is_inside_copy(at)) return;
       const bool asked = problem.options->keep_windows ||
                          std::any_of(problem.targets.begin(), problem.targets.end(),
-                                     [&](const PointLocation& t) { return sheets_->are_inside_two_copies(s.at, t); });
-      if (asked) apart_.push_back(s.at.face);
+                                     [&](const PointLocation& t) { return sheets_->are_inside_two_copies(at, t); });
+      if (asked) apart_.push_back(at.face);
+    };
+    for (const LocatedSource& s : problem.sources) {
+      look_at(s.at);
+      if (!s.curve) continue;
+      for (const CurveSegment& segment : s.curve->segments) look_at(middle_of(segment));
+      for (const CurvePlace& p : s.curve->places) look_at(p.at);
     }
     std::sort(apart_.begin(), apart_.end());
     apart_.erase(std::unique(apart_.begin(), apart_.end()), apart_.end());
@@ -94,7 +119,7 @@ class OneSheet final : public Engine {
     std::vector<LocatedSource> sources;
     std::vector<PointLocation> targets;
     for (const LocatedSource& s : problem.sources) {
-      sources.push_back({sheets->to_single(s.at), s.offset, s.label});
+      sources.push_back({sheets->to_single(s.at), s.offset, s.label, sheets->to_single(s.curve)});
       view->sources.push_back(s.at);
     }
     for (const PointLocation& t : problem.targets) {
@@ -171,6 +196,19 @@ PointLocation Sheets::to_single(const PointLocation& at) const {
     moved.t = moved.weights[(without + 2) % 3];
   }
   return moved;
+}
+
+std::shared_ptr<const LocatedCurve> Sheets::to_single(const std::shared_ptr<const LocatedCurve>& curve) const {
+  if (!curve) return nullptr;
+  LocatedCurve moved = *curve;
+  for (CurvePlace& p : moved.places) p.at = to_single(p.at);
+  for (CurveSegment& s : moved.segments) {
+    const PointLocation from = to_single(point_inside(s.face, s.from)), to = to_single(point_inside(s.face, s.to));
+    s.face = from.face;
+    s.from = from.weights;
+    s.to = to.weights;
+  }
+  return std::make_shared<const LocatedCurve>(std::move(moved));
 }
 
 std::unique_ptr<Engine> make_on_one_sheet(std::shared_ptr<const Sheets> sheets,

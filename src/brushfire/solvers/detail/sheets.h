@@ -37,6 +37,7 @@ class Sheets {
 
   // The same point by a face of the single mesh: of what is inside of a copy, where it is inside of the single face.
   PointLocation to_single(const PointLocation& at) const;
+  std::shared_ptr<const LocatedCurve> to_single(const std::shared_ptr<const LocatedCurve>& curve) const;
   // And back, to the face that stands for all.
   SurfacePoint from_single(const SurfacePoint& at) const { return {face_[at.face], at.weights}; }
 

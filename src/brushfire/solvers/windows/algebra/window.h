@@ -102,6 +102,12 @@ inline Window mirrored(const Window& w, Real length) {
          (w.source.y == 0 && w.kind == WindowKind::Circular && w.source.x > w.b0 && w.source.x < w.b1);
 }
 
+// How far from the edge places may be that the window is described by: what turns of the frame move is some epsilons of
+// that.
+inline Real extent_of(const Window& w) {
+  return w.kind == WindowKind::Circular ? norm(w.source) : std::max(abs(w.d0), abs(w.d1));
+}
+
 // Whether the source lies on the edge, within the interval, or as good as: its light then leaves through one point, and
 // parts of the interval do not stand for parts of the light. A cut beside a source that is kOnEdge of the interval away
 // turns the limit ray by up to epsilon / kOnEdge = 2e-8; who is missed by that is reached round the cut with a detour
@@ -115,9 +121,9 @@ inline bool is_on_edge(const Window& w) {
 // A window narrower than this share of its distance from the virtual source is dropped: what it alone lights is
 // reached past its neighbour's end with a detour of at most twice its width.
 inline constexpr double kSliver = 1e-14 * kFiner;
-[[gnu::always_inline]] inline bool is_sliver(const Window& w) {
-  const Real scale = w.kind == WindowKind::Circular ? w.d0 - w.sigma : w.b1;
-  return !(w.b1 - w.b0 > kSliver * scale);
+[[gnu::always_inline]] inline Real sliver_scale(const Window& w) {
+  return w.kind == WindowKind::Circular ? w.d0 - w.sigma : w.b1;
 }
+[[gnu::always_inline]] inline bool is_sliver(const Window& w) { return !(w.b1 - w.b0 > kSliver * sliver_scale(w)); }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -14,6 +14,7 @@ void Results::keep() {
   auto data = std::make_shared<WindowFieldData>();
   data->mesh = mesh;
   data->sources.assign(run_.problem->sources.begin(), run_.problem->sources.end());
+  data->curves = CurveIndex(mesh, data->sources);
   data->bases.assign(run_.problem->bases.begin(), run_.problem->bases.end());
   data->shift = run_.shift;
   data->relative = run_.rounding.relative;

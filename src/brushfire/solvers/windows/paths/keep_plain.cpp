@@ -6,7 +6,9 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 brushfire::Vec2 plain(const Vec2& p) { return {to_double(p.x), to_double(p.y)}; }
-PlainRay plain(const Ray& ray) { return {plain(ray.source), ray.halfedge, ray.pseudo_source}; }
+PlainRay plain(const Ray& ray) {
+  return {plain(ray.source), ray.halfedge, ray.pseudo_source, ray.kind == WindowKind::Linear};
+}
 
 }  // namespace
 

@@ -43,9 +43,13 @@ class LegSearch {
         room_(question.room),
         origins_(question.mesh, question.at, question.value) {
     for (Index s = 0; s < ask_.sources.size(); ++s) {
+      if (ask_.sources[s].curve) {
+        add_places(*ask_.sources[s].curve, s);
+        continue;
+      }
       const PointLocation& place = ask_.sources[s].at;
       if (place.on == On::Vertex) {
-        source_at_.emplace(place.vertex, s);
+        source_at_.emplace(place.vertex, AtVertex{s, 0});
         continue;
       }
       for (const PointInFace& f : names_of(mesh_, place)) sources_in_.emplace(f.face, Inside{s, f.weights});
@@ -72,6 +76,10 @@ class LegSearch {
     Index source;
     std::array<double, 3> weights;
   };
+  struct AtVertex {
+    Index source;
+    double offset;  // of the place, beyond that of the source
+  };
   struct Open {
     Index wedge;
     double key;
@@ -83,7 +91,15 @@ class LegSearch {
     double first, last;
   };
 
+  // Of a curve those at vertices; the others are looked up.
+  void add_places(const LocatedCurve& curve, Index source) {
+    for (const CurvePlace& p : curve.places) {
+      if (p.at.on == On::Vertex) source_at_.emplace(p.at.vertex, AtVertex{source, p.offset});
+    }
+  }
+
   double value_of(Index v) const { return ask_.vertex_value(v); }
+  double start_of(Index source) const { return ask_.sources[source].offset + ask_.shift; }
 
   // ---- one pass
 
@@ -137,7 +153,9 @@ class LegSearch {
       offer_sources(goal, corners);
       for (Index i = 0; i < 3; ++i) offer_corner(goal, i, corners[i]);
       if (!mesh_.is_face_usable(f.face)) continue;
-      const Vec2 guide = hinted != kNoIndex ? hinted_from(hinted) - rounded(here) : Vec2{0, 0};
+      const Vec2 guide = hinted == kNoIndex ? Vec2{0, 0}
+                         : ask_.parallel    ? hinted_from(hinted)
+                                            : hinted_from(hinted) - rounded(here);
       for (Index i = 0; i < 3; ++i) {
         if (f.weights[(i + 2) % 3] == 0) continue;  // the point is on this edge
         const Index j = (i + 1) % 3, h = 3 * f.face + i;
@@ -166,7 +184,8 @@ class LegSearch {
   Vec2 hinted_from(Index g) const {
     const Vec2 p = ask_.from;
     if (g == ask_.halfedge) return p;
-    return {mesh_.from(g) == mesh_.from(ask_.halfedge) ? p.x : mesh_.length(g) - p.x, -p.y};
+    const double turned = ask_.parallel ? -p.x : mesh_.length(g) - p.x;
+    return {mesh_.from(g) == mesh_.from(ask_.halfedge) ? p.x : turned, -p.y};
   }
 
   // Through the wedge's edge into every other face there.
@@ -287,8 +306,8 @@ class LegSearch {
       goal.face = at.face;
       goal.weights = at.weights;
       goal.origin = origin;
-      goal.source = s->second;
-      offer(goal, ask_.sources[s->second].offset + ask_.shift);
+      goal.source = s->second.source;
+      offer(goal, start_of(goal.source) + s->second.offset);
     }
   }
 
@@ -301,8 +320,40 @@ class LegSearch {
       goal.source = s->second.source;
       goal.weights = s->second.weights;
       goal.length = length_of(goal.place);
-      offer(goal, ask_.sources[goal.source].offset + ask_.shift);
+      offer(goal, start_of(goal.source));
     }
+    for (const CurveInFace& c : ask_.curves.in(goal.face)) offer_curve(goal, c, corners);
+  }
+
+  // The best place on the segment as the point sees it; or the place.
+  void offer_curve(LegGoal goal, const CurveInFace& c, const std::array<WideVec2, 3>& corners) {
+    const LocatedCurve& curve = *ask_.sources[c.source].curve;
+    double offset = 0;
+    if (c.segment == kNoIndex) {
+      goal.weights = place_in_face(mesh_, curve, c.place, c.face).weights;
+      offset = curve.places[c.place].offset;
+    } else {
+      const SegmentInFace s = *segment_in_face(mesh_, curve, c.segment, c.face, 0);
+      const double share = best_share(s, wide_point(corners, s.from), wide_point(corners, s.to));
+      goal.weights = weights_along(s, share);
+      offset = (1 - share) * s.from_value + share * s.to_value;
+    }
+    goal.place = wide_point(corners, goal.weights);
+    if (goal.wedge != kStart && !in_wedge(wedges_[goal.wedge], goal.place)) return;
+    goal.source = c.source;
+    goal.length = length_of(goal.place);
+    offer(goal, start_of(c.source) + offset);
+  }
+
+  // From `from` to `to`, of the place where offset and way to the origin are least together: LineSource::sight_of().
+  static double best_share(const SegmentInFace& s, WideVec2 from, WideVec2 to) {
+    const WideVec2 step = to - from;
+    const DoubleDouble length = norm(step), slope = (DoubleDouble(s.to_value) - DoubleDouble(s.from_value)) / length;
+    const DoubleDouble ahead = -dot(from, step) / length, aside = cross(from, step) / length;
+    const DoubleDouble rise2 = (DoubleDouble(1) - slope) * (DoubleDouble(1) + slope);
+    const double away = std::abs(aside.high);
+    const double lean = rise2.high > 0 ? away * slope.high / std::sqrt(rise2.high) : std::copysign(kInfinity, slope.high);
+    return std::clamp(((ahead - DoubleDouble(lean)) / length).high, 0.0, 1.0);
   }
 
   void offer_corner(LegGoal goal, Index k, WideVec2 place) {
@@ -372,7 +423,7 @@ class LegSearch {
   const double value_, room_;
   const LegOrigins origins_;
   std::unordered_multimap<Index, Inside> sources_in_;  // by face
-  std::unordered_multimap<Index, Index> source_at_;    // by vertex
+  std::unordered_multimap<Index, AtVertex> source_at_;  // by vertex
   std::vector<Wedge> wedges_;
   std::size_t first_wedges_ = 0, on_hint_ = 0;  // so many of them: where the pass began, aside; along the hint
   std::priority_queue<Open> open_;

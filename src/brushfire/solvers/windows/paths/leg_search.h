@@ -5,6 +5,7 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/detail/engine.h>
+#include <brushfire/solvers/windows/algebra/curve_index.h>
 #include <brushfire/solvers/window_field.h>
 
 #include <functional>
@@ -16,6 +17,7 @@ namespace brushfire::windows {
 struct LegQuestion {
   const Mesh& mesh;
   std::span<const detail::LocatedSource> sources;
+  const CurveIndex& curves;  // of these
   double shift = 0;                                  // what was added to every value
   const std::function<double(Index)>& vertex_value;  // NaN: not known
   PointLocation at;
@@ -26,6 +28,7 @@ struct LegQuestion {
   Index halfedge =
       kNoIndex;  // of a face that holds the point: over this edge, from `from` in its frame; or from nowhere
   Vec2 from;
+  bool parallel = false;  // `from` is a direction
 };
 
 // The leg that ends at the point: straight to a vertex or a source from which it explains the value; proven by its

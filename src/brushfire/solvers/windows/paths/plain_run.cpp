@@ -9,9 +9,7 @@
 namespace brushfire::windows {
 namespace {
 
-PointRecord record_of(const PlainRun::Record& r) {
-  return {r.value, r.label, {r.ray.source, r.ray.halfedge, r.ray.pseudo_source, WindowKind::Circular}};
-}
+PointRecord record_of(const PlainRun::Record& r) { return {r.value, r.label, ray_of(r.ray)}; }
 
 }  // namespace
 
@@ -19,6 +17,7 @@ std::shared_ptr<const WindowField> window_field_of(const PlainRun& run) {
   auto data = std::make_shared<WindowFieldData>();
   data->mesh = run.mesh;
   data->sources.assign(run.problem->sources.begin(), run.problem->sources.end());
+  data->curves = CurveIndex(run.mesh, data->sources);
   data->shift = run.shift;
   data->relative = run.relative;
   data->absolute = run.absolute;

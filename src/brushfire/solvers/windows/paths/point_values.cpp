@@ -2,6 +2,7 @@
 #include <brushfire/solvers/windows/paths/point_values.h>
 
 #include <brushfire/solvers/windows/algebra/frame.h>
+#include <brushfire/solvers/windows/algebra/line_source.h>
 #include <brushfire/solvers/windows/propagation/results.h>
 
 #include <limits>
@@ -20,7 +21,10 @@ class KeptWindows::Least {
     found_.face = at.face;
     for (std::size_t k = 0; k < 3; ++k) found_.weights[k] = to_double(at.weights[k]);
     found_.label = label;
-    found_.ray = {{to_double(ray.source.x), to_double(ray.source.y)}, ray.halfedge, ray.pseudo_source};
+    found_.ray = {{to_double(ray.source.x), to_double(ray.source.y)},
+                  ray.halfedge,
+                  ray.pseudo_source,
+                  ray.kind == WindowKind::Linear};
   }
   PointValue found() const {
     PointValue rounded = found_;
@@ -35,7 +39,11 @@ class KeptWindows::Least {
 
 KeptWindows::KeptWindows(const Mesh& mesh, std::span<const detail::LocatedSource> sources, Real shift,
                          std::vector<Vertex> vertices, std::span<const KeptWindow> windows)
-    : mesh_(mesh), sources_(sources.begin(), sources.end()), shift_(shift), vertices_(std::move(vertices)) {
+    : mesh_(mesh),
+      sources_(sources.begin(), sources.end()),
+      curves_(mesh, sources),
+      shift_(shift),
+      vertices_(std::move(vertices)) {
   const std::size_t halfedges = mesh.halfedge_count();
   first_.assign(halfedges + 1, 0);
   for (const KeptWindow& k : windows) ++first_[k.halfedge + 1];
@@ -83,8 +91,9 @@ void KeptWindows::offer_sources(const FaceWeights& at, Least& least) const {
   const FaceShape shape = shape_of(mesh_, at.face);
   Index k = 0;  // the frame: any halfedge with a length
   while (k < 3 && !(shape.length[k] > 0)) ++k;
+  if (k < 3) offer_curves(at, k, least);
   for (Index s = 0; k < 3 && s < sources_.size(); ++s) {
-    if (sources_[s].at.on == PointLocation::On::Vertex) continue;
+    if (sources_[s].at.on == PointLocation::On::Vertex || sources_[s].curve) continue;
     for_each_face_around(mesh_, sources_[s].at, [&](const FaceWeights& f) {
       if (f.face != at.face) return;
       Ray ray{{}, kNoIndex, mesh_.vertex_count() + s, {}};
@@ -94,6 +103,29 @@ void KeptWindows::offer_sources(const FaceWeights& at, Least& least) const {
       }
       least.offer(at, sources_[s].offset + shift_ + distance_in(shape, f.weights, at.weights), s, ray);
     });
+  }
+}
+
+void KeptWindows::offer_curves(const FaceWeights& at, Index k, Least& least) const {
+  const FaceShape shape = shape_of(mesh_, at.face);
+  for (const CurveInFace& c : curves_.in(at.face)) {
+    const LocatedCurve& curve = *sources_[c.source].curve;
+    const Real start = sources_[c.source].offset + shift_;
+    Ray ray{{}, kNoIndex, mesh_.vertex_count() + c.source, {}};
+    if (mesh_.is_face_usable(at.face)) ray.halfedge = 3 * at.face + k;
+    if (c.segment == kNoIndex) {
+      const FaceWeights place = place_in_face(mesh_, curve, c.place, at.face);
+      if (ray.halfedge != kNoIndex) ray.source = in_frame(frame_of(shape, k), k, place.weights);
+      const Real way = distance_in(shape, place.weights, at.weights);
+      least.offer(at, start + curve.places[c.place].offset + way, c.source, ray);
+    } else if (ray.halfedge != kNoIndex) {
+      const Frame frame = frame_of(shape, k);
+      const SegmentInFace segment = *segment_in_face(mesh_, curve, c.segment, at.face, start);
+      const LineSource::Sight sight = line_source_in(frame, k, segment).sight_of(in_frame(frame, k, at.weights));
+      ray.source = sight.source;
+      ray.kind = sight.kind;
+      least.offer(at, sight.value, c.source, ray);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/detail/engine.h>
+#include <brushfire/solvers/windows/algebra/curve_index.h>
 #include <brushfire/solvers/windows/algebra/rays.h>
 
 #include <array>
@@ -17,6 +18,7 @@ namespace brushfire::windows {
 struct PlainRay {
   brushfire::Vec2 source;
   Index halfedge = kNoIndex, pseudo_source = kNoIndex;
+  bool parallel = false;  // of linear windows
 };
 
 // The least that the run knows of a point: its name in the face over which that came, the value with all offsets, in
@@ -58,10 +60,12 @@ class KeptWindows final : public PointValues {
   class Least;
   void offer_corners(const FaceWeights& at, Least& least) const;
   void offer_sources(const FaceWeights& at, Least& least) const;
+  void offer_curves(const FaceWeights& at, Index k, Least& least) const;
   void offer_windows(const FaceWeights& at, Least& least) const;
 
   Mesh mesh_;
   std::vector<detail::LocatedSource> sources_;
+  CurveIndex curves_;
   Real shift_;
   std::vector<Vertex> vertices_;
   std::vector<std::size_t> first_;  // [halfedge_count + 1]

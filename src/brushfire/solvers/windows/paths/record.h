@@ -48,9 +48,15 @@ class VertexRecords {
   std::vector<Numbered> few_;
 };
 
+// A ray that a run in any numbers left behind.
+inline Ray ray_of(const PlainRay& ray) {
+  return {ray.source, ray.halfedge, ray.pseudo_source, ray.parallel ? WindowKind::Linear : WindowKind::Circular};
+}
+
 struct WindowFieldData {
   Mesh mesh;
   std::vector<detail::LocatedSource> sources;
+  CurveIndex curves;                   // of these
   std::vector<Real> bases;             // what is to be added to values, by source, in the mesh's units; empty: 0
   Real shift = 0;                      // what was added to every value so that none is negative
   bool exact = true;                   // no merging: rays lead back to pseudo-sources

@@ -3,6 +3,7 @@
 #include <brushfire/solvers/windows/paths/trace.h>
 
 #include <brushfire/solvers/windows/algebra/frame.h>
+#include <brushfire/solvers/windows/algebra/line_source.h>
 #include <brushfire/solvers/windows/paths/leg_search.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ constexpr Real kMissed = 1e-7;
 
 struct Position {
   Index halfedge;  // the next edge to cross, from inside of its face
-  Vec2 source;     // the ray's pseudo-source, in the halfedge's frame: below
+  Vec2 source;     // the ray's pseudo-source, in the halfedge's frame: below; of parallel light the direction there
   Vec2 point;      // where the ray is: above, or on the edge
   bool mirrored = false;
 };
@@ -67,8 +68,7 @@ class Tracer {
 
   // A real path of this length is there; is it the one that the value means?
   bool is_explained() const {
-    const Real start =
-        leg_.vertex != kNoIndex ? value_of(leg_.vertex) : data_.sources[leg_.source].offset + data_.shift;
+    const Real start = leg_.vertex != kNoIndex ? value_of(leg_.vertex) : start_of_source_;
     return abs(start + leg_.length - value_) <= room_;
   }
 
@@ -76,13 +76,14 @@ class Tracer {
   Step over_edge(Position& at) {
     const Index h = at.halfedge, g = opposite_[h];
     const Real length = lengths_[h];
-    const Real across = at.source.x * at.point.y - at.source.y * at.point.x, along = at.point.y - at.source.y;
+    const Real across = at.source.x * at.point.y - at.source.y * at.point.x;
+    const Real along = origin_weight(ray_.kind) * at.point.y - at.source.y;
     if (!(at.source.y < 0) || !(along > 0) || !(length > 0)) return Step::Lost;
     const Real x = across / along, rest = length - x;
     const auto ends_at_end = [&](Index v, Index corner, Real place, Real miss) {
       if (abs(miss) > 2 * kThrough * value_) return false;  // no leg is that long
       return ends_at_vertex(v, {Mesh::face_of(h), corner}, {at.point.x - place, at.point.y},
-                            {at.source.x - place, at.source.y}, abs(miss));
+                            {at.source.x - origin_weight(ray_.kind) * place, at.source.y}, abs(miss));
     };
     if (ends_at_end(from(h), h % 3, 0, x)) return Step::Found;
     if (ends_at_end(to(h), next3(h % 3), length, rest)) return Step::Found;
@@ -99,8 +100,10 @@ class Tracer {
     if (!begins_here) leg_.points.push_back(crossing);
     leg_.length += way;
     const bool turned = from(g) == to(h);
+    const double origin = origin_weight(ray_.kind);
     at = {
-        g, {turned ? length - at.source.x : at.source.x, -at.source.y}, {turned ? rest : x, 0}, at.mirrored != !turned};
+        g, {turned ? origin * length - at.source.x : at.source.x, -at.source.y}, {turned ? rest : x, 0},
+        at.mirrored != !turned};
     return Step::On;
   }
 
@@ -108,14 +111,16 @@ class Tracer {
   // leaves: the one to the left of the apex or the other.
   void leave(Position& at) const {
     const Frame frame = frame_at(at.halfedge);
-    const bool left = cross(frame.apex - at.point, at.source - at.point) > 0;
+    const double from_origin = origin_weight(ray_.kind);  // arrows from there to a point, and directions as they are
+    const bool left = cross(frame.apex - at.point, at.source - from_origin * at.point) > 0;
     const Index h = left ? Mesh::previous(at.halfedge) : Mesh::next(at.halfedge);
     const Real side = left ? frame.left : frame.right;
     const Vec2 origin = left ? frame.apex : Vec2{frame.length, 0};
     const Vec2 end = left ? Vec2{0, 0} : frame.apex;
     const Vec2 u = (1 / side) * (end - origin);
     const auto turn = [&](Vec2 p) { return Vec2{dot(u, p - origin), cross(u, p - origin)}; };
-    at = {h, turn(at.source), turn(at.point), at.mirrored};
+    const Vec2 source = from_origin == 0 ? turn(at.source + origin) : turn(at.source);
+    at = {h, source, turn(at.point), at.mirrored};
   }
 
   struct Corner {
@@ -126,7 +131,8 @@ class Tracer {
   // `before` and `after`: the arrows from v to where the ray was and to its pseudo-source.
   bool ends_at_vertex(Index v, Corner at, Vec2 before, Vec2 after, Real miss) {
     const Real way = length_of(before.x, before.y);
-    const Real nearer = std::min(leg_.length + way, length_of(after.x, after.y));
+    const bool is_far = ray_.kind == WindowKind::Linear;  // then only the way from here is known
+    const Real nearer = is_far ? leg_.length + way : std::min(leg_.length + way, length_of(after.x, after.y));
     if (!(miss <= kThrough * nearer)) return false;
     if (!(value_of(v) < value_) || !(abs(value_of(v) + leg_.length + way - value_) <= room_)) return false;
     std::array<Real, 3> weights{0, 0, 0};
@@ -163,11 +169,42 @@ class Tracer {
       leg_.vertex = kNoIndex;
       return false;
     }
+    const Index label = ray_.pseudo_source - n;
+    const detail::LocatedSource& source = data_.sources[label];
     bool found = false;
-    for_each_face_around(mesh_, data_.sources[ray_.pseudo_source - n].at,
-                         [&](const FaceWeights& f) { found = found || (f.face == face && is_source(f.weights)); });
-    if (found) leg_.source = ray_.pseudo_source - n;
+    start_of_source_ = source.offset + data_.shift;
+    if (source.curve) {
+      for (const CurveInFace& c : data_.curves.in(face)) found = found || (c.source == label && ends_on(c, at));
+    } else {
+      for_each_face_around(mesh_, source.at,
+                           [&](const FaceWeights& f) { found = found || (f.face == face && is_source(f.weights)); });
+    }
+    if (found) leg_.source = label;
     return found;
+  }
+
+  // Whether what is left of the ray is the straight way to a curve in this face: the values say so.
+  bool ends_on(const CurveInFace& c, const Position& at) {
+    const Frame frame = frame_at(at.halfedge);
+    const LocatedCurve& curve = *data_.sources[c.source].curve;
+    const Real base = data_.sources[c.source].offset + data_.shift;
+    std::array<Real, 3> weights;
+    Real start;
+    if (c.segment == kNoIndex) {
+      weights = place_in_face(mesh_, curve, c.place, c.face).weights;
+      start = base + curve.places[c.place].offset;
+    } else {
+      const SegmentInFace segment = *segment_in_face(mesh_, curve, c.segment, c.face, base);
+      const LineSource line = line_source_in(frame, at.halfedge % 3, segment);
+      const Real t = line.sight_of(at.point).t;
+      weights = weights_along(segment, t / line.length);
+      start = line.sigma + line.slope * t;
+    }
+    const Vec2 way = in_frame(frame, at.halfedge % 3, weights) - at.point;
+    const Real length = length_of(way.x, way.y);
+    if (!(length > 0) || !(abs(start + leg_.length + length - value_) <= room_)) return false;
+    start_of_source_ = start;
+    return finish(c.face, weights, length);
   }
 
   const WindowFieldData& data_;
@@ -180,6 +217,7 @@ class Tracer {
   const Real start_;  // the pseudo-source's value, where that is a vertex
   const CrossingListener& knows_the_rest_;
   WindowField::Leg leg_;
+  Real start_of_source_ = 0;  // where the leg begins, if that is at a source
 };
 
 }  // namespace

@@ -70,12 +70,19 @@ class Look {
  private:
   Found evaluate(const PointLocation& at) const {
     const windows::PointValue p = data_.all_points->at(at);
-    return {{p.face, p.weights}, {p.value, p.label, {p.ray.source, p.ray.halfedge, p.ray.pseudo_source, {}}}};
+    return {{p.face, p.weights}, {p.value, p.label, windows::ray_of(p.ray)}};
   }
 
   const windows::WindowFieldData& data_;
   const Mesh& mesh_;
 };
+
+bool is_at_vertex(const detail::LocatedSource& source, Index vertex) {
+  const auto is_it = [&](const PointLocation& at) { return at.on == PointLocation::On::Vertex && at.vertex == vertex; };
+  if (!source.curve) return is_it(source.at);
+  return std::any_of(source.curve->places.begin(), source.curve->places.end(),
+                     [&](const CurvePlace& p) { return is_it(p.at); });
+}
 
 // Where no ray came: the point is a source at a vertex, or the pseudo-source is at the other end of an edge.
 WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Found& found, Index vertex) {
@@ -84,8 +91,7 @@ WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Fou
   WindowField::Leg leg;
   if (pseudo_source == kNoIndex) return leg;
   if (pseudo_source >= n) {
-    const PointLocation& source = data.sources[pseudo_source - n].at;
-    if (source.on != PointLocation::On::Vertex || source.vertex != vertex) return {};
+    if (!is_at_vertex(data.sources[pseudo_source - n], vertex)) return {};
     leg.source = pseudo_source - n;
     leg.points.push_back({found.at.face, found.at.weights});
     return leg;
@@ -118,8 +124,9 @@ WindowField::Leg last_leg_of(const windows::WindowFieldData& data, const Found& 
   if (leg.points.empty()) {
     const std::function<double(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
     const PointLocation at = locate(data.mesh, {found.at.face, found.at.weights});
-    leg = windows::find_leg({data.mesh, data.sources, data.shift, vertex_value, at, found.record.value,
-                             data.room_for(found.record), ray.pseudo_source, ray.halfedge, ray.source});
+    leg = windows::find_leg({data.mesh, data.sources, data.curves, data.shift, vertex_value, at, found.record.value,
+                             data.room_for(found.record), ray.pseudo_source, ray.halfedge, ray.source,
+                             ray.kind == windows::WindowKind::Linear});
     if (!leg.points.empty()) hold_to_value(data, found.record, leg);
   }
   leg.length *= data.mesh.unit();
@@ -145,7 +152,7 @@ PointLocation located(const windows::WindowFieldData& data, const SurfacePoint& 
 WindowField::Leg in_callers_numbers(const windows::WindowFieldData& data, WindowField::Leg leg) {
   if (!data.view) return leg;
   for (SurfacePoint& p : leg.points) p = data.view->sheets->from_single(p);
-  if (leg.source != kNoIndex) {
+  if (leg.source != kNoIndex && !data.sources[leg.source].curve) {
     const PointLocation& source = data.view->sources[leg.source];
     const std::array<double, 3>& last = leg.points.back().weights;
     const bool is_vertex = std::find(last.begin(), last.end(), 1) != last.end();

@@ -58,6 +58,43 @@ void propagate_through(PartState& part, Index v, Index corner) {
   }
 }
 
+// Directions of shorter segments (as a share of the longest edge) are known to some epsilons of this share; then ends
+// of segments send light everywhere, too: no way is longer by more than the square of that.
+constexpr double kShortSegment = 1e-6 * kSqrtFiner;
+
+// What an end of segments in the face has to send through an edge beside their parallel light: what lies between the
+// last rays of both sides, beyond the end. Not cut where that is more than half of all directions. False where nothing
+// is left of the window, which is seen from beyond the edge.
+bool leave_to_segments(const Frame& frame, Index k, std::span<const SegmentEnd> ends, Window& w) {
+  Interval x{0, frame.length};
+  const Real longest = std::max({frame.length, frame.left, frame.right});
+  for (const SegmentEnd& e : ends) {
+    const LineSource line = line_source_in(frame, k, e.segment);
+    const bool is_wide = e.is_first ? line.slope > 0 : line.slope < 0;
+    if (is_wide || line.length < kShortSegment * longest) continue;
+    const Vec2 p = e.is_first ? line.begin : line.end();
+    x.keep_beside(p, line.light(e.is_first ? 1 : -1), 1);
+    x.keep_beside(p, line.light(e.is_first ? -1 : 1), -1);
+  }
+  if (x.empty()) return false;
+  if (x.high < frame.length) w.b0 = frame.length - x.high, w.d0 = value_at(w, w.b0);
+  if (x.low > 0) w.b1 = frame.length - x.low, w.d1 = value_at(w, w.b1);
+  return w.b0 < w.b1;
+}
+
+// The targets in the face of a segment.
+void reach_targets(PartState& part, const SegmentInFace& s, Index pseudo_source) {
+  const WindowFace& f = part.run->structure.faces[s.face];
+  const Index k = f.length[0] > 0 ? 0 : 1;
+  if (!(f.length[k] > 0)) return;
+  const Frame frame = frame_of(f, k);
+  const LineSource line = line_source_in(frame, k, s);
+  part.run->targets.for_each_in(s.face, [&](const TargetInFace& t) {
+    const LineSource::Sight sight = line.sight_of(in_frame(frame, k, t.weights));
+    reach_target(part, t.target, sight.value, 0, 0, {sight.source, 3 * s.face + k, pseudo_source, sight.kind});
+  });
+}
+
 // The targets in the face of a source.
 void reach_targets(PartState& part, const FaceWeights& at, Real sigma, Index pseudo_source) {
   const WindowFace& f = part.run->structure.faces[at.face];
@@ -101,7 +138,8 @@ void start_at_vertex(PartState& part, Index v, Real sigma, Index pseudo_source) 
 }
 
 // Straight to the corners, and through the edges that the source does not lie on.
-void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pseudo_source) {
+void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pseudo_source,
+                   std::span<const SegmentEnd> ends) {
   const WindowFace& f = part.run->structure.faces[at.face];
   const std::array<Real, 3> distance = corner_distances_of(part.run->structure, at);
   const Real longest = std::max({f.length[0], f.length[1], f.length[2]});
@@ -125,10 +163,40 @@ void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pse
     w.d0 = sigma + distance[previous3(k)];
     w.d1 = sigma + distance[next3(k)];
     w.pseudo_source = pseudo_source;
+    if (!ends.empty() && !leave_to_segments(frame_of(f, next3(k)), next3(k), ends, w)) continue;
     // A source on the edge of a face with an area lights nothing through that edge: the faces beyond start it, too.
     if (is_visible(w) && (w.source.y < 0 || f.double_area == 0)) leave_face_once(part, h, w);
   }
   if (f.has_target) reach_targets(part, at, sigma, pseudo_source);
+}
+
+// Straight to the corners, and through the edges that the segment does not lie on. (In a face with a repeated vertex
+// there is nothing between the ends, which are sources of their own.)
+void start_along(PartState& part, const SegmentInFace& s, Index pseudo_source) {
+  const WindowFace& f = part.run->structure.faces[s.face];
+  if (!f.usable) return;
+  const Real longest = std::max({f.length[0], f.length[1], f.length[2]});
+  for (Index k = 0; k < 3; ++k) {
+    const Index edge = next3(k), h = 3 * s.face + edge;  // opposite of corner k
+    if (!(f.length[edge] > 0)) continue;
+    const Frame frame = frame_of(f, edge);
+    const LineSource line = line_source_in(frame, edge, s);
+    if (!(line.length > 0)) return;
+    const LineSource::Sight sight = line.sight_of(frame.apex);
+    const Vec2 way = line.at(sight.t) - frame.apex;
+    part.vertices.reach(f.vertex[k], sight.value);
+    part.vertices.expect(f.vertex[k], sight.value, 0);
+    see_vertex(part, f.vertex[k], sight.value, {sight.source, h, pseudo_source, sight.kind},
+               length_of(way.x, way.y) < kNear * longest);
+    // A segment on the edge of a face with an area lights nothing through that edge: the faces beyond start it, too.
+    if (s.from[k] == 0 && s.to[k] == 0 && f.double_area > 0) continue;
+    for (const int side : {1, -1}) {
+      Window w = parallel_light(line, side, frame.length);
+      w.pseudo_source = pseudo_source;
+      if (is_visible(w)) leave_face_once(part, h, w);
+    }
+  }
+  if (f.has_target) reach_targets(part, s, pseudo_source);
 }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

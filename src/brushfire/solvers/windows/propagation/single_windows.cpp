@@ -41,7 +41,7 @@ std::size_t merge_neighbours(const PartState& part, std::span<Window> w) {
   std::size_t last = 0;
   for (std::size_t i = 1; i < w.size(); ++i) {
     w[++last] = w[i];
-    while (last > 0 && w[last].b0 - w[last - 1].b1 <= 2 * kSliver * (w[last].d0 - w[last].sigma) &&
+    while (last > 0 && w[last].b0 - w[last - 1].b1 <= 2 * kSliver * sliver_scale(w[last]) &&
            merge_pair(part, w[last - 1], w[last], {w[last - 1].b1, w[last - 1].d1, w[last].d0})) {
       w[last - 1] = w[last];
       --last;
@@ -84,6 +84,37 @@ void pass_along(PartState& part, Index h, const Frame& frame, const Window& w) {
   leave(next3(k), frame.right, apex < frame.length ? x - apex : apex - x);
 }
 
+// Compiled once for each kind: what is written in terms of kinds costs nothing then.
+template <WindowKind kKind>
+[[gnu::always_inline]] inline void pass_face_as(PartState& part, Index h, const Frame& frame, const Window& waiting) {
+  Window w = waiting;
+  w.kind = kKind;
+  const WindowFace& f = part.face(h);
+  const Index apex = f.vertex[previous3(h % 3)];
+  if (leaves_trail(f)) w.trail = part.trails.with(w.trail, h / 3);
+  const Ray ray{w.source, h, w.pseudo_source, w.kind};
+  const Arrival at = arrival(w, frame.apex);
+  if (at.detour <= kSeen * at.value) {
+    part.vertices.reach(apex, at.value + w.slack);
+    see_vertex(part, apex, at.value, ray, false);
+  }
+  if (f.has_target) {
+    part.run->targets.for_each_in(h / 3, [&](const TargetInFace& t) {
+      const Arrival there = arrival(w, in_frame(frame, h % 3, t.weights));
+      reach_target(part, t.target, there.value, w.slack, w.lift, ray, there.detour <= kSeen * there.value);
+    });
+  }
+  if (part.run->problem->options->keep_windows) part.kept.push_back({part.run->structure.outer_halfedge(h), w});
+  if (frame.apex.y == 0 && w.source.y == 0) return pass_along(part, h, frame, w);
+  propagate(
+      w, frame, [&](const Window& left) { leave_face(part, 3 * (h / 3) + previous3(h % 3), left, Origin::Anywhere); },
+      [&](const Window& right) { leave_face(part, 3 * (h / 3) + next3(h % 3), right, Origin::Anywhere); });
+}
+
+[[gnu::noinline]] void pass_face_in_parallel(PartState& part, Index h, const Frame& frame, const Window& w) {
+  pass_face_as<WindowKind::Linear>(part, h, frame, w);
+}
+
 }  // namespace
 
 void propagate_windows(PartState& part, Index h) {
@@ -109,29 +140,9 @@ void propagate_windows(PartState& part, Index h) {
   bench.on_edge.clear();
 }
 
-void pass_face(PartState& part, Index h, const Frame& frame, const Window& waiting) {
-  Window w = waiting;
-  w.kind = WindowKind::Circular;  // known here: no other kind is ever started
-  const WindowFace& f = part.face(h);
-  const Index apex = f.vertex[previous3(h % 3)];
-  if (leaves_trail(f)) w.trail = part.trails.with(w.trail, h / 3);
-  const Ray ray{w.source, h, w.pseudo_source, w.kind};
-  const Arrival at = arrival(w, frame.apex);
-  if (at.detour <= kSeen * at.value) {
-    part.vertices.reach(apex, at.value + w.slack);
-    see_vertex(part, apex, at.value, ray, false);
-  }
-  if (f.has_target) {
-    part.run->targets.for_each_in(h / 3, [&](const TargetInFace& t) {
-      const Arrival there = arrival(w, in_frame(frame, h % 3, t.weights));
-      reach_target(part, t.target, there.value, w.slack, w.lift, ray, there.detour <= kSeen * there.value);
-    });
-  }
-  if (part.run->problem->options->keep_windows) part.kept.push_back({part.run->structure.outer_halfedge(h), w});
-  if (frame.apex.y == 0 && w.source.y == 0) return pass_along(part, h, frame, w);
-  propagate(
-      w, frame, [&](const Window& left) { leave_face(part, 3 * (h / 3) + previous3(h % 3), left, Origin::Anywhere); },
-      [&](const Window& right) { leave_face(part, 3 * (h / 3) + next3(h % 3), right, Origin::Anywhere); });
+void pass_face(PartState& part, Index h, const Frame& frame, const Window& w) {
+  if (w.kind == WindowKind::Linear) return pass_face_in_parallel(part, h, frame, w);
+  pass_face_as<WindowKind::Circular>(part, h, frame, w);
 }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

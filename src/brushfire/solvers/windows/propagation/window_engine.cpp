@@ -90,7 +90,8 @@ class WindowEngine final : public NumberedEngine {
     if (run_.several) run_.provenance.resize(run_.values.size());
     if (run_.keeps_rays()) run_.rays.resize(run_.values.size());
     run_.budget = budget_of(*problem.options, run_.rounding, merging_ == Merging::Always ? 0 : least_share(outlook()));
-    run_.in_lists = !kWide && !run_.merges() && run_.radius > kShort * run_.structure.bucket_width;
+    run_.in_lists = !kWide && !run_.merges() && run_.radius > kShort * run_.structure.bucket_width &&
+                    !detail::any_curve(problem.sources);  // lists are for circular windows
     run_.bucket_width = run_.in_lists ? kExactBucket * run_.structure.bucket_width : run_.structure.bucket_width;
     run_.targets.place(problem.targets, run_.structure);
     next_target_check_ = problem.targets.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;
@@ -107,18 +108,48 @@ class WindowEngine final : public NumberedEngine {
 
   // ---- sources
 
+  using EndsInFace = std::vector<SegmentEnd>;
+
   void start(const detail::LocatedSource& s) {
-    const WindowStructure& structure = run_.structure;
-    const Index pseudo_source = structure.vertex_count() + s.label;
+    const Index pseudo_source = run_.structure.vertex_count() + s.label;
     const Real sigma = s.offset + run_.shift;
-    if (s.at.on == PointLocation::On::Vertex) {
-      const Index v = structure.inner_vertex(s.at.vertex);
+    if (!s.curve) return start_at(s.at, sigma, pseudo_source, [](Index) { return EndsInFace{}; });
+    const Mesh& mesh = run_.structure.mesh;
+    for (Index i = 0; i < s.curve->segments.size(); ++i) {
+      for_each_face_of(mesh, *s.curve, i, sigma, [&](SegmentInFace segment) {
+        segment.face = run_.structure.inner_face(segment.face);
+        start_along(active_part(run_.structure.part_of_face(segment.face)), segment, pseudo_source);
+      });
+    }
+    for (const CurvePlace& p : s.curve->places) {
+      start_at(p.at, sigma + p.offset, pseudo_source, [&](Index face) { return ends_in(*s.curve, p, face, sigma); });
+    }
+  }
+
+  // The segments of a curve that end in the place and lie in a face.
+  EndsInFace ends_in(const LocatedCurve& curve, const CurvePlace& place, Index face, Real start) const {
+    EndsInFace ends;
+    for (const bool is_first : {false, true}) {
+      const Index i = is_first ? place.after : place.before;
+      if (i == kNoIndex) continue;
+      if (const auto s = segment_in_face(run_.structure.mesh, curve, i, face, start)) ends.push_back({*s, is_first});
+    }
+    return ends;
+  }
+
+  // `ends_in`: the ends of segments there, by the mesh's face.
+  template <class EndsIn>
+  void start_at(const PointLocation& at, Real sigma, Index pseudo_source, EndsIn&& ends_in) {
+    const WindowStructure& structure = run_.structure;
+    if (at.on == PointLocation::On::Vertex) {
+      const Index v = structure.inner_vertex(at.vertex);
       start_at_vertex(active_part(structure.part_of_vertex(v)), v, sigma, pseudo_source);
       return;
     }
-    for_each_face_around(structure.mesh, s.at, [&](const FaceWeights& f) {
+    for_each_face_around(structure.mesh, at, [&](const FaceWeights& f) {
       const Index face = structure.inner_face(f.face);
-      start_in_face(active_part(structure.part_of_face(face)), {face, f.weights}, sigma, pseudo_source);
+      start_in_face(active_part(structure.part_of_face(face)), {face, f.weights}, sigma, pseudo_source,
+                    ends_in(f.face));
     });
   }
 

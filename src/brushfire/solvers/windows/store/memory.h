@@ -38,7 +38,7 @@ class WindowMemory {
   // Light that has come round has been turned through a few frames: its source and its ends have moved by some
   // epsilons of the longest number there. That must not look like an improvement, or it would go round for ever and
   // improve each time; dropping a true one of that size costs no more than that.
-  static Real moved(const Window& w) { return kTurns * (norm(w.source) + w.b1); }
+  static Real moved(const Window& w) { return kTurns * (extent_of(w) + w.b1); }
 
   static bool covers(const Window& k, const Window& w) {
     const Real m = moved(w);
