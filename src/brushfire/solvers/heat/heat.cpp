@@ -38,10 +38,11 @@ struct Row {
       if (!std::isfinite(given[i].offset)) {
         throw Error(ErrorCode::InvalidArgument, "the offset of source " + std::to_string(i) + " is not finite");
       }
-      if (given[i].curve)
+      if (given[i].curve) {
         throw Error(ErrorCode::InvalidArgument,
-                    "heat starts at points, and source " + std::to_string(i) + " is a curve");
-      located.push_back(detail::located(mesh, given[i], static_cast<Index>(i)));
+                    "source " + std::to_string(i) + " is a curve, and heat starts at points: see SignedHeatSolver");
+      }
+      located.push_back({locate(mesh, given[i].point), given[i].offset, static_cast<Index>(i)});
     }
     offsets.split(mesh, located);
     origins = heat::origins_of(mesh, system, located);
