@@ -38,9 +38,9 @@ struct Row {
       if (!std::isfinite(given[i].offset)) {
         throw Error(ErrorCode::InvalidArgument, "the offset of source " + std::to_string(i) + " is not finite");
       }
-      located.push_back({locate(mesh, given[i].point), 0, static_cast<Index>(i)});
+      located.push_back({locate(mesh, given[i].point), given[i].offset, static_cast<Index>(i)});
     }
-    offsets.split(mesh, given, located);
+    offsets.split(mesh, located);
     origins = heat::origins_of(mesh, system, located);
     sparks = heat::sparks_of(system, origins);
   }
