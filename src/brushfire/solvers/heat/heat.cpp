@@ -38,6 +38,10 @@ struct Row {
       if (!std::isfinite(given[i].offset)) {
         throw Error(ErrorCode::InvalidArgument, "the offset of source " + std::to_string(i) + " is not finite");
       }
+      if (given[i].curve) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "source " + std::to_string(i) + " is a curve, and heat starts at points: see SignedHeatSolver");
+      }
       located.push_back({locate(mesh, given[i].point), given[i].offset, static_cast<Index>(i)});
     }
     offsets.split(mesh, located);
