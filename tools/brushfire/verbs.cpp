@@ -23,6 +23,7 @@ void add_verbs(CommandLine& command_line) {
   add_bench(command_line);
   add_convert(command_line);
   add_shape(command_line);
+  add_terrain(command_line);
   add_completion(command_line);
   add_manual(command_line);
 }
