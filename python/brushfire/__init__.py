@@ -32,6 +32,7 @@ from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._regions import Border, Cut, Samples, Voronoi
 from brushfire._sets import distance_matrices
+from brushfire._sources import Curve
 from brushfire._weighted import Costs, Weighted, WeightedPath
 
 __all__ = [
@@ -46,6 +47,7 @@ __all__ = [
     "Certificate",
     "Comparison",
     "Costs",
+    "Curve",
     "Cut",
     "Descent",
     "DifferentiableDistance",

@@ -25,12 +25,20 @@ constexpr const char* kExamples = R"(Places (for --source and --target):
   at:1.5,0,-2       the point of the surface nearest to this position
   17@0.5            any of them, with the value 0.5 to start from (sources only)
 
+Curves (for --source):
+  boundary          the boundary of the mesh; boundary:2 is one of the curves that brushfire info lists
+  path:0,at:1,0,2   the shortest path between places
+  chain:3,4,5       along the edges between vertices
+  region:F:LABEL    a region by the labels of file F, of vertices or of faces: 0 inside
+  drawn.obj         the curves of a file (.csv .json .obj .ply .vtp), each a source of its own
+
 Examples:
   brushfire distance bunny.ply --source 0
   brushfire distance bunny.ply --source 0 --source 1200@0.05 -o distance.npy
   brushfire distance bunny.ply --sources landmarks.txt --radius 0.1 -o coloured.ply
   brushfire distance bunny.ply --source 0 --target 5000 --target f:120:.2,.3,.5
   brushfire distance bunny.ply --source 0 --method dijkstra --json
+  brushfire distance part.stl --source boundary -o from-the-rim.ply
   brushfire distance bunny.ply --source 0 --tolerance 1e-4 -o within-0.01-percent.npy
   brushfire distance bunny.ply --source 0 --target 5000 --tolerance fine --bound upper
   brushfire distance terrain.ply --source 0 --weights friction.npy -o cost.npy

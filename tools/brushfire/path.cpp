@@ -74,7 +74,10 @@ std::vector<Found> along_edges(const Domain& domain, const std::vector<Source>& 
     if (p.is_nowhere() || locate(domain.mesh(), p).on == PointLocation::On::Vertex) return;
     refuse("paths along edges (--method dijkstra) run between vertices");
   };
-  for (const Source& s : sources) check_vertex(s.point);
+  for (const Source& s : sources) {
+    if (s.curve) refuse("--method dijkstra: paths along edges start at vertices, not at curves");
+    check_vertex(s.point);
+  }
   for (const SurfacePoint& t : targets) check_vertex(t);
   std::vector<Found> found;
   for (SourcePath& path : edge_paths_to(domain, sources, targets, options)) {
@@ -138,12 +141,7 @@ void write(const Arguments& a, const Mesh& mesh, const std::vector<Found>& all, 
 }
 
 bool is_connected(const Domain& domain, const std::vector<Source>& sources, const SurfacePoint& target) {
-  std::vector<SurfacePoint> points;
-  for (const Source& s : sources) {
-    const std::vector<SurfacePoint> sides = domain.on_open(s.point);
-    points.insert(points.end(), sides.begin(), sides.end());
-  }
-  const std::vector<std::uint8_t> is_reachable = reachable(domain.open(), points);
+  const std::vector<std::uint8_t> is_reachable = reachable(domain.open(), open_places_of(domain, sources));
   const std::vector<SurfacePoint> ends = domain.on_open(target);
   return std::any_of(ends.begin(), ends.end(),
                      [&](const SurfacePoint& p) { return is_reachable[domain.open().faces()[p.face][0]] != 0; });
@@ -159,6 +157,7 @@ int path_verb(const Arguments& a, const Talk& talk) {
   if (is_tour(a) && (source_places.size() != 1 || to.size() + (a.closed ? 1 : 0) != 1)) {
     refuse("--via, --closed and --tighten are for one --from and one --to");
   }
+  if (is_tour(a) && source_places.front().is_curve()) refuse("--via, --closed and --tighten go from place to place");
   const Surface surface(a.file, a.shared);
   const Mesh& mesh = surface.mesh();
   stop_if_interrupted();

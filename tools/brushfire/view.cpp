@@ -65,7 +65,8 @@ std::filesystem::path temporary_page(const std::string& mesh_file) {
 
 int view_verb(const Arguments& a, const Talk& talk) {
   const bool starts_somewhere = given(a.shared, {Shared::Source, Shared::Sources}) != nullptr;
-  const std::vector<Where> places = starts_somewhere ? parse_sources(a.shared) : std::vector<Where>{};
+  const std::vector<Where> places =
+      starts_somewhere ? parse_point_sources(a.shared, "the page starts from places") : std::vector<Where>{};
   check_sources(places);
   const DistanceOptions options = computation(a.shared);
   std::string page = empty_page();
@@ -102,7 +103,7 @@ void add_view(CommandLine& command_line) {
     add_shared(verb, a->shared,
                {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed in the page, not read"},
                             {kWalls, "the page computes on the whole mesh"},
-                            {{Shared::Bound, Shared::Precision, Shared::Radius, Shared::Threads, Shared::Accuracy},
+                            {{Shared::Bound, Shared::Precision, Shared::Radius, Shared::Threads},
                              "the page computes whole fields on one thread; it takes --method and --tolerance"},
                             {{Shared::Unit}, "the page shows lengths in the mesh's own unit"}}});
     verb.examples(kExamples);

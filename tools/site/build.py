@@ -50,6 +50,21 @@ def gather() -> None:
         (SOURCE / path).write_text(text)
     figures.draw(SOURCE / "figures")
     live_viewer(SOURCE / "extra/viewer")
+    place_the_rest()
+
+
+def place_the_rest() -> None:
+    """Pages that index.md does not name yet go under "More", so that a new page needs no change here."""
+    index = SOURCE / "index.md"
+    named = set(re.findall(r"^[\w/-]+$", index.read_text(), re.MULTILINE)) | {"index"}
+    folders = ("", "concepts", "tutorials", "migrate")
+    pages = [
+        page.relative_to(SOURCE).as_posix().removesuffix(".md") for f in folders for page in (SOURCE / f).glob("*.md")
+    ]
+    if rest := sorted(set(pages) - named):
+        print(f"(docs/index.md names no place for {', '.join(rest)}: under More)")
+        with index.open("a") as file:
+            file.write("\n```{toctree}\n:hidden:\n:caption: More\n" + "\n".join(rest) + "\n```\n")
 
 
 def live_viewer(folder: Path) -> None:
