@@ -44,6 +44,7 @@
 #include <brushfire/queries/extent.h>
 #include <brushfire/queries/flatten.h>
 #include <brushfire/queries/gradient.h>
+#include <brushfire/queries/isochrones.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/karcher_mean.h>
 #include <brushfire/queries/log_coordinates.h>

@@ -8,6 +8,7 @@ void add_verbs(CommandLine& command_line) {
   add_distance(command_line);
   add_path(command_line);
   add_isolines(command_line);
+  add_isochrones(command_line);
   add_log_map(command_line);
   add_flatten(command_line);
   add_gradient(command_line);

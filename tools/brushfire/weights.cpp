@@ -124,7 +124,7 @@ void add_weights(Verb& verb, WeightArguments& arguments) {
       "What slopes cost, up and down: tobler, naismith (seconds per metre), energy (J/kg), or a file of slopes and "
       "paces");
   verb.option("--steepest", arguments.steepest, "S", kPositive,
-              "With --slope: nothing goes where it is steeper (0.5: 27 degrees)");
+              "With --slope: no step is steeper than this (0.5: 27 degrees)");
   verb.flag("--towards", arguments.towards, "With --slope: what it costs to get to the sources, not from them");
 }
 
