@@ -33,6 +33,7 @@ from brushfire._places import At, Point, Points, at
 from brushfire._regions import Border, Cut, Samples, Voronoi
 from brushfire._sets import distance_matrices
 from brushfire._sources import Curve
+from brushfire._terrain import Terrain, terrain
 from brushfire._weighted import Costs, Weighted, WeightedPath
 
 __all__ = [
@@ -71,6 +72,7 @@ __all__ = [
     "Samples",
     "SignedHeatSolver",
     "Solver",
+    "Terrain",
     "VectorHeatSolver",
     "Voronoi",
     "Weighted",
@@ -88,6 +90,7 @@ __all__ = [
     "read_lines",
     "render",
     "render_svg",
+    "terrain",
     "write",
 ]
 
