@@ -30,6 +30,7 @@ FUNCTIONS = {
     "parcels": ["parcels"],
     "smooth": ["smooth"],
     "convert": ["read_lines"],
+    "view": ["page"],
 }
 FOR_EVERY_VERB = {"read": {"weld"}, "at": {"snap_within"}, "walled": {"mask", "faces", "edges"},
                   "write": {"unit", "view", "outline"}}  # fmt: skip
@@ -38,7 +39,6 @@ NOT_IN_PYTHON = {
     "shape": "something to try the program on",
     "completion": "of a shell",
     "manual": "of a shell",
-    "view": "a Mesh shows itself in a notebook",
 }
 
 # "verb --option" or "--option": what it is called in Python instead ("" for nothing), and why.
