@@ -14,7 +14,7 @@ export corpus=build/fuzz/corpus findings=build/fuzz/findings
 mkdir -p "$corpus" "$findings"
 "$build/make_seeds" "$corpus"
 readers=("$@")
-if [ ${#readers[@]} = 0 ]; then readers=($(cd "$build" && ls -d fuzz_* | sed 's/^fuzz_//')); fi
+if [ ${#readers[@]} = 0 ]; then mapfile -t readers < <(cd "$build" && printf '%s\n' fuzz_* | sed 's/^fuzz_//'); fi
 
 one() {
   local log="$findings/$1.log" status=0

@@ -117,7 +117,7 @@ prepared() {
     install_in_machine ccache
     # The same compiler has the same date in every machine, its package's: the cache may come from outside, too.
     environment+=(CCACHE_DIR=/var/cache/ccache CCACHE_UMASK=000 CCACHE_NOHASHDIR=1 "CCACHE_BASEDIR=$home/brushfire"
-      CCACHE_SLOPPINESS=locale,pch_defines,time_macros)
+      "CCACHE_SLOPPINESS=locale,pch_defines,time_macros")
   fi
 }
 

@@ -46,6 +46,16 @@ export type Place =
 /** One place or many; a typed array holds vertex numbers. */
 export type Places = Place | Iterable<Place> | TypedArray | Points;
 
+/** A curve that distances are measured from: places of which each shares a face with the next, as paths and isolines have. */
+export interface CurveSource {
+  curve: Exclude<Places, Place>;
+  /** The last place is joined to the first; where nothing is said, what the curve itself says. */
+  closed?: boolean;
+  offset?: number;
+}
+/** Places and curves, mixed. */
+export type Sources = Places | CurveSource | Iterable<Place | CurveSource>;
+
 /** How a call is watched and stopped. */
 export interface Watch {
   /** Called now and then with the share that is done, in [0, 1]; returning false stops the call. */
@@ -267,7 +277,7 @@ interface MeshFacts {
 /** The calls on a mesh, and what each gives. `Mesh` has them as they are, `PoolMesh` as promises. */
 interface MeshCalls {
   /** Distances from the nearest of the sources to every vertex. */
-  distance(sources: Places, options?: DistanceOptions): DistanceField;
+  distance(sources: Sources, options?: DistanceOptions): DistanceField;
   /** Builds what the first distance() with these options would build. */
   setUp(options?: SolveOptions): void;
   /** Coordinates of places, three each. */
@@ -286,7 +296,7 @@ interface MeshCalls {
   logMap(source: Places, options?: { maxRadius?: number }): LogMap;
   /** Curves of equal value of a field that is linear in every face. */
   isolines(values: Numbers, options: Levels): Isoline[];
-  voronoi(sources: Places, options?: SolveOptions & { offsets?: Numbers }): Voronoi;
+  voronoi(sources: Sources, options?: SolveOptions & { offsets?: Numbers }): Voronoi;
   farthestPoints(count: number, options?: SolveOptions & { first?: Numbers }): Samples;
   /** Row after row. */
   distanceMatrix(options: MatrixOptions & { type: 'float32' }): Float32Array;
@@ -296,7 +306,7 @@ interface MeshCalls {
   gradients(values: Numbers): Float64Array;
   vertexAreas(): Float64Array;
   /** What can be proven about a field, whoever made it. */
-  certify(values: Numbers, sources: Places, options?: Watch & {
+  certify(values: Numbers, sources: Sources, options?: Watch & {
     offsets?: Numbers; tolerance?: number; within?: number; maxDistance?: number }): Certificate;
   /** A file's bytes; `format` is an extension: ply, obj, stl, glb, gii, npy, csv, ... */
   write(format: string, options?: { values?: Numbers; labels?: Iterable<number>; name?: string; labelName?: string }): Uint8Array;
@@ -327,7 +337,7 @@ export interface Mesh extends MeshCalls, MeshFacts, Owned {
   readonly faces: Uint32Array;
   readonly report: MeshReport;
   /** A field that is kept, for values and paths at any point. */
-  field(sources: Places, options?: FieldOptions): Field;
+  field(sources: Sources, options?: FieldOptions): Field;
   weld(tolerance: number): { mesh: Mesh; vertexMap: Uint32Array; joined: number };
   subdivide(options?: { rule?: 'loop-odd' | 'midpoint' }): Mesh;
   cut(barriers: Barriers): Cut;
@@ -405,7 +415,7 @@ export interface PoolMesh extends Omit<Promised<MeshCalls>, 'distanceMatrix'>, M
   readonly report: Promise<MeshReport>;
   distanceMatrix(options: MatrixOptions & { type: 'float32' }): Promise<Float32Array>;
   distanceMatrix(options?: MatrixOptions & { type?: 'float64' }): Promise<Float64Array>;
-  field(sources: Places, options?: FieldOptions): Promise<PoolField>;
+  field(sources: Sources, options?: FieldOptions): Promise<PoolField>;
   weld(tolerance: number): Promise<{ mesh: PoolMesh; vertexMap: Uint32Array; joined: number }>;
   subdivide(options?: { rule?: 'loop-odd' | 'midpoint' }): Promise<PoolMesh>;
   cut(barriers: Barriers): Promise<PoolCut>;

@@ -3,7 +3,7 @@ import { doubles, indices, number, text } from './arrays.js';
 import { invalid } from './errors.js';
 import { Owned } from './owned.js';
 import { checkNames, listenerOf, SOLVING, solvingArguments } from './options.js';
-import { placeArrays } from './places.js';
+import { placeArrays, sourceArrays } from './places.js';
 
 const NONE = new Float64Array(0);
 
@@ -89,8 +89,8 @@ export class CoreMesh extends Owned {
   }
 
   sourceArguments(sources, options) {
-    const { index, weights, offsets } = placeArrays(this, sources, 'sources');
-    return [index, weights, options.offsets === undefined ? offsets : doubles(options.offsets, 'offsets')];
+    const { index, weights, offsets, sizes } = sourceArrays(this, sources);
+    return [index, weights, options.offsets === undefined ? offsets : doubles(options.offsets, 'offsets'), sizes];
   }
 
   run(sources, options, keep) {

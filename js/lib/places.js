@@ -55,6 +55,33 @@ export function placeArrays(mesh, places, what) {
   return result;
 }
 
+const isCurve = (x) => typeof x === 'object' && x !== null && 'curve' in x;
+
+// The same for sources, of which some may be curves: {curve, closed, offset}, whose `curve` is places. {..., sizes}: as
+// SourceKinds of src/surface.h has them.
+export function sourceArrays(mesh, sources) {
+  const list = isCurve(sources) ? [sources] : sources;
+  if (typeof list?.[Symbol.iterator] !== 'function' || isTyped(list) || ![...list].some(isCurve)) {
+    return { ...placeArrays(mesh, sources, 'sources'), sizes: EMPTY };
+  }
+  const parts = [...list].map((source) => {
+    if (!isCurve(source)) return { ...placeArrays(mesh, [source], 'sources'), size: 0, offset: Number(source.offset ?? 0) };
+    const places = placeArrays(mesh, source.curve, 'sources: curve');
+    if (places.offsets.length > 0) throw invalid('sources: a curve has one offset, beside its places');
+    const closed = source.closed ?? source.curve.closed ?? false;
+    return { ...places, size: closed ? -places.index.length : places.index.length, offset: Number(source.offset ?? 0) };
+  });
+  const empty = parts.findIndex(({ index }) => index.length === 0);
+  if (empty >= 0) throw invalid(`sources: the curve at position ${empty} has no places`);
+  const weights = parts.flatMap((part) => [...(part.weights.length > 0 ? part.weights : new Float64Array(3 * part.index.length))]);
+  return {
+    index: Float64Array.from(parts.flatMap(({ index }) => [...index])),
+    weights: Float64Array.from(weights),
+    offsets: Float64Array.from(parts, ({ offset }) => offset),
+    sizes: Float64Array.from(parts, ({ size }) => size),
+  };
+}
+
 function snap(mesh, positions, result, what) {
   const found = mesh.nearest(positions.flatMap(({ at }) => [...at]));
   positions.forEach(({ k, at, within }, i) => {

@@ -108,7 +108,8 @@ Reply* field_isolines(const std::shared_ptr<const WindowField>* field, const dou
 
 BRUSHFIRE_EXPORT(path_along_edges)
 Reply* path_along_edges(Surface* surface, const double* index, std::size_t count, const double* weights,
-                        std::size_t weight_count, const double* offsets, std::size_t offset_count, double target) {
+                        std::size_t weight_count, const double* offsets, std::size_t offset_count, const double* sizes,
+                        std::size_t size_count, double target) {
   return answer([&](Reply& reply) {
     Computation computation;
     const Mesh& mesh = surface->mesh();
@@ -116,7 +117,7 @@ Reply* path_along_edges(Surface* surface, const double* index, std::size_t count
     DistanceOptions options;
     options.method = Method::Dijkstra;
     const std::vector<Source> sources =
-        sources_from(mesh, {{index, count}, {weights, weight_count}}, {offsets, offset_count});
+        sources_from(mesh, {{index, count}, {weights, weight_count}}, {{offsets, offset_count}, {sizes, size_count}});
     const DistanceField field = surface->solver().distance(sources, options);
     const SurfacePath path = edge_path_to(mesh, field, to.front());
     add_curves(reply, mesh, std::span(&path, 1));

@@ -12,11 +12,11 @@ using Windows = std::shared_ptr<const WindowField>;
 // distance, target source]. keep: 0 nothing, 1 paths to vertices and targets, 2 everything.
 BRUSHFIRE_EXPORT(distance_run)
 Reply* distance_run(Surface* surface, const double* index, std::size_t count, const double* weights,
-                    std::size_t weight_count, const double* offsets, std::size_t offset_count,
-                    const double* target_index, std::size_t target_count, const double* target_weights,
-                    std::size_t target_weight_count, const char* method, std::size_t method_size, const char* bound,
-                    std::size_t bound_size, const char* precision, std::size_t precision_size, const double* numbers,
-                    std::size_t number_count, int keep) {
+                    std::size_t weight_count, const double* offsets, std::size_t offset_count, const double* sizes,
+                    std::size_t size_count, const double* target_index, std::size_t target_count,
+                    const double* target_weights, std::size_t target_weight_count, const char* method,
+                    std::size_t method_size, const char* bound, std::size_t bound_size, const char* precision,
+                    std::size_t precision_size, const double* numbers, std::size_t number_count, int keep) {
   return answer([&](Reply& reply) {
     const Mesh& mesh = surface->mesh();
     Computation computation;
@@ -26,7 +26,7 @@ Reply* distance_run(Surface* surface, const double* index, std::size_t count, co
     options.keep_windows = keep == 2;
     options.targets = targets_from(mesh, {{target_index, target_count}, {target_weights, target_weight_count}});
     const std::vector<Source> sources =
-        sources_from(mesh, {{index, count}, {weights, weight_count}}, {offsets, offset_count});
+        sources_from(mesh, {{index, count}, {weights, weight_count}}, {{offsets, offset_count}, {sizes, size_count}});
     DistanceField field = surface->solver().distance(sources, options);
     if (keep != 0 && !field.windows) {
       throw Error(ErrorCode::InvalidArgument, "fields are kept of the methods exact and windows only");

@@ -46,16 +46,19 @@ std::vector<double> measure(const ErrorMeasure& m) {
 // [distance, source, area; pairs of sources; curves]
 BRUSHFIRE_EXPORT(voronoi_run)
 Reply* voronoi_run(const Surface* surface, const double* index, std::size_t count, const double* weights,
-                   std::size_t weight_count, const double* offsets, std::size_t offset_count, const char* method,
-                   std::size_t method_size, const char* bound, std::size_t bound_size, const char* precision,
-                   std::size_t precision_size, const double* numbers, std::size_t number_count) {
+                   std::size_t weight_count, const double* offsets, std::size_t offset_count, const double* sizes,
+                   std::size_t size_count, const char* method, std::size_t method_size, const char* bound,
+                   std::size_t bound_size, const char* precision, std::size_t precision_size, const double* numbers,
+                   std::size_t number_count) {
   return answer([&](Reply& reply) {
     const Mesh& mesh = surface->mesh();
     Computation computation;
     const DistanceOptions options = computation.options({method, method_size}, {bound, bound_size},
                                                         {precision, precision_size}, {numbers, number_count});
-    VoronoiDiagram d =
-        voronoi(mesh, sources_from(mesh, {{index, count}, {weights, weight_count}}, {offsets, offset_count}), options);
+    VoronoiDiagram d = voronoi(
+        mesh,
+        sources_from(mesh, {{index, count}, {weights, weight_count}}, {{offsets, offset_count}, {sizes, size_count}}),
+        options);
     std::vector<std::uint32_t> pairs;
     std::vector<SurfacePath> borders;
     for (VoronoiBorder& b : d.borders) {
@@ -171,7 +174,8 @@ Reply* compare_run(const double* field, std::size_t count, const double* referen
 BRUSHFIRE_EXPORT(certify_run)
 Reply* certify_run(const Surface* surface, const double* field, std::size_t field_count, const double* index,
                    std::size_t count, const double* weights, std::size_t weight_count, const double* offsets,
-                   std::size_t offset_count, double tolerance, double within, double max_distance, int watched) {
+                   std::size_t offset_count, const double* sizes, std::size_t size_count, double tolerance,
+                   double within, double max_distance, int watched) {
   return answer([&](Reply& reply) {
     const Mesh& mesh = surface->mesh();
     Computation computation;
@@ -180,9 +184,10 @@ Reply* certify_run(const Surface* surface, const double* field, std::size_t fiel
     options.within = within;
     options.max_distance = max_distance;
     if (watched != 0) options.progress = computation.progress();
-    Certificate c =
-        certify(mesh, {field, field_count},
-                sources_from(mesh, {{index, count}, {weights, weight_count}}, {offsets, offset_count}), options);
+    Certificate c = certify(
+        mesh, {field, field_count},
+        sources_from(mesh, {{index, count}, {weights, weight_count}}, {{offsets, offset_count}, {sizes, size_count}}),
+        options);
     reply.add_numbers({double(c.proven_wrong()), double(c.possible), double(c.too_short), double(c.too_long),
                        double(c.not_reachable), double(c.not_reached), double(c.not_a_number), c.least_within,
                        c.worst_vertex == kNoIndex ? -1.0 : double(c.worst_vertex), c.max_gap});

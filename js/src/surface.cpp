@@ -81,15 +81,30 @@ SurfacePoint single_point_from(const Mesh& mesh, const Places& places) {
   throw Error(ErrorCode::InvalidArgument, "one place is needed, not " + std::to_string(places.index.size()));
 }
 
-std::vector<Source> sources_from(const Mesh& mesh, const Places& places, std::span<const double> offsets) {
+std::vector<Source> sources_from(const Mesh& mesh, const Places& places, const SourceKinds& kinds) {
   const std::vector<SurfacePoint> points = points_from(mesh, places);
-  if (!offsets.empty() && offsets.size() != points.size()) {
+  const std::size_t count = kinds.sizes.empty() ? points.size() : kinds.sizes.size();
+  if (!kinds.offsets.empty() && kinds.offsets.size() != count) {
     throw Error(ErrorCode::InvalidArgument,
-                std::to_string(offsets.size()) + " offsets for " + std::to_string(points.size()) + " sources");
+                std::to_string(kinds.offsets.size()) + " offsets for " + std::to_string(count) + " sources");
   }
   std::vector<Source> sources;
-  sources.reserve(points.size());
-  for (std::size_t k = 0; k < points.size(); ++k) sources.push_back({points[k], offsets.empty() ? 0 : offsets[k]});
+  sources.reserve(count);
+  std::span<const SurfacePoint> left = points;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double size = kinds.sizes.empty() ? 0 : kinds.sizes[k];
+    const std::size_t taken = size == 0 ? 1 : static_cast<std::size_t>(std::abs(size));
+    if (taken > left.size())
+      throw Error(ErrorCode::InvalidArgument, "sources: there are fewer places than the curves have");
+    const double offset = kinds.offsets.empty() ? 0 : kinds.offsets[k];
+    if (size == 0) {
+      sources.push_back({left.front(), offset});
+    } else {
+      sources.push_back(
+          source_along({{left.begin(), left.begin() + static_cast<std::ptrdiff_t>(taken)}, size < 0}, offset));
+    }
+    left = left.subspan(taken);
+  }
   return sources;
 }
 

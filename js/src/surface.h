@@ -51,8 +51,13 @@ std::vector<SurfacePoint> points_from(const Mesh& mesh, const Places& places);
 std::vector<SurfacePoint> targets_from(const Mesh& mesh, const Places& places);
 // Throws Error(InvalidArgument) unless there is exactly one.
 SurfacePoint single_point_from(const Mesh& mesh, const Places& places);
-// Throws Error(InvalidArgument) unless there is one offset per source.
-std::vector<Source> sources_from(const Mesh& mesh, const Places& places, std::span<const double> offsets);
+// What sources are besides their places. `sizes`: how many of the places each of them has, 0 of a point and negative of
+// a closed curve; empty where all are points.
+struct SourceKinds {
+  std::span<const double> offsets, sizes;
+};
+// Throws Error(InvalidArgument) unless there is one offset per source (or none at all), and places for all of them.
+std::vector<Source> sources_from(const Mesh& mesh, const Places& places, const SourceKinds& kinds);
 // Whole numbers of vertices, faces: Error(IndexOutOfRange) for others.
 std::vector<Index> numbers_from(std::span<const double> numbers, const char* what, Index count);
 

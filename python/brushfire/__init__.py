@@ -20,16 +20,20 @@ from brushfire._core import version as __version__
 from brushfire._cells import Boundary, Centroidal, Discs, Extent, Mean, Medoids, Parcels, k_medoids
 from brushfire._certify import Certificate
 from brushfire._curves import LogMap, Path
+from brushfire._derivatives import DifferentiableDistance, DistanceGradient
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
+from brushfire._heat import HeatSolver, SignedHeatSolver, VectorHeatSolver, laplacian
 from brushfire._io import FileInfo, read
 from brushfire._lines import read_lines
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._regions import Border, Cut, Samples, Voronoi
+from brushfire._sets import distance_matrices
 from brushfire._sources import Curve
+from brushfire._weighted import Costs, Weighted, WeightedPath
 
 __all__ = [
     "At",
@@ -42,13 +46,17 @@ __all__ = [
     "Centroidal",
     "Certificate",
     "Comparison",
+    "Costs",
     "Curve",
     "Cut",
     "Descent",
+    "DifferentiableDistance",
     "Discs",
+    "DistanceGradient",
     "Errors",
     "Extent",
     "FileInfo",
+    "HeatSolver",
     "Isoline",
     "LogMap",
     "Mean",
@@ -61,14 +69,20 @@ __all__ = [
     "Point",
     "Points",
     "Samples",
+    "SignedHeatSolver",
     "Solver",
+    "VectorHeatSolver",
     "Voronoi",
+    "Weighted",
+    "WeightedPath",
     "__version__",
     "animate",
     "at",
     "compare",
+    "distance_matrices",
     "from_any",
     "k_medoids",
+    "laplacian",
     "methods",
     "read",
     "read_lines",
@@ -76,3 +90,12 @@ __all__ = [
     "render_svg",
     "write",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """``brushfire.torch`` and ``brushfire.jax`` are imported when they are asked for: they need PyTorch and JAX."""
+    if name in ("torch", "jax"):
+        import importlib
+
+        return importlib.import_module(f"brushfire.{name}")
+    raise AttributeError(f"module 'brushfire' has no attribute {name!r}")

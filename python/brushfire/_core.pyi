@@ -55,6 +55,68 @@ class Solver:
         progress: _Progress,
     ) -> tuple[_Floats, _Signed, _Floats | None]: ...
 
+class WeightedSolver:
+    def __init__(
+        self, domain: Space, face: _Floats | None, edge_vertices: _Ints, along: _Floats, crossing: _Floats
+    ) -> None: ...
+    def solve(
+        self,
+        index: _Ints,
+        weights: _Floats | None,
+        offsets: _Floats,
+        target_index: _Ints | None,
+        target_weights: _Floats | None,
+        tolerance: float,
+        refinements: int,
+        lower: bool,
+        max_distance: float,
+        progress: _Progress,
+    ) -> tuple[_Floats, _Signed, _Floats | None, float, float]: ...
+    def paths(
+        self,
+        index: _Ints,
+        weights: _Floats | None,
+        offsets: _Floats,
+        target_index: _Ints,
+        target_weights: _Floats | None,
+        tolerance: float,
+        max_distance: float,
+    ) -> tuple[_Signed, list[tuple[PathArrays, float, float, _Signed, _Floats, _Floats, _Floats, _Signed]]]: ...
+
+def laplacian(mesh: Mesh, delaunay: bool) -> tuple[_Signed, _Signed, _Floats, _Floats]: ...
+
+class _Heat:
+    def __init__(
+        self, mesh: Mesh, time_factor: float, time: float, boundary: str, delaunay: bool, poisson_shift: float
+    ) -> None: ...
+
+class HeatSolver(_Heat):
+    time: float
+    mean_edge_length: float
+    def distances(self, index: _Ints, weights: _Floats | None, offsets: _Floats, starts: _Ints) -> _Floats: ...
+
+class VectorHeatSolver(_Heat):
+    time: float
+    def extend(self, index: _Ints, values: _Floats) -> _Floats: ...
+    def transport(self, index: _Ints, vectors: _Floats) -> _Floats: ...
+    def log_map(self, index: _Ints, strategy: int) -> _Floats: ...
+    def tangent_frames(self) -> tuple[_Floats, _Floats, _Floats]: ...
+    def connection_laplacian(self) -> tuple[_Signed, _Signed, _Floats]: ...
+
+class SignedHeatSolver(_Heat):
+    def distance(
+        self,
+        index: _Ints,
+        weights: _Floats | None,
+        starts: _Ints,
+        is_signed: _Ints,
+        point_index: _Ints,
+        point_weights: _Floats | None,
+        constraint: int,
+        soft_weight: float,
+        preserve_normals: bool,
+    ) -> _Floats: ...
+
 class CutMesh:
     mesh: Mesh
     def original_vertex(self) -> _Signed: ...
@@ -279,3 +341,16 @@ def curve_along(mesh: Mesh, vertices: _Ints, closed: bool) -> PathArrays: ...
 def project_curve(
     domain: Space, xyz: _Floats, closed: bool
 ) -> tuple[PathArrays, float, tuple[float, float, float]]: ...
+
+class TracedField:
+    def gradient(self, upstream: _Floats) -> tuple[_Floats, _Floats, _Floats]: ...
+    def one_sided(self, tie: float) -> npt.NDArray[np.uint8]: ...
+
+def traced_field(
+    solver: Solver,
+    index: _Ints,
+    weights: _Floats | None,
+    offsets: _Floats,
+    options: _Options,
+    progress: _Progress,
+) -> tuple[_Floats, _Signed, TracedField]: ...

@@ -53,7 +53,7 @@ class Descent:
 
 @dataclass(frozen=True)
 class Errors:
-    """Over some vertices, of |field - reference|. ``max_vertex``: the lowest where it is greatest, -1 for none."""
+    """Over some vertices, of ``|field - reference|``. ``max_vertex``: the lowest where it is greatest, -1 for none."""
 
     mean: float
     root_mean_square: float

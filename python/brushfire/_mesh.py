@@ -16,6 +16,7 @@ from brushfire._arrays import Floats, Ints, number
 from brushfire._cells import Cells
 from brushfire._certify import Certificates
 from brushfire._curves import Curves
+from brushfire._derivatives import Derivatives
 from brushfire._distance import Distances
 from brushfire._errors import BrushfireError, BrushfireWarning
 from brushfire._fields import Fields
@@ -27,6 +28,8 @@ from brushfire._picture import Pictures
 from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
 from brushfire._progress import Progress, shown
 from brushfire._regions import Regions
+from brushfire._sets import Pairs
+from brushfire._weighted import WithWeights
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -88,7 +91,9 @@ class MeshReport:
         return "\n".join([head, *self.remarks])
 
 
-class Mesh(Distances, Curves, Fields, Certificates, Regions, Cells, Matrices, Pictures, Files):
+class Mesh(
+    Distances, Derivatives, Curves, Fields, Certificates, Regions, Cells, Matrices, Pairs, Pictures, Files, WithWeights
+):
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
     :param vertices: (n, 3) positions, or (n, 2) for a flat mesh. Kept as float64.

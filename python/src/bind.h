@@ -33,9 +33,13 @@ void bind_curves(nb::module_& m);
 void bind_fields(nb::module_& m);
 void bind_certify(nb::module_& m);
 void bind_cells(nb::module_& m);
+void bind_weighted(nb::module_& m);
 void bind_regions(nb::module_& m);
+void bind_heat(nb::module_& m);
 void bind_figure(nb::module_& m);
 void bind_files(nb::module_& m);
+void bind_derivatives(nb::module_& m);
+void bind_flatten(nb::module_& m);
 
 // Arrays as the Python files hand them over: converted already, C order, exactly these types.
 template <class T>

@@ -15,6 +15,10 @@ NB_MODULE(_core, m) {
   brushfire::python::bind_certify(m);
   brushfire::python::bind_regions(m);
   brushfire::python::bind_cells(m);
+  brushfire::python::bind_weighted(m);
+  brushfire::python::bind_heat(m);
   brushfire::python::bind_figure(m);
   brushfire::python::bind_files(m);
+  brushfire::python::bind_derivatives(m);
+  brushfire::python::bind_flatten(m);
 }

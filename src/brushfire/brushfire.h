@@ -22,6 +22,13 @@
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/steiner/weights.h>
+#include <brushfire/solvers/heat.h>
+#include <brushfire/solvers/heat_options.h>
+#include <brushfire/solvers/laplacian.h>
+#include <brushfire/solvers/signed_heat.h>
+#include <brushfire/solvers/vector_heat.h>
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>
 #if BRUSHFIRE_QUERIES
@@ -30,8 +37,10 @@
 #include <brushfire/queries/compare.h>
 #include <brushfire/queries/curve_sources.h>
 #include <brushfire/queries/curved_isolines.h>
+#include <brushfire/queries/distance_gradient.h>
 #include <brushfire/queries/distance_matrix.h>
 #include <brushfire/queries/extent.h>
+#include <brushfire/queries/flatten.h>
 #include <brushfire/queries/gradient.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/karcher_mean.h>
@@ -47,6 +56,7 @@
 #include <brushfire/queries/surface_path.h>
 #include <brushfire/queries/vertex_measures.h>
 #include <brushfire/queries/voronoi.h>
+#include <brushfire/queries/weighted_path.h>
 #endif
 #if BRUSHFIRE_IO
 #include <brushfire/io/byte_stream.h>

@@ -32,6 +32,20 @@ TEST_F(MatrixVerb, WritesTheDenseMatrixOfChosenRowsAndColumns) {
   EXPECT_EQ(d.values, (std::vector<double>{5, 2.5, 0, inf, inf, inf}));
 }
 
+TEST_F(MatrixVerb, WritesThoseOfSeveralMeshesIntoAFolder) {
+  write("n.off", "OFF\n3 1 0\n0 0 0\n6 0 0\n0 8 0\n3 0 1 2\n");
+  const Ended ended = run({path("n.off"), "-o", path("all/")});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(read_npy(path("all/n.npy")).values, (std::vector<double>{0, 6, 8, 6, 0, 10, 8, 10, 0}));
+  EXPECT_EQ(run({"-o", path("m.npy"), "--quiet"}).code, 0);
+  const NpyArray alone = read_npy(path("m.npy")), in_set = read_npy(path("all/m.npy"));
+  EXPECT_EQ(alone.values, in_set.values);
+  EXPECT_EQ(run({path("m.off"), "-o", path("all/")}).code, 2);   // of one name
+  EXPECT_EQ(run({path("n.off"), "-o", path("d.npy")}).code, 2);  // no folder
+  const Ended json = run({path("n.off"), "-o", path("all/"), "--json"});
+  EXPECT_NE(json.out.find("\"files\": 2,"), std::string::npos) << json.out;
+}
+
 TEST_F(MatrixVerb, WritesAllPairsInFloatByDefault) {
   EXPECT_EQ(run({"-o", path("d.npy"), "--quiet"}).err, "");
   const NpyArray d = read_npy(path("d.npy"));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
@@ -45,40 +46,45 @@ std::vector<T> awkward_numbers(std::size_t count) {
 }  // namespace
 }  // namespace brushfire
 
+#define BRUSHFIRE_KERNEL_IS_WIDE
 #define BRUSHFIRE_KERNEL <core/lanes_test_kernel.h>
 #include <brushfire/core/detail/each_target.h>
 
 namespace brushfire {
 namespace {
 
-constexpr Variant kVariants[] = {Variant::Portable, Variant::Best};
+constexpr Variant kVariants[] = {Variant::Portable, Variant::Avx2, Variant::Best};
 
 TEST(Lanes, CalculateAsSingleNumbersDoToTheBit) {
-  for (const Variant variant : kVariants) BRUSHFIRE_ON_TARGET(variant, calculate_all());
+  for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, calculate_all());
 }
 
 TEST(Lanes, OfWholeNumbersCountModuloTwoToTheThirtyTwo) {
-  for (const Variant variant : kVariants) BRUSHFIRE_ON_TARGET(variant, count_all());
+  for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, count_all());
 }
 
 TEST(Lanes, ComeFromWhereTheIndexSays) {
-  for (const Variant variant : kVariants) BRUSHFIRE_ON_TARGET(variant, gather_all());
+  for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, gather_all());
 }
 
 TEST(Lanes, ArePermutedAndPackedByAnySetOfLanes) {
-  for (const Variant variant : kVariants) BRUSHFIRE_ON_TARGET(variant, pack_all());
+  for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, pack_all());
 }
 
 TEST(Lanes, TouchNoMemoryBeyondTheFirstOnes) {
-  for (const Variant variant : kVariants) BRUSHFIRE_ON_TARGET(variant, load_only_the_first());
+  for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, load_only_the_first());
 }
 
 TEST(Lanes, TurnIntoBytesAndBack) {
-  for (const Variant variant : kVariants) BRUSHFIRE_ON_TARGET(variant, store_as_bytes());
+  for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, store_as_bytes());
+}
+
+TEST(Lanes, TurnIntoWordsAndBack) {
+  for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, store_as_words());
 }
 
 TEST(Lanes, AreConvertedAsSingleNumbersAre) {
-  for (const Variant variant : kVariants) BRUSHFIRE_ON_TARGET(variant, convert_all());
+  for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, convert_all());
 }
 
 }  // namespace

@@ -45,6 +45,14 @@ void calculate() {
     expect_mask(x < y, "<", [&](int k) { return p[k] < q[k]; });
     expect_mask(x <= y, "<=", [&](int k) { return p[k] <= q[k]; });
     expect_mask(~(x == y) & (x <= x), "~ &", [&](int k) { return p[k] != q[k] && p[k] <= p[k]; });
+    expect_mask((x < y) ^ (x <= y), "^", [&](int k) { return p[k] == q[k]; });
+    expect_mask(without(x < y, x <= y), "without", [&](int k) { return p[k] == q[k]; });
+    T halves[N];
+    std::copy(p, p + N, halves);
+    for (int n = N / 2; n > 0; n /= 2) {
+      for (int k = 0; k < n; ++k) halves[k] += halves[k + n];
+    }
+    EXPECT_TRUE(same_bits(sum(x), halves[0]));
     if (testing::Test::HasFailure()) return;
   }
 }
@@ -59,6 +67,8 @@ void count() {
   expect_lanes(x - y, "-", [&](int k) { return a[k] - b[k]; });
   expect_lanes(x & 0xff00ffu, "&", [&](int k) { return a[k] & 0xff00ffu; });
   expect_lanes(x | y, "|", [&](int k) { return a[k] | b[k]; });
+  expect_lanes(x ^ y, "^", [&](int k) { return a[k] ^ b[k]; });
+  expect_mask(share_bits(x, V(0x30u)), "share bits", [&](int k) { return (a[k] & 0x30u) != 0; });
   expect_lanes(x << 5, "<<", [&](int k) { return a[k] << 5; });
   expect_lanes(x >> 3, ">>", [&](int k) { return a[k] >> 3; });
   expect_lanes(quotient<3>(x), "/ 3", [&](int k) { return a[k] / 3; });
@@ -124,6 +134,23 @@ inline void store_as_bytes() {
   std::uint8_t to[8];
   store_bytes(to, x);
   EXPECT_EQ(std::memcmp(bytes, to, sizeof to), 0);
+}
+
+template <int N>
+void store_words() {
+  using V = Lanes<std::uint32_t, N>;
+  std::uint16_t words[N], to[N + 1]{};
+  for (int k = 0; k < N; ++k) words[k] = static_cast<std::uint16_t>(0x8001u * static_cast<unsigned>(k + 1));
+  to[N] = 77;
+  const V x = load_words<V>(words);
+  expect_lanes(x, "words", [&](int k) { return std::uint32_t{words[k]}; });
+  store_words(to, x);
+  EXPECT_EQ(std::memcmp(words, to, sizeof words), 0);
+  EXPECT_EQ(to[N], 77);
+}
+inline void store_as_words() {
+  store_words<8>();
+  store_words<16>();
 }
 
 template <int N>

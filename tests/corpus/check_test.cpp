@@ -26,6 +26,7 @@ constexpr Once kWrongOnce[] = {
     {"tiny-clusters", 2, 14, "dijkstra", "distances to corners from three lengths"},
     {"far-point", 20261202, 38, "exact", "a vertex that only light along edges leads to was left out"},
     {"lattice", 20261201, 329, "paths", "the vertex before a source in a face without size was left out"},
+    {"zoo", 20261202, 443, "paths", "offsets far beyond a mesh without size that were taken for ties"},
     {"lattice", 20261201, 15, "exact", "a chord that a rounded window undercut, with the bound of the chord"},
 };
 

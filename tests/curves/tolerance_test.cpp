@@ -13,7 +13,6 @@
 namespace brushfire {
 namespace {
 
-
 void expect_kept(const Mesh& mesh, const std::vector<Source>& sources, double start, double tolerance, Bound bound,
                  const std::string& what) {
   const auto engine = windows::make_windows(mesh, windows::kPartBits, windows::Merging::Always);

@@ -87,6 +87,10 @@ void Verb::argument(const char* name, std::string& value, const char* help) {
   parser_.app->add_option(name, value, help)->required()->check(not_empty())->type_name("");
 }
 
+void Verb::arguments(const char* name, std::vector<std::string>& values, const char* help) {
+  parser_.app->add_option(name, values, help)->check(not_empty())->type_name("");
+}
+
 void Verb::required_option(const char* names, std::string& value, const char* placeholder, const char* help) {
   parser_.placed(parser_.app->add_option(names, value, help)->required()->check(not_empty())->type_name(placeholder));
 }

@@ -43,6 +43,8 @@ class Verb {
 
   // A required argument without a dash.
   void argument(const char* name, std::string& value, const char* help);
+  // Further ones behind it, as many as there are.
+  void arguments(const char* name, std::vector<std::string>& values, const char* help);
   // `names`: "-o,--output". `placeholder` is what the help shows for the value.
   void required_option(const char* names, std::string& value, const char* placeholder, const char* help);
   void option(const char* names, std::string& value, const char* placeholder, const char* help);
@@ -121,6 +123,7 @@ void add_matrix(CommandLine& command_line);
 void add_path(CommandLine& command_line);
 void add_isolines(CommandLine& command_line);
 void add_log_map(CommandLine& command_line);
+void add_flatten(CommandLine& command_line);
 void add_gradient(CommandLine& command_line);
 void add_render(CommandLine& command_line);
 void add_compare(CommandLine& command_line);

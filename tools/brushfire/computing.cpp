@@ -41,7 +41,28 @@ DistanceOptions common(const SharedArguments& a) {
   return options;
 }
 
-// "windows:1e-4", "novotni-klein:float64", "exact".
+constexpr std::array<std::pair<std::string_view, HeatBoundary>, 3> kBoundaries{
+    {{"neumann", HeatBoundary::Neumann}, {"dirichlet", HeatBoundary::Dirichlet}, {"averaged", HeatBoundary::Averaged}}};
+constexpr Range kTimeFactors{.low = 0, .high = 1e6, .above_low = true};
+
+// "4", "averaged", "4,averaged".
+void set_heat(const std::string& text, HeatOptions& heat) {
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string word = text.substr(begin, comma - begin);
+    const auto named = [&](const auto& entry) { return entry.first == word; };
+    const auto found = std::find_if(kBoundaries.begin(), kBoundaries.end(), named);
+    if (found != kBoundaries.end()) {
+      heat.boundary = found->second;
+    } else {
+      heat.time_factor = number_in(kTimeFactors, "heat: a time factor (or neumann, dirichlet, averaged)", word);
+    }
+    begin = comma + 1;
+  }
+}
+
+// "windows:1e-4", "novotni-klein:float64", "heat:4", "exact".
 void set_method(const std::string& text, DistanceOptions& options) {
   const std::size_t colon = text.find(':');
   options.method = method_named(text.substr(0, colon));
@@ -50,6 +71,8 @@ void set_method(const std::string& text, DistanceOptions& options) {
   const bool marches = has_precision(options.method);
   if (marches && (detail == "float32" || detail == "float64")) {
     options.precision = precision_named(detail);
+  } else if (options.method == Method::Heat) {
+    set_heat(detail, options.heat);
   } else if (options.method == Method::Windows) {
     options.tolerance = number_in(kTolerances, in_quotes(text) + ": a tolerance", detail);
   } else {

@@ -17,8 +17,9 @@ inline constexpr std::array<NumberWord, 4> kTolerancesInWords{
 inline constexpr Range kTolerances{.low = 0, .high = kMaxTolerance, .words = kTolerancesInWords};
 std::vector<std::string> bound_names();
 
-// What was asked for; where no method was, `otherwise`, or Method::Windows where a tolerance or a bound was:
-// it is the one that keeps them. A method may be followed by its own detail, "windows:1e-4" or "novotni-klein:float64".
+// What was asked for; where no method was, `otherwise`, or Method::Windows where a tolerance or a bound was: it is the
+// one that keeps them. A method may be followed by its own detail, "windows:1e-4", "novotni-klein:float64" or
+// "heat:4,averaged" (times the squared mean edge, what heat does at borders).
 // Throws Error(InvalidArgument) where options do not fit together, or where there are several methods.
 DistanceOptions computation(const SharedArguments& arguments, Method otherwise = DistanceOptions{}.method);
 // One for each --method; for all of `otherwise` where there is none. A tolerance is for those that keep one: somebody

@@ -6,6 +6,7 @@
 #include "reached.h"
 #include "sources.h"
 #include "surface.h"
+#include "weighted.h"
 #include "where.h"
 
 #include <brushfire/solvers/distance.h>
@@ -40,11 +41,12 @@ Examples:
   brushfire distance part.stl --source boundary -o from-the-rim.ply
   brushfire distance bunny.ply --source 0 --tolerance 1e-4 -o within-0.01-percent.npy
   brushfire distance bunny.ply --source 0 --target 5000 --tolerance fine --bound upper
+  brushfire distance terrain.ply --source 0 --weights friction.npy -o cost.npy
   brushfire distance bunny.ply --source 0 -o - | sort -t, -gk2 | tail -1
 
 The extension of -o decides: .ply (MeshLab; colours, and the distance as vertex quality), .vtk .vtp (ParaView), .obj
-(colours only), .npy (float64), .csv, .json, .gii, .curv. Only .json tells vertices that were not visited from those that
-cannot be reached.
+(colours only), .npy (float64), .csv, .json, .gii, .curv. Only .json tells vertices that were not visited from those
+that cannot be reached.
 Without -o and --target the result is told in words. Targets print one distance per line, inf and exit code 4
 where no source reaches; the run ends once their distances are final, so that a file written beside them may hold less
 than all. Vertices that cannot be reached, or lie beyond the radius, read inf in files.)";
@@ -52,6 +54,7 @@ than all. Vertices that cannot be reached, or lie beyond the radius, read inf in
 struct Arguments {
   std::string file, output;
   SharedArguments shared;
+  WeightArguments weights;
   std::vector<std::string> targets;
   bool labels = false;
 };
@@ -164,6 +167,10 @@ void write(const Arguments& arguments, const Run& run, const Surface& surface) {
 int distance_verb(const Arguments& arguments, const Talk& talk) {
   // What can be wrong without the mesh is said before a large file is read.
   check(arguments, talk);
+  if (arguments.weights.given()) {
+    return weighted_distance({arguments.file, arguments.output, arguments.shared, arguments.weights, arguments.targets},
+                             talk);
+  }
   Run run;
   DistanceOptions& options = run.options;
   options = computation(arguments.shared);
@@ -222,6 +229,7 @@ void add_distance(CommandLine& command_line) {
     verb.option("-o,--output", arguments->output, "FILE",
                 ("Write the field: " + extensions_of(fields_written()) + "; - prints CSV").c_str());
     verb.flag("--labels", arguments->labels, "Write the nearest source into .gii too, as other formats have it");
+    add_weights(verb, arguments->weights);
     verb.talks();
     add_shared(verb, arguments->shared,
                {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});

@@ -4,11 +4,15 @@
 #include "sources.h"
 #include "surface.h"
 
+#include <brushfire/core/error.h>
 #include <brushfire/queries/distance_matrix.h>
 
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace brushfire::tool {
@@ -25,12 +29,16 @@ Examples:
   brushfire matrix cortex.gii -o d.npy
   brushfire matrix cortex.gii --rows 0,5,9 --columns landmarks.txt --dtype float64 -o d.npy
   brushfire matrix cortex.gii --radius 20 --method exact -o near.npz
+  brushfire matrix pose1.off pose2.off pose3.off -o matrices/
+
+Of several meshes every matrix becomes FOLDER/NAME.npy, by the name of the mesh's file.
 
 .npy is the dense matrix, written row by row: interrupted, the same command goes on where it stopped. With --radius,
 .npz (scipy.sparse.load_npz) and .mtx (MatrixMarket) hold what is within it; there, columns are all vertices.)";
 
 struct Arguments {
   std::string file, output;
+  std::vector<std::string> more;  // files
   SharedArguments shared;
   std::string rows, columns;  // "": all
   std::string type = "float32";
@@ -109,7 +117,8 @@ std::uint64_t write_sparse(const Arguments& arguments, const Domain& domain, Pla
   return matrix.value.size();
 }
 
-int matrix_verb(const Arguments& arguments, const Talk& talk) {
+// Of one mesh.
+std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
   check(arguments);
   MatrixOptions options;
   options.distance = computation(arguments.shared);
@@ -142,7 +151,7 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
   const double solve_s = seconds_since(start);
   talk.end_progress();
 
-  if (talk.json) {
+  if (talk.json && arguments.more.empty()) {
     Record record;
     record.add("file", arguments.file)
         .add("method", std::string(name_of(options.distance.method)))
@@ -158,10 +167,59 @@ int matrix_verb(const Arguments& arguments, const Talk& talk) {
         .add("solve_s", solve_s);
     finder.add_to(record);
     write_stdout(record.add("output", arguments.output).json());
-  } else {
+  } else if (!talk.json) {
     talk.say(arguments.output + ": " + std::to_string(row_count) + " x " + std::to_string(column_count) + ", " +
              counted(entries, "entry", "entries") + ", in " + duration(solve_s));
   }
+  return entries;
+}
+
+// Where the matrix of each of several meshes goes.
+std::vector<std::filesystem::path> outputs_of(const Arguments& arguments, std::span<const std::string> files) {
+  const std::filesystem::path folder(arguments.output);
+  if (folder.has_extension() && !std::filesystem::is_directory(folder)) {
+    refuse(arguments.output + ": several meshes need a folder: -o FOLDER/");
+  }
+  std::vector<std::filesystem::path> outputs;
+  for (const std::string& file : files) {
+    const std::filesystem::path output = folder / (std::filesystem::path(file).stem().string() + ".npy");
+    if (std::find(outputs.begin(), outputs.end(), output) != outputs.end()) {
+      refuse("two of the meshes would become " + output.string());
+    }
+    outputs.push_back(output);
+  }
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw Error(ErrorCode::FileNotWritable, folder.string() + ": " + failure.message());
+  return outputs;
+}
+
+int write_matrices(const Arguments& arguments, const Talk& talk) {
+  std::vector<std::string> files{arguments.file};
+  files.insert(files.end(), arguments.more.begin(), arguments.more.end());
+  const std::vector<std::filesystem::path> outputs = outputs_of(arguments, files);
+  const auto start = std::chrono::steady_clock::now();
+  std::uint64_t entries = 0;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    Arguments one = arguments;
+    one.file = files[i];
+    one.output = outputs[i].string();
+    entries += write_matrix(one, talk);
+  }
+  if (talk.json) {
+    Record record;
+    record.add("files", static_cast<std::int64_t>(files.size()))
+        .add("entries", static_cast<std::int64_t>(entries))
+        .add("dtype", arguments.type)
+        .add("seconds", seconds_since(start));
+    write_stdout(record.add("output", arguments.output).json());
+  }
+  return kOk;
+}
+
+int matrix_verb(const Arguments& arguments, const Talk& talk) {
+  if (!arguments.more.empty()) return write_matrices(arguments, talk);
+  write_matrix(arguments, talk);
   return kOk;
 }
 
@@ -171,6 +229,7 @@ void add_matrix(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("matrix", "Distances from many places to many places", [&](Verb& verb) {
     add_surface(verb, arguments->file);
+    verb.arguments("MORE", arguments->more, "Further meshes: every one's matrix goes into a folder, -o FOLDER/");
     verb.option("--rows", arguments->rows, "PLACES", "all, a list of vertices, or a file with one place per line");
     verb.option("--columns,--cols", arguments->columns, "PLACES", "The same for the columns");
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");

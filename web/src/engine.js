@@ -2,9 +2,10 @@
 import { createPool } from 'brushfire';
 
 import { poolParts } from './parts.js';
+import { isCurve } from './state.js';
 
 export class Engine {
-  #pool; #mesh = null; #running = null; #waiting = null;
+  #pool; #mesh = null; #running = null; #waiting = null; #curves = new Map();
 
   static async start() {
     const engine = new Engine();
@@ -31,7 +32,23 @@ export class Engine {
     this.#running?.controller.abort();
     this.#mesh?.free();
     this.#mesh = mesh;
+    this.#curves.clear();
     return { mesh, vertices, faces, report };
+  }
+
+  // The curve through the places of a source that is one: shortest between them.
+  curve(source) {
+    const key = JSON.stringify(source);
+    if (!this.#curves.has(key)) {
+      if (this.#curves.size > 100) this.#curves.clear();
+      this.#curves.set(key, this.#mesh.path(source.through, { closed: source.closed }));
+    }
+    return this.#curves.get(key);
+  }
+
+  // Sources of the state as the package takes them.
+  async sources(list) {
+    return Promise.all(list.map(async (s) => (isCurve(s) ? { curve: await this.curve(s), closed: s.closed } : s)));
   }
 
   // A field for each of `computations`, side by side. The newest question only: one that still waits when a newer one
@@ -49,10 +66,25 @@ export class Engine {
     const { signal } = controller;
     this.#running = { controller };
     try {
-      return await Promise.all(computations.map((options) => this.#mesh.distance(sources, { ...options, signal })));
+      const starts = await this.sources(sources);
+      return await Promise.all(computations.map((options) => this.#mesh.distance(starts, { ...options, signal })));
     } finally {
       this.#running = null;
       this.#next();
+    }
+  }
+
+  // Distance of a place, which source is nearest to it, and the path from there.
+  async look(sources, options, place, wantsPath) {
+    const starts = await this.sources(sources);
+    const { targetDistance: [distance], targetSource: [source] } = await this.#mesh.distance(starts, { ...options, targets: [place] });
+    if (!wantsPath || source < 0) return { distance, path: null };
+    if (!isCurve(sources[source])) return { distance, path: await this.#mesh.path([sources[source], place]) };
+    const field = await this.#mesh.field([starts[source]], { method: 'exact', targets: [place], keep: 'paths' });
+    try {
+      return { distance, path: await field.path(place) };
+    } finally {
+      field.free();
     }
   }
 

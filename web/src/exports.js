@@ -1,4 +1,5 @@
 // What the visitor takes along: the bytes that the program would write.
+import { curveFile, isCurve } from './state.js';
 
 function download(bytes, name, type = 'application/octet-stream') {
   const url = URL.createObjectURL(bytes instanceof Blob ? bytes : new Blob([bytes], { type }));
@@ -16,6 +17,11 @@ export async function save({ engine, field, path, scene, state }, what) {
   if (what === 'path.obj') {
     if (!path) throw new Error('Point at the surface first: the path under the pointer is saved.');
     return download(await mesh.writeCurves('obj', [path]), 'path.obj');
+  }
+  if (what === 'curve.json') {
+    const k = state.sources.findIndex(isCurve);
+    if (k < 0) throw new Error('Draw a curve first.');
+    return download(await mesh.writeCurves('json', [await engine.curve(state.sources[k])]), curveFile(k));
   }
   const format = what.split('.')[1];
   const farthest = field.distance.reduce((most, d) => (Number.isFinite(d) && d > most ? d : most), 0);

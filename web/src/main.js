@@ -4,13 +4,13 @@ import { save } from './exports.js';
 import { heldMesh, tellFrame } from './held.js';
 import { listen, openFiles } from './pointer.js';
 import { Scene } from './scene.js';
-import { asCommand, asPython, fromFragment, History, initial, relativeError, SHAPES, solving, tidy, toFragment } from './state.js';
+import { asCommand, asPython, fromFragment, handles, History, initial, isCurve, relativeError, SHAPES, solving, tidy, toFragment } from './state.js';
 
 const $ = (id) => document.getElementById(id);
 const METHODS = ['windows', 'exact', 'novotni-klein', 'carried-source', 'kimmel-sethian', 'novotni-klein-2002', 'dijkstra'];
 const number = (x) => (Number.isFinite(x) ? Number(x.toPrecision(7)).toString() : 'unreachable');
 
-export const app = { state: fromFragment(location.hash) ?? initial(), history: new History(), scene: null, engine: null, field: null, path: null, file: null };
+export const app = { state: fromFragment(location.hash) ?? initial(), history: new History(), scene: null, engine: null, field: null, path: null, drawing: null, file: null };
 
 function say(error) {
   $('message').textContent = error ? String(error.message ?? error) : '';
@@ -65,6 +65,7 @@ function showGiven(values) {
 
 // The field of the state as it is now; pictures of older ones are not drawn.
 export async function refresh() {
+  forget();
   show();
   const busy = setTimeout(() => { $('busy').hidden = false; }, 200);
   const { against } = app.state;
@@ -123,7 +124,35 @@ function show() {
   $('undo').disabled = !app.history.canUndo;
   $('redo').disabled = !app.history.canRedo;
   history.replaceState(null, '', state.shape ? toFragment(state) : '#');
-  app.engine.mesh?.position(state.sources).then((p) => app.scene.showSources(p), () => {});
+  showSources(state.sources);
+}
+
+// Curves, and the places that can be moved; what the places are that a curve is drawn through is not there to see yet.
+async function showSources(sources) {
+  const mine = (shown += 1);
+  await guarded(async () => {
+    const drawn = app.drawing?.length > 1 ? [...sources, { through: app.drawing, closed: false }] : sources;
+    const places = [...handles(drawn).map(({ place }) => place), ...(app.drawing?.length === 1 ? app.drawing : [])];
+    const [positions, curves] = await Promise.all([app.engine.mesh.position(places), Promise.all(drawn.filter(isCurve).map((s) => app.engine.curve(s)))]);
+    if (mine === shown) app.scene.showSources(positions, curves);
+  });
+}
+let shown = 0;
+
+// A curve is drawn by the places that it goes through. Null: none is.
+function drawCurve(places) {
+  if (places) forget();
+  app.drawing = places;
+  $('draw').setAttribute('aria-pressed', String(places !== null));
+  for (const id of ['end-curve', 'close-curve']) $(id).disabled = !(places?.length > 1);
+  if (places) $('readout').textContent = places.length === 0 ? 'Click where the curve goes' : `A curve through ${places.length} place${places.length > 1 ? 's' : ''}`;
+  showSources(app.state.sources);
+}
+
+function endCurve(closed, adds) {
+  const through = app.drawing;
+  drawCurve(null);
+  return setSources([...(adds ? app.state.sources : []), { through, closed }]);
 }
 
 // A change that can be undone.
@@ -139,29 +168,32 @@ export function setSources(sources, { remember = true } = {}) {
   return refresh();
 }
 
+// What was said of a point holds for the sources of then.
+function forget() {
+  ++asked;
+  app.path = null;
+  app.scene.showPath(null);
+  $('readout').textContent = 'Point at the surface';
+}
+
 // The number and the path at a point: exactly what the program says for it with the same options.
 let asked = 0;
 export async function look(point) {
   const mine = ++asked;
-  if (!point) return;
+  if (!point || app.drawing) return;
   await guarded(async () => {
-    const { mesh } = app.engine;
     if (app.field?.given) {
       const value = point.weights.reduce((sum, w, k) => (w > 0 ? sum + w * app.field.distance[app.faces[3 * point.face + k]] : sum), 0);
       $('readout').textContent = `Value ${number(value)}`;
       return;
     }
-    const { targetDistance, targetSource } = await mesh.distance(app.state.sources, { ...solving(app.state), targets: [point] });
+    const { distance, path } = await app.engine.look(app.state.sources, solving(app.state), point, $('path').checked);
     if (mine !== asked) return;
     app.target = point;
-    $('readout').textContent = `Distance ${number(targetDistance[0])}`;
-    $('readout').dataset.distance = targetDistance[0];
-    if (!$('path').checked || targetSource[0] < 0) return;
-    const path = await mesh.path([app.state.sources[targetSource[0]], point]);
-    if (mine !== asked) return;
+    $('readout').textContent = `Distance ${number(distance)}${path ? `, path ${number(path.length)} long` : ''}`;
+    $('readout').dataset.distance = distance;
     app.path = path;
-    app.scene.showPath(path.positions);
-    $('readout').textContent = `Distance ${number(targetDistance[0])}, path ${number(path.length)} long`;
+    if (path) app.scene.showPath(path.positions);
   });
 }
 
@@ -227,6 +259,9 @@ function bind() {
   $('path').onchange = () => { if (!$('path').checked) app.scene.showPath(null); };
   $('cells').onchange = () => { app.scene.uniforms.showCells.value = $('cells').checked; app.scene.draw(); };
   $('wave').onclick = () => wave($('wave').getAttribute('aria-pressed') !== 'true');
+  $('draw').onclick = () => drawCurve(app.drawing ? null : []);
+  $('end-curve').onclick = (event) => endCurve(false, event.shiftKey);
+  $('close-curve').onclick = (event) => endCurve(true, event.shiftKey);
   $('undo').onclick = () => travel((s) => app.history.undo(s));
   $('redo').onclick = () => travel((s) => app.history.redo(s));
   $('cancel').onclick = () => app.engine.cancel();
@@ -235,7 +270,7 @@ function bind() {
   $('copy-command').onclick = () => guarded(() => navigator.clipboard.writeText(asCommand(app.state, file())));
   $('copy-python').onclick = () => guarded(() => navigator.clipboard.writeText(asPython(app.state, file())));
   $('controls').onsubmit = (event) => event.preventDefault();
-  listen($('canvas'), app, { setSources, look, undo: () => $('undo').click() });
+  listen($('canvas'), app, { setSources, drawCurve, look, undo: () => $('undo').click() });
   openFiles($('stage'), $('file'), openFile);
 }
 

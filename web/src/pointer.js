@@ -1,38 +1,43 @@
 // Pointer and keyboard on the surface: sources are set, added and dragged; what is under the pointer is told.
 
+import { handles, withHandle } from './state.js';
+
 const NEAR = 14; // pixels: a press that near to a source takes hold of it
 const STILL = 5; // pixels: a press that moved less is a click, else the view was turned
 
-export function listen(canvas, app, { setSources, look, undo }) {
+export function listen(canvas, app, { setSources, drawCurve, look, undo }) {
   let press = null;
   let hover = null;
 
-  async function sourceAt(x, y) {
-    const positions = await app.engine.mesh.position(app.state.sources);
-    for (let k = 0; k < app.state.sources.length; ++k) {
-      const at = app.scene.onPage(...positions.subarray(3 * k, 3 * k + 3));
-      if (Math.hypot(at.x - x, at.y - y) < NEAR) return k;
-    }
-    return -1;
+  function take(point, adds) {
+    if (app.drawing) return drawCurve([...app.drawing, point]);
+    return setSources(adds ? [...app.state.sources, point] : [point]);
   }
 
-  const moved = (k, point) => app.state.sources.map((s, i) => (i === k ? point : s));
+  async function sourceAt(x, y) {
+    const held = handles(app.state.sources);
+    const positions = await app.engine.mesh.position(held.map(({ place }) => place));
+    return held.find((_, i) => {
+      const at = app.scene.onPage(...positions.subarray(3 * i, 3 * i + 3));
+      return Math.hypot(at.x - x, at.y - y) < NEAR;
+    });
+  }
 
   canvas.addEventListener('pointerdown', async (event) => {
-    const mine = (press = { x: event.clientX, y: event.clientY, shift: event.shiftKey, held: -1, dragged: false });
+    const mine = (press = { x: event.clientX, y: event.clientY, shift: event.shiftKey, held: undefined, dragged: false });
     const point = app.scene.pick(event.clientX, event.clientY);
-    if (!point || event.shiftKey) return;
+    if (!point || event.shiftKey || app.drawing) return;
     // Turning waits for the answer, which takes a worker some milliseconds.
     app.scene.turning = false;
-    const k = await sourceAt(event.clientX, event.clientY);
-    if (press === mine) mine.held = k;
-    app.scene.turning = press !== mine || k < 0;
+    const held = await sourceAt(event.clientX, event.clientY);
+    if (press === mine) mine.held = held;
+    app.scene.turning = press !== mine || !held;
   });
   canvas.addEventListener('pointermove', (event) => {
-    if (press?.held >= 0) {
+    if (press?.held) {
       const point = app.scene.pick(event.clientX, event.clientY);
       if (!point) return;
-      setSources(moved(press.held, point), { remember: !press.dragged });
+      setSources(withHandle(app.state.sources, press.held, point), { remember: !press.dragged });
       press.dragged = true;
       return;
     }
@@ -46,7 +51,7 @@ export function listen(canvas, app, { setSources, look, undo }) {
     press = null;
     if (!was || was.dragged || Math.hypot(event.clientX - was.x, event.clientY - was.y) > STILL) return;
     const point = app.scene.pick(event.clientX, event.clientY);
-    if (point) setSources(was.shift ? [...app.state.sources, point] : [point]);
+    if (point) take(point, was.shift);
   });
   canvas.addEventListener('pointerleave', () => clearTimeout(hover));
 
@@ -62,8 +67,9 @@ export function listen(canvas, app, { setSources, look, undo }) {
       '+': () => app.scene.zoom(0.9),
       '-': () => app.scene.zoom(1 / 0.9),
       Home: () => app.scene.home(),
-      Enter: () => { const p = middle(); if (p) setSources([p]).then(() => look(app.state.sources[0])); },
-      a: () => { const p = middle(); if (p) setSources([...app.state.sources, p]); },
+      Enter: () => { const p = middle(); if (p) take(p, false)?.then(() => look(app.state.sources[0])); },
+      Escape: () => app.drawing && drawCurve(null),
+      a: () => { const p = middle(); if (p) take(p, true); },
       ' ': () => look(middle()),
     };
     if ((event.ctrlKey || event.metaKey) && event.key === 'z') undo();

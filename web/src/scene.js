@@ -134,7 +134,8 @@ export class Scene {
     return out;
   }
 
-  showSources(positions) {
+  // A dot at each place, and the curves among the sources.
+  showSources(positions, curves = []) {
     for (const m of this.#marks.children) { m.geometry.dispose(); m.material.dispose(); }
     this.#marks.clear();
     const p = this.#inView(positions);
@@ -143,26 +144,33 @@ export class Scene {
       mark.position.set(p[i], p[i + 1], p[i + 2]);
       this.#marks.add(mark);
     }
+    for (const { positions: line } of curves) if (line.length > 3) this.#marks.add(this.#tube(line, 0.009));
     this.draw();
   }
 
   showPath(positions) {
-    if (this.#path) {
-      this.#scene.remove(this.#path);
-      this.#path.geometry.dispose();
-      this.#path = null;
-    }
-    if (positions?.length > 3) {
-      const points = this.#inView(positions);
-      const curve = new THREE.CurvePath();
-      for (let i = 3; i < points.length; i += 3) {
-        curve.add(new THREE.LineCurve3(new THREE.Vector3(...points.subarray(i - 3, i)), new THREE.Vector3(...points.subarray(i, i + 3))));
-      }
-      const steps = Math.min(2000, 4 * (points.length / 3));
-      this.#path = new THREE.Mesh(new THREE.TubeGeometry(curve, steps, 0.006, 6), new THREE.MeshBasicMaterial({ color: 0xd62728 }));
-      this.#scene.add(this.#path);
-    }
+    this.#path = this.#replaced(this.#path, positions?.length > 3 ? this.#tube(positions, 0.006) : null);
     this.draw();
+  }
+
+  #replaced(old, tube) {
+    if (old) {
+      this.#scene.remove(old);
+      old.geometry.dispose();
+      old.material.dispose();
+    }
+    if (tube) this.#scene.add(tube);
+    return tube;
+  }
+
+  #tube(positions, radius) {
+    const points = this.#inView(positions);
+    const curve = new THREE.CurvePath();
+    for (let i = 3; i < points.length; i += 3) {
+      curve.add(new THREE.LineCurve3(new THREE.Vector3(...points.subarray(i - 3, i)), new THREE.Vector3(...points.subarray(i, i + 3))));
+    }
+    const steps = Math.min(2000, 4 * (points.length / 3));
+    return new THREE.Mesh(new THREE.TubeGeometry(curve, steps, radius, 6), new THREE.MeshBasicMaterial({ color: 0xd62728 }));
   }
 
   // {face, weights} under a point of the canvas, in pixels of the page; null: nothing.

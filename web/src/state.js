@@ -16,16 +16,44 @@ export const initial = () => ({ shape: 'folded sphere', sources: [{ face: 0, wei
 const digits = (w) => String(Number(w.toFixed(12)));
 
 // Weights as they come back from their text: a shared page shows the same numbers.
-export const tidy = ({ face, weights }) => {
+export const tidy = (source) => (isCurve(source) ? { ...source, through: source.through.map(tidyPlace) } : tidyPlace(source));
+const tidyPlace = ({ face, weights }) => {
   const [a, b] = weights.slice(0, 2).map((w) => Number(digits(w)));
   return { face, weights: [a, b, Math.max(0, Number(digits(1 - a - b)))] };
 };
 
 export const placeText = ({ face, weights }) => `f:${face}:${weights.map(digits).join(',')}`;
 
+// A source is a place, or a curve: {through: places, closed}, which is shortest between them. As text in the address.
+export const isCurve = (source) => 'through' in source;
+const sourceText = (s) => (isCurve(s) ? `${s.closed ? 'loop' : 'curve'}:${s.through.map(placeText).join(';')}` : placeText(s));
+
+function placeOf(text) {
+  const [, face, weights] = /^f:(\d+):([-\d.e,]+)$/.exec(text) ?? [];
+  const place = { face: Number(face), weights: weights?.split(',').map(Number) ?? [] };
+  return Number.isInteger(place.face) && place.weights.length === 3 && place.weights.every(Number.isFinite) ? place : null;
+}
+
+// Null where the text is none.
+function sourceOf(text) {
+  const [, kind, list] = /^(curve|loop):(.*)$/.exec(text) ?? [];
+  if (!kind) return placeOf(text);
+  const through = list.split(';').map(placeOf);
+  return through.length > 1 && through.every(Boolean) ? { through, closed: kind === 'loop' } : null;
+}
+
+// The places that can be taken hold of: of which source, and which of its places.
+export const handles = (sources) => sources.flatMap((s, k) => (isCurve(s) ? s.through.map((place, j) => ({ place, k, j })) : [{ place: s, k, j: 0 }]));
+
+// The sources with one of these places somewhere else.
+export const withHandle = (sources, { k, j }, place) => sources.map((s, i) => {
+  if (i !== k) return s;
+  return isCurve(s) ? { ...s, through: s.through.map((p, l) => (l === j ? place : p)) } : place;
+});
+
 export function toFragment(state) {
   const words = new URLSearchParams({ shape: state.shape, method: state.method, tolerance: state.tolerance, against: state.against, colours: state.colormap, lines: String(state.lines) });
-  for (const source of state.sources) words.append('source', placeText(source));
+  for (const source of state.sources) words.append('source', sourceText(source));
   return `#${words}`;
 }
 
@@ -33,12 +61,9 @@ export function toFragment(state) {
 export function fromFragment(fragment) {
   const words = new URLSearchParams(fragment.replace(/^#/, ''));
   if (!(words.get('shape') in SHAPES)) return null;
-  const sources = words.getAll('source').map((text) => {
-    const [, face, weights] = /^f:(\d+):([-\d.e,]+)$/.exec(text) ?? [];
-    return { face: Number(face), weights: weights?.split(',').map(Number) ?? [] };
-  });
+  const sources = words.getAll('source').map(sourceOf);
   const start = initial();
-  if (sources.length === 0 || !sources.every((s) => Number.isInteger(s.face) && s.weights.length === 3 && s.weights.every(Number.isFinite))) return null;
+  if (sources.length === 0 || !sources.every(Boolean)) return null;
   return { ...start, shape: words.get('shape'), sources, method: words.get('method') ?? start.method, tolerance: words.get('tolerance') ?? start.tolerance, against: words.get('against') ?? start.against,
     colormap: words.get('colours') ?? start.colormap, lines: Math.min(60, Math.max(0, Number(words.get('lines') ?? start.lines) || 0)) };
 }
@@ -86,10 +111,13 @@ export const solving = ({ method, tolerance }) => (method === 'windows' ? { meth
 // The share by which a value differs from another one; NaN where one of them is nothing to compare with.
 export const relativeError = (value, against) => (value === against ? 0 : against > 0 ? (value - against) / against : NaN);
 
+// What the page calls the file of a drawn curve.
+export const curveFile = (k) => `curve-${k}.json`;
+
 // What does the same on the command line, and in Python.
 export function asCommand(state, file) {
   const options = solving(state);
-  const words = ['brushfire', 'distance', file, ...state.sources.map((s) => `--source ${placeText(s)}`), `--method ${options.method}`];
+  const words = ['brushfire', 'distance', file, ...state.sources.map((s, k) => `--source ${isCurve(s) ? curveFile(k) : placeText(s)}`), `--method ${options.method}`];
   if (options.tolerance !== undefined) words.push(`--tolerance ${state.tolerance}`);
   return `${words.join(' ')} -o distance.npy`;
 }

@@ -220,6 +220,42 @@ test('two methods are compared, and the error is what the library says', async (
   await v.close();
 });
 
+test('a curve is drawn, is a source, is moved, shared and saved', async () => {
+  const v = await visit('#shape=sphere&source=f:0:1,0,0&method=exact');
+  const m = await middle(v.page);
+  await v.page.click('#draw');
+  for (const [x, y] of [[-90, -60], [80, -40], [20, 90]]) {
+    await v.page.mouse.click(m.x + x, m.y + y);
+    await v.page.waitForTimeout(150);
+  }
+  await v.nextField(() => v.page.click('#close-curve'));
+  const [source] = (await v.state()).sources;
+  assert.equal(source.through.length, 3);
+  assert.equal(source.closed, true);
+  const { length, least } = await v.page.evaluate('brushfire.engine.curve(brushfire.state.sources[0]).then((c) => ({ length: c.length, least: Math.min(...brushfire.field.distance) }))');
+  assert.ok(length > 0.5, `the curve is ${length} long`);
+  assert.ok(least < 0.05, `its nearest vertex is ${least} away`);
+  await v.shot('curve');
+  await v.page.mouse.move(m.x, m.y);
+  await v.page.waitForFunction("document.getElementById('readout').textContent.includes('path')");
+  const [distance, pathLength] = await v.page.evaluate("[Number(document.getElementById('readout').dataset.distance), brushfire.path.length]");
+  assert.ok(Math.abs(distance - pathLength) <= 1e-10, `${distance} away, a path of ${pathLength}`);
+  await v.page.selectOption('#export', 'curve.json');
+  const [download] = await Promise.all([v.page.waitForEvent('download'), v.page.click('#save')]);
+  const saved = join(folder, download.suggestedFilename());
+  await download.saveAs(saved);
+  assert.ok(readFileSync(saved, 'utf8').length > 100);
+  const address = new URL(v.page.url()).hash;
+  const sum = await v.page.evaluate('brushfire.field.distance.reduce((s, d) => s + d)');
+  await v.nextField(() => v.page.click('#undo'));
+  assert.equal((await v.state()).sources[0].face, 0);
+  assert.deepEqual(v.complaints, []);
+  await v.close();
+  const w = await visit(address);
+  assert.equal(await w.page.evaluate('brushfire.field.distance.reduce((s, d) => s + d)'), sum);
+  await w.close();
+});
+
 test('brushfire view makes one file that works from the disk, offline', { skip: withoutNative }, async () => {
   const file = fileOf('torus', 120, 60);
   const page = join(folder, 'page.html');

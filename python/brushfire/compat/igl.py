@@ -1,6 +1,7 @@
-"""igl.exact_geodesic, with sources and targets at vertices and at the centres of faces.
+"""igl.exact_geodesic, with sources and targets at vertices and at the centres of faces; and igl's heat geodesics.
 
-Different from the original, on purpose: targets that cannot be reached read +inf (the original gives 0 or ends the
+Different from the original, on purpose: every source of the heat method reads 0, other components +inf, and any mesh is
+taken. Of exact geodesics, targets that cannot be reached read +inf (the original gives 0 or ends the
 process), an index that does not exist is an IndexError, and the order of the arguments before libigl 2.6 is understood.
 """
 
@@ -10,11 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire._arrays import Floats
+from brushfire._errors import BrushfireError
+from brushfire._heat import HeatSolver
 from brushfire._mesh import Mesh
 from brushfire._places import PlaceArrays
 from brushfire.compat._exact import METHOD, indices
 
-__all__ = ["exact_geodesic"]
+__all__ = ["HeatGeodesicsData", "exact_geodesic", "heat_geodesics_precompute", "heat_geodesics_solve"]
 
 
 def _places(mesh: Mesh, vertices: npt.ArrayLike, faces: npt.ArrayLike, what: str) -> PlaceArrays:
@@ -70,3 +73,40 @@ def _by_name(places: tuple[npt.ArrayLike, ...], named: dict[str, npt.ArrayLike])
             raise TypeError(f"exact_geodesic: {name} was given twice")
         given[name.upper()] = () if place is None else place
     return given
+
+
+class HeatGeodesicsData:
+    """What :func:`heat_geodesics_precompute` fills."""
+
+    def __init__(self) -> None:
+        self.use_intrinsic_delaunay = False
+        self._solver: HeatSolver | None = None
+
+
+def heat_geodesics_precompute(V: npt.ArrayLike, F: npt.ArrayLike, *rest: float | HeatGeodesicsData) -> None:
+    """Factors the heat method's two systems: ``heat_geodesics_precompute(V, F, t, data)``, or without t.
+
+    :param t: for how long heat spreads; the mean edge length squared where nothing is said.
+    :param data: is filled. Its ``use_intrinsic_delaunay`` counts as in the original, where it is False.
+
+    Borders: the mean of free and cold ones, as in the original.
+
+    >>> from brushfire.compat import igl
+    >>> V, F = [[0, 0, 0], [3, 0, 0], [3, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]]
+    >>> data = igl.HeatGeodesicsData()
+    >>> igl.heat_geodesics_precompute(V, F, data)
+    >>> igl.heat_geodesics_solve(data, [1]).shape
+    (4,)
+    """
+    data = rest[-1] if rest else None
+    if not isinstance(data, HeatGeodesicsData) or len(rest) > 2:
+        raise TypeError("heat_geodesics_precompute: it takes V, F, t and data, or V, F and data")
+    time = float(rest[0]) if len(rest) == 2 and not isinstance(rest[0], HeatGeodesicsData) else None
+    data._solver = HeatSolver(Mesh(V, F), time=time, boundary="averaged", delaunay=bool(data.use_intrinsic_delaunay))
+
+
+def heat_geodesics_solve(data: HeatGeodesicsData, gamma: npt.ArrayLike) -> Floats:
+    """Distances from the nearest of the vertices ``gamma``, (vertices,)."""
+    if data._solver is None:
+        raise BrushfireError("heat_geodesics_solve: data comes out of heat_geodesics_precompute")
+    return data._solver.distance(indices(gamma, data._solver.mesh.vertex_count, "gamma"))

@@ -151,10 +151,8 @@ class Shortener {
         // It crosses nothing, as along the edges of a face that names a vertex twice: it pulls together.
         if (single && pieces.front().leg.steps.empty() && way->empty()) return {{}, true};
         Leg leg = single ? rotated(pieces.front().leg, *way) : joined(pieces.back().leg, *way, pieces.front().leg);
-        if (!single) {
-          legs.erase(legs.begin());
-          legs.pop_back();
-        }
+        legs.erase(legs.begin());
+        if (!single) legs.pop_back();
         legs.push_back(std::move(leg));
         changed = true;
       }

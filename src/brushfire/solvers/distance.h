@@ -13,6 +13,7 @@
 #include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
+#include <brushfire/solvers/heat_options.h>
 #include <brushfire/solvers/window_field.h>
 
 #include <memory>
@@ -31,14 +32,15 @@ enum class Method : std::uint8_t {
   NovotniKlein2002,  // the update literally as printed in the paper, to show what it does
   KimmelSethian,     // fast marching, planar update: the paper's baseline
   Dijkstra,          // edge graph: an upper bound
+  Heat,              // two linear systems (heat_options.h): smooth, no bound; see docs/heat.md. In builds with Eigen
 };
 
-// "windows", "exact", "carried-source", "novotni-klein", "novotni-klein-2002", "kimmel-sethian", "dijkstra": as on the
-// command line.
+// "windows", "exact", "carried-source", "novotni-klein", "novotni-klein-2002", "kimmel-sethian", "dijkstra",
+// "heat": as on the command line.
 std::string_view name_of(Method method);
-// Throws Error(InvalidArgument) that lists the names.
+// Throws Error(InvalidArgument) that lists the names, or says what a build lacks for the method.
 Method method_named(std::string_view name);
-// All of them, in the order of the enumeration.
+// All that this build has, in the order of the enumeration.
 std::span<const Method> all_methods();
 
 // Arithmetic of the marching itself; lengths and results are double either way. Float costs digits beyond the sixth, of
@@ -58,6 +60,8 @@ struct Source {
   std::shared_ptr<const CurveSource> curve = nullptr;
 };
 Source source_along(CurveSource curve, double offset = 0);
+// The least value that the front starts with anywhere on the source.
+double least_offset(const Source& source);
 
 inline constexpr double kMaxTolerance = 0.1;
 
@@ -68,6 +72,7 @@ struct DistanceOptions {
   // run (on scans: 1e-3 at some thousand vertices, 1e-4 at some hundred thousand).
   double tolerance = 1e-3;
   Bound bound = Bound::Estimate;           // Method::Windows only
+  HeatOptions heat = {};                   // Method::Heat only
   Precision precision = Precision::Float;  // methods that have only one ignore it
   double max_distance = kInfinity;         // vertices farther than this read +inf; >= 0, may be +inf
   // Where there are any, the solver may stop once all of them are final; those that are nowhere read +inf.

@@ -110,7 +110,7 @@ TEST(CarriedUpdate, KnowsWhatIsNotThere) {
 
 TEST(CarriedUpdate, ASourceAboveTheEdgeOrInTheDarkIsTheVertexItself) {
   const auto below = [](double x, double y, bool dark) {
-    return source_below<double, bool>(5, 2, x, y, false, dark, 1, 0, 1, 0, 1, 1);
+    return source_below<double>(5, 2, x, y, false, dark, 1, 0, 1, 0, 1, 1);
   };
   EXPECT_EQ(below(1, -2, false).sigma, 2);
   EXPECT_EQ(below(1, -2, false).y, -2);

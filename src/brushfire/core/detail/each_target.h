@@ -1,6 +1,7 @@
 // Includes the header BRUSHFIRE_KERNEL once for each target (targets.h), as a part of this file: with BRUSHFIRE_TARGET,
 // the target's namespace, and BRUSHFIRE_REGISTER, the bytes of its registers. What the kernel itself includes is
 // included the first time, for the compiler's own target. Nothing is contracted: every target gives the same bits.
+// AVX-512 is among them where BRUSHFIRE_KERNEL_IS_WIDE is defined: for kernels of sixteen lanes.
 #ifndef BRUSHFIRE_KERNEL
 #error "BRUSHFIRE_KERNEL: which header?"
 #endif
@@ -32,4 +33,27 @@
 #endif
 #endif
 
+#if defined(BRUSHFIRE_HAS_AVX2_TARGET) && defined(BRUSHFIRE_KERNEL_IS_WIDE)
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,bmi,popcnt,avx512f,avx512dq,avx512bw,avx512vl"))), \
+                             apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,bmi,popcnt,avx512f,avx512dq,avx512bw,avx512vl")
+#endif
+#define BRUSHFIRE_TARGET avx512
+#define BRUSHFIRE_REGISTER 64
+#define BRUSHFIRE_TARGET_IS_AVX512
+#include BRUSHFIRE_KERNEL
+#undef BRUSHFIRE_TARGET_IS_AVX512
+#undef BRUSHFIRE_REGISTER
+#undef BRUSHFIRE_TARGET
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+
 #undef BRUSHFIRE_KERNEL
+#undef BRUSHFIRE_KERNEL_IS_WIDE

@@ -22,7 +22,9 @@
 // | gather_pairs(from, index, a, b) | from[2 * index[k]], from[2 * index[k] + 1] |
 // | load_points(from, x, y, z) | three numbers from from[k] on |
 // | + - * / - < <= == | on lanes; & bit-wise, << >> of whole numbers |
-// | & \| ~, bits, any, all | on masks; bit k: lane k |
+// | & \| ^ ~, without, bits, any, all | on masks; without(a, b): b and not a; bit k: lane k |
+// | share_bits(a, b) | whole numbers: where a & b is not 0 |
+// | sum | of all lanes, halves on halves |
 // | select(mask, a, b) | lane by lane |
 // | lesser(a, b), greater(a, b) | a < b ? a : b, a > b ? a : b: b where one is not a number |
 // | square_root, magnitude | |
@@ -30,6 +32,7 @@
 // | converted<T>(v), mask_cast<T>(mask) | to other numbers, rounded; to the mask for those |
 // | store_packed(to, set, v) | the lanes of a set of bits, one after the other; writes N places |
 // | load_bytes<V>(from), store_bytes(to, v) | whole numbers as bytes |
+// | load_words<V>(from), store_words(to, v) | whole numbers as words of 16 bits |
 #pragma once
 
 #include <brushfire/core/detail/inline.h>
@@ -70,9 +73,12 @@ inline constexpr std::array<std::uint64_t, 256> kPacking = [] {
 
 }  // namespace brushfire::lanes
 
+#define BRUSHFIRE_KERNEL_IS_WIDE
 #define BRUSHFIRE_KERNEL <brushfire/core/detail/registers_kernel.h>
 #include <brushfire/core/detail/each_target.h>
+#define BRUSHFIRE_KERNEL_IS_WIDE
 #define BRUSHFIRE_KERNEL <brushfire/core/detail/lanes_kernel.h>
 #include <brushfire/core/detail/each_target.h>
+#define BRUSHFIRE_KERNEL_IS_WIDE
 #define BRUSHFIRE_KERNEL <brushfire/core/detail/memory_kernel.h>
 #include <brushfire/core/detail/each_target.h>

@@ -8,13 +8,28 @@ inline constexpr bool kFits = N * sizeof(T) <= BRUSHFIRE_REGISTER;
 template <class T, int N, bool kOne = kFits<T, N>>
 struct Lanes;
 
-// For each of N numbers of so many bytes, whether something is true of it: all bits, or none.
+// What masks are made of: all bits of a lane, or none; or a bit for each.
+template <std::size_t kBytes, int N>
+struct FactsOf {
+  using Type = Lanes<MaskNumber<kBytes>, N>;
+};
+#ifdef BRUSHFIRE_TARGET_IS_AVX512
+struct BitFacts;
+template <>
+struct FactsOf<4, 16> {
+  using Type = BitFacts;
+};
+#endif
+
+// For each of N numbers of so many bytes, whether something is true of it.
 template <std::size_t kBytes, int N>
 struct Mask {
-  Lanes<MaskNumber<kBytes>, N> v;
+  using Facts = typename FactsOf<kBytes, N>::Type;
+  Facts v;
 
   BRUSHFIRE_INLINE friend Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
   BRUSHFIRE_INLINE friend Mask operator|(Mask a, Mask b) { return {a.v | b.v}; }
+  BRUSHFIRE_INLINE friend Mask operator^(Mask a, Mask b) { return {a.v ^ b.v}; }
   BRUSHFIRE_INLINE friend Mask operator~(Mask a) { return {~a.v}; }
 };
 
@@ -23,7 +38,6 @@ template <class T, int N>
 struct Lanes<T, N, true> {
   using Number = T;
   using M = Mask<sizeof(T), N>;
-  using Bits = Lanes<MaskNumber<sizeof(T)>, N>;
   static constexpr int kCount = N;
   Register<T, N> v;
 
@@ -39,14 +53,19 @@ struct Lanes<T, N, true> {
   BRUSHFIRE_INLINE friend Lanes operator~(Lanes a) { return Lanes(~a.v); }
   BRUSHFIRE_INLINE friend Lanes operator&(Lanes a, Lanes b) { return Lanes(a.v & b.v); }
   BRUSHFIRE_INLINE friend Lanes operator|(Lanes a, Lanes b) { return Lanes(a.v | b.v); }
+  BRUSHFIRE_INLINE friend Lanes operator^(Lanes a, Lanes b) { return Lanes(a.v ^ b.v); }
   BRUSHFIRE_INLINE friend Lanes operator<<(Lanes a, int by) { return Lanes(a.v << by); }
   BRUSHFIRE_INLINE friend Lanes operator>>(Lanes a, int by) { return Lanes(a.v >> by); }
-  BRUSHFIRE_INLINE friend M operator<(Lanes a, Lanes b) { return {Bits(same_bits<BitsOf>(a.v < b.v))}; }
-  BRUSHFIRE_INLINE friend M operator<=(Lanes a, Lanes b) { return {Bits(same_bits<BitsOf>(a.v <= b.v))}; }
-  BRUSHFIRE_INLINE friend M operator==(Lanes a, Lanes b) { return {Bits(same_bits<BitsOf>(a.v == b.v))}; }
+  BRUSHFIRE_INLINE friend M operator<(Lanes a, Lanes b) { return facts(less_of(a.v, b.v)); }
+  BRUSHFIRE_INLINE friend M operator<=(Lanes a, Lanes b) { return facts(not_greater_of(a.v, b.v)); }
+  BRUSHFIRE_INLINE friend M operator==(Lanes a, Lanes b) { return facts(equal_of(a.v, b.v)); }
+  BRUSHFIRE_INLINE friend M share_bits(Lanes a, Lanes b) { return facts(share_bits_of(a.v, b.v)); }
 
  private:
-  using BitsOf = Register<MaskNumber<sizeof(T)>, N>;
+  template <class R>
+  BRUSHFIRE_INLINE static M facts(R compared) {
+    return {typename M::Facts(compared)};
+  }
 };
 
 // ... or two halves.
@@ -70,15 +89,35 @@ struct Lanes<T, N, false> {
   BRUSHFIRE_INLINE friend Lanes operator~(Lanes a) { return {~a.low, ~a.high}; }
   BRUSHFIRE_INLINE friend Lanes operator&(Lanes a, Lanes b) { return {a.low & b.low, a.high & b.high}; }
   BRUSHFIRE_INLINE friend Lanes operator|(Lanes a, Lanes b) { return {a.low | b.low, a.high | b.high}; }
+  BRUSHFIRE_INLINE friend Lanes operator^(Lanes a, Lanes b) { return {a.low ^ b.low, a.high ^ b.high}; }
   BRUSHFIRE_INLINE friend Lanes operator<<(Lanes a, int by) { return {a.low << by, a.high << by}; }
   BRUSHFIRE_INLINE friend Lanes operator>>(Lanes a, int by) { return {a.low >> by, a.high >> by}; }
   BRUSHFIRE_INLINE friend M operator<(Lanes a, Lanes b) { return both(a.low < b.low, a.high < b.high); }
   BRUSHFIRE_INLINE friend M operator<=(Lanes a, Lanes b) { return both(a.low <= b.low, a.high <= b.high); }
   BRUSHFIRE_INLINE friend M operator==(Lanes a, Lanes b) { return both(a.low == b.low, a.high == b.high); }
+  BRUSHFIRE_INLINE friend M share_bits(Lanes a, Lanes b) {
+    return both(share_bits(a.low, b.low), share_bits(a.high, b.high));
+  }
 
  private:
   BRUSHFIRE_INLINE static M both(typename Half::M l, typename Half::M h) { return {{l.v, h.v}}; }
 };
+
+#ifdef BRUSHFIRE_TARGET_IS_AVX512
+struct BitFacts {
+  __mmask16 v;
+
+  BitFacts() = default;
+  BRUSHFIRE_INLINE explicit BitFacts(__mmask16 bits) : v(bits) {}
+  BRUSHFIRE_INLINE BitFacts(Lanes<std::int32_t, 16> all_bits_or_none)  // NOLINT(google-explicit-constructor)
+      : v(mask_of(all_bits_or_none.v)) {}
+
+  BRUSHFIRE_INLINE friend BitFacts operator&(BitFacts a, BitFacts b) { return BitFacts(_kand_mask16(a.v, b.v)); }
+  BRUSHFIRE_INLINE friend BitFacts operator|(BitFacts a, BitFacts b) { return BitFacts(_kor_mask16(a.v, b.v)); }
+  BRUSHFIRE_INLINE friend BitFacts operator^(BitFacts a, BitFacts b) { return BitFacts(_kxor_mask16(a.v, b.v)); }
+  BRUSHFIRE_INLINE friend BitFacts operator~(BitFacts a) { return BitFacts(_knot_mask16(a.v)); }
+};
+#endif
 
 // The type of one of them, and what comparisons give: of lanes, or of single numbers.
 template <class V>
@@ -189,6 +228,13 @@ BRUSHFIRE_INLINE bool all(Mask<kBytes, N> mask) {
   return bits(mask) == (1u << N) - 1;
 }
 
+template <std::size_t kBytes, int N>
+BRUSHFIRE_INLINE Mask<kBytes, N> without(Mask<kBytes, N> a, Mask<kBytes, N> b) {
+  return ~a & b;
+}
+BRUSHFIRE_INLINE bool without(bool a, bool b) { return !a && b; }
+BRUSHFIRE_INLINE bool any(bool mask) { return mask; }
+
 // The lanes with these numbers, counted over both from kFirst on.
 template <int kFirst, class T, int N, int... kLane>
 BRUSHFIRE_INLINE auto lanes_from(Lanes<T, N> a, Lanes<T, N> b, std::integer_sequence<int, kLane...>) {
@@ -219,6 +265,29 @@ BRUSHFIRE_INLINE Lanes<T, 2 * N> joined(Lanes<T, N> low, Lanes<T, N> high) {
   }
 }
 
+// Halves on halves, the lower one first, so that all targets round alike.
+template <class T, int N>
+BRUSHFIRE_INLINE T sum(Lanes<T, N> a) {
+  if constexpr (N == 2) {
+    return a.v[0] + a.v[1];
+  } else {
+    return sum(low_half(a) + high_half(a));
+  }
+}
+
+#ifdef BRUSHFIRE_TARGET_IS_AVX512
+BRUSHFIRE_INLINE Lanes<std::int64_t, 8> as_lanes(unsigned bits) {
+  return Lanes<std::int64_t, 8>(same_bits<Register<std::int64_t, 8>>(_mm512_movm_epi64(static_cast<__mmask8>(bits))));
+}
+template <class To>
+BRUSHFIRE_INLINE auto converted(BitFacts a) {
+  if constexpr (sizeof(To) == 4) {
+    return a;
+  } else {
+    return joined(as_lanes(a.v), as_lanes(unsigned{a.v} >> 8));
+  }
+}
+#endif
 // The numbers as those of type To, rounded where need be.
 template <class To, class T, int N>
 BRUSHFIRE_INLINE Lanes<To, N> converted(Lanes<T, N> a) {

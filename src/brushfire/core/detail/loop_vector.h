@@ -34,6 +34,9 @@ struct LoopVector {
   BRUSHFIRE_INLINE friend LoopVector operator|(LoopVector a, LoopVector b) {
     return each<LoopVector>(a, b, [](auto x, auto y) { return x | y; });
   }
+  BRUSHFIRE_INLINE friend LoopVector operator^(LoopVector a, LoopVector b) {
+    return each<LoopVector>(a, b, [](auto x, auto y) { return x ^ y; });
+  }
   BRUSHFIRE_INLINE friend LoopVector operator<<(LoopVector a, int by) {
     return each<LoopVector>(a, a, [by](auto x, auto) { return x << by; });
   }

@@ -58,6 +58,27 @@ BRUSHFIRE_INLINE std::uint32_t bits_of(M mask) {
   return bits;
 }
 
+// Comparisons: registers of all bits or none.
+template <class R>
+using ComparedOf = Register<MaskNumber<sizeof(NumberOf<R>)>, kCountOf<R>>;
+template <class R>
+BRUSHFIRE_INLINE ComparedOf<R> less_of(R a, R b) {
+  return same_bits<ComparedOf<R>>(a < b);
+}
+template <class R>
+BRUSHFIRE_INLINE ComparedOf<R> not_greater_of(R a, R b) {
+  return same_bits<ComparedOf<R>>(a <= b);
+}
+template <class R>
+BRUSHFIRE_INLINE ComparedOf<R> equal_of(R a, R b) {
+  return same_bits<ComparedOf<R>>(a == b);
+}
+// Whether whole numbers have a bit in common.
+template <class R>
+BRUSHFIRE_INLINE ComparedOf<R> share_bits_of(R a, R b) {
+  return ~same_bits<ComparedOf<R>>((a & b) == R{});
+}
+
 // The numbers as those of another type.
 template <class To, class R>
 BRUSHFIRE_INLINE Register<To, kCountOf<R>> converted_of(R a) {
@@ -68,6 +89,17 @@ BRUSHFIRE_INLINE Register<To, kCountOf<R>> converted_of(R a) {
   for (int k = 0; k < kCountOf<R>; ++k) result[k] = static_cast<To>(a[k]);
   return result;
 #endif
+}
+// Whole numbers from words of 16 bits, and to them.
+template <int N>
+BRUSHFIRE_INLINE Register<std::uint32_t, N> words_in(const std::uint16_t* from) {
+  Register<std::uint32_t, N> result{};
+  for (int k = 0; k < N; ++k) result[k] = from[k];
+  return result;
+}
+template <class R>
+BRUSHFIRE_INLINE void words_out(std::uint16_t* to, R a) {
+  for (int k = 0; k < kCountOf<R>; ++k) to[k] = static_cast<std::uint16_t>(a[k]);
 }
 // The lanes with these numbers, counted over two registers.
 template <int... kLane, class R>
@@ -123,7 +155,7 @@ BRUSHFIRE_INLINE std::uint32_t bits_of(Register<std::int64_t, 2> m) {
 
 #endif
 
-#ifdef BRUSHFIRE_TARGET_IS_AVX2
+#if defined(BRUSHFIRE_TARGET_IS_AVX2) || defined(BRUSHFIRE_TARGET_IS_AVX512)
 
 using Float8 = Register<float, 8>;
 using Double4 = Register<double, 4>;
@@ -151,9 +183,70 @@ template <>  // which GCC does in four steps
 BRUSHFIRE_INLINE WideMask4 converted_of<std::int64_t, Mask4>(Mask4 a) {
   return same_bits<WideMask4>(Register<long long, 4>(_mm256_cvtepi32_epi64(same_bits<Register<long long, 2>>(a))));
 }
+template <>
+BRUSHFIRE_INLINE Register<std::uint32_t, 8> words_in<8>(const std::uint16_t* from) {
+  const __m128i words = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+  return same_bits<Register<std::uint32_t, 8>>(Register<long long, 4>(_mm256_cvtepu16_epi32(words)));
+}
+BRUSHFIRE_INLINE void words_out(std::uint16_t* to, Register<std::uint32_t, 8> a) {
+  const auto both = same_bits<Register<long long, 4>>(a);
+  const __m128i words = _mm_packus_epi32(_mm256_castsi256_si128(both), _mm256_extracti128_si256(both, 1));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(to), words);
+}
 template <class R>  // whole numbers
 BRUSHFIRE_INLINE R selected(Mask8 m, R yes, R no) {
   return same_bits<R>(selected(m, same_bits<Float8>(yes), same_bits<Float8>(no)));
+}
+
+#endif
+
+#ifdef BRUSHFIRE_TARGET_IS_AVX512
+
+using Float16 = Register<float, 16>;
+using Double8 = Register<double, 8>;
+// The plain forms are of something undefined in GCC 12's header, of which it warns.
+inline constexpr __mmask16 kAll16 = 0xffff;
+inline constexpr __mmask8 kAll8 = 0xff;
+BRUSHFIRE_INLINE Float16 root_of(Float16 a) { return _mm512_maskz_sqrt_ps(kAll16, a); }
+BRUSHFIRE_INLINE Double8 root_of(Double8 a) { return _mm512_maskz_sqrt_pd(kAll8, a); }
+BRUSHFIRE_INLINE Float16 lesser_of(Float16 a, Float16 b) { return _mm512_maskz_min_ps(kAll16, a, b); }
+BRUSHFIRE_INLINE Double8 lesser_of(Double8 a, Double8 b) { return _mm512_maskz_min_pd(kAll8, a, b); }
+BRUSHFIRE_INLINE Float16 greater_of(Float16 a, Float16 b) { return _mm512_maskz_max_ps(kAll16, a, b); }
+BRUSHFIRE_INLINE Double8 greater_of(Double8 a, Double8 b) { return _mm512_maskz_max_pd(kAll8, a, b); }
+template <class R>
+BRUSHFIRE_INLINE __m512i integers512(R a) {
+  return same_bits<__m512i>(a);
+}
+// Comparisons of sixteen numbers give bits in a register of their own.
+using Words16 = Register<std::uint32_t, 16>;
+using Mask16 = Register<std::int32_t, 16>;
+BRUSHFIRE_INLINE __mmask16 less_of(Float16 a, Float16 b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+BRUSHFIRE_INLINE __mmask16 not_greater_of(Float16 a, Float16 b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+BRUSHFIRE_INLINE __mmask16 equal_of(Float16 a, Float16 b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
+BRUSHFIRE_INLINE __mmask16 mask_of(Mask16 all_bits_or_none) {
+  return _mm512_movepi32_mask(integers512(all_bits_or_none));
+}
+BRUSHFIRE_INLINE __mmask16 less_of(Words16 a, Words16 b) { return mask_of(a < b); }
+BRUSHFIRE_INLINE __mmask16 less_of(Mask16 a, Mask16 b) { return mask_of(a < b); }
+BRUSHFIRE_INLINE __mmask16 not_greater_of(Words16 a, Words16 b) { return mask_of(a <= b); }
+BRUSHFIRE_INLINE __mmask16 not_greater_of(Mask16 a, Mask16 b) { return mask_of(a <= b); }
+BRUSHFIRE_INLINE __mmask16 equal_of(Words16 a, Words16 b) { return mask_of(a == b); }
+BRUSHFIRE_INLINE __mmask16 equal_of(Mask16 a, Mask16 b) { return mask_of(a == b); }
+BRUSHFIRE_INLINE __mmask16 share_bits_of(Words16 a, Words16 b) {
+  return _mm512_test_epi32_mask(integers512(a), integers512(b));
+}
+template <>
+BRUSHFIRE_INLINE Words16 words_in<16>(const std::uint16_t* from) {
+  const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+  return same_bits<Words16>(_mm512_maskz_cvtepu16_epi32(kAll16, words));
+}
+BRUSHFIRE_INLINE void words_out(std::uint16_t* to, Words16 a) {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_maskz_cvtepi32_epi16(kAll16, integers512(a)));
+}
+BRUSHFIRE_INLINE std::uint32_t bits_of(__mmask16 m) { return m; }
+template <class R>
+BRUSHFIRE_INLINE R selected(__mmask16 m, R yes, R no) {
+  return same_bits<R>(Float16(_mm512_mask_blend_ps(m, same_bits<Float16>(no), same_bits<Float16>(yes))));
 }
 
 #endif

@@ -8,9 +8,9 @@
 
 #include <cstdint>
 
-// AVX2 is a target of its own on x86, entered after the processor has said that it has it. Everywhere else, and for
-// compilers that know no targets within a file, there is one: what the file is compiled for (SSE2, NEON, WebAssembly
-// SIMD, or no vectors at all).
+// AVX2 is a target of its own on x86, entered after the processor has said that it has it; so is AVX-512, for kernels
+// of sixteen lanes that ask for it (each_target.h). Everywhere else, and for compilers that know no targets within a
+// file, there is one: what the file is compiled for (SSE2, NEON, WebAssembly SIMD, or no vectors at all).
 #if defined(__GNUC__) && !defined(BRUSHFIRE_WITHOUT_VECTORS)
 #define BRUSHFIRE_HAS_VECTORS 1
 #if defined(__x86_64__)
@@ -21,7 +21,7 @@
 namespace brushfire {
 
 // Which one of the targets to take: all of them give the same bits.
-enum class Variant : std::uint8_t { Best, Portable };
+enum class Variant : std::uint8_t { Best, Avx2, Portable };  // Avx2: no more than that
 
 inline bool has_avx2() {
 #ifdef BRUSHFIRE_HAS_AVX2_TARGET
@@ -31,13 +31,26 @@ inline bool has_avx2() {
 #endif
 }
 
+inline bool has_avx512() {
+#ifdef BRUSHFIRE_HAS_AVX2_TARGET
+  return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+#else
+  return false;
+#endif
+}
+
 }  // namespace brushfire
 
 // BRUSHFIRE_ON_TARGET(variant, expression): the expression with the functions of that target, whose namespace it is
 // to be looked up in: BRUSHFIRE_ON_TARGET(variant, sum(x)) is avx2::sum(x) or portable::sum(x).
+// BRUSHFIRE_ON_WIDE_TARGET: the same of a kernel that is compiled for AVX-512, too.
 #ifdef BRUSHFIRE_HAS_AVX2_TARGET
 #define BRUSHFIRE_ON_TARGET(variant, ...) \
-  ((variant) == Variant::Best && has_avx2() ? avx2::__VA_ARGS__ : portable::__VA_ARGS__)
+  ((variant) != Variant::Portable && has_avx2() ? avx2::__VA_ARGS__ : portable::__VA_ARGS__)
+#define BRUSHFIRE_ON_WIDE_TARGET(variant, ...) \
+  ((variant) == Variant::Best && has_avx512() ? avx512::__VA_ARGS__ : BRUSHFIRE_ON_TARGET(variant, __VA_ARGS__))
 #else
 #define BRUSHFIRE_ON_TARGET(variant, ...) (static_cast<void>(variant), portable::__VA_ARGS__)
+#define BRUSHFIRE_ON_WIDE_TARGET(variant, ...) BRUSHFIRE_ON_TARGET(variant, __VA_ARGS__)
 #endif

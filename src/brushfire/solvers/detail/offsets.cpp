@@ -55,8 +55,9 @@ void Offsets::look_at(const Mesh& mesh) {
   // No way is longer than all edges together; four times that is beyond what any method makes of a way there and back.
   double sum = 0;
   for (const double length : mesh.lengths()) sum += length;
+  // (Where all edges have length 0, anything is.)
   constexpr double kLargest = 0x1p1000;  // sums of a few of these are finite
-  beyond_all_ = std::min(4 * sum, kLargest);
+  beyond_all_ = sum > 0 ? std::min(4 * sum, kLargest) : 1;
 }
 
 void Offsets::split(const Mesh& mesh, std::span<LocatedSource> located) {

@@ -2,6 +2,8 @@
 #include <brushfire/solvers/carried_source/detail/march.h>
 
 #include <brushfire/core/detail/prefetch.h>
+#include <brushfire/solvers/carried_source/detail/march_constants.h>
+#include <brushfire/solvers/carried_source/detail/offer_frame.h>
 
 #include <algorithm>
 #include <bit>
@@ -9,28 +11,6 @@
 
 namespace brushfire::carried_source {
 namespace {
-
-// In mean edges. Order inside the front does not matter much: half an edge measured best for the other methods, too.
-constexpr double kBucketWidth = 0.5;
-// Fronts are not quite as round as their carried sources say.
-constexpr double kSlack = 0.02;
-// Of two sources that give the same value the one that is farther by this foretells more vertices rightly: a ray that
-// passes a vertex closely ties, in rounding, with the way through that vertex.
-constexpr double kFarther = 0.1;
-// How far the front is ahead of values that no longer change. Near sources, and where edges are long, a vertex may be
-// reached over an edge one end of which is farther than itself, and so late. Flat meshes stay exact with this.
-constexpr double kSettling = 2;
-
-template <class T>
-constexpr T kNews = 1 - 4 * kEpsilon<T>;
-template <class T>
-constexpr T kTie = 1 + 8 * kEpsilon<T>;
-
-// Without a branch: which it is cannot be foreseen.
-template <class T>
-BRUSHFIRE_INLINE T minus_if(Index one) {
-  return T(1) - T(2) * static_cast<T>(static_cast<int>(one));
-}
 
 constexpr std::size_t kFrontAhead = 16, kRecordAhead = 10, kEndsAhead = 5, kRecordLines = 9, kCacheLine = 64;
 constexpr Index kUsualSides = 8;
@@ -106,7 +86,7 @@ BRUSHFIRE_INLINE void March<T>::accept(Index v, const Offer<T>& o, Index sector,
     if (!(news | tie)) return;
   }
   const T old = f.value;
-  f.value = lesser(o.value, old), f.sigma = o.sigma, f.x = o.x, f.y = o.y;
+  f.value = std::min(o.value, old), f.sigma = o.sigma, f.x = o.x, f.y = o.y;
   f.sector = static_cast<SectorSet>(1u << sector);
   f.label = label;
   const BucketQueue::Bucket bucket = bucket_of(f.value);
@@ -125,13 +105,13 @@ BRUSHFIRE_INLINE SourceAt<T> March<T>::see(const Front& f, const Side<T>& side, 
     const Lens& lens = records_.lenses[lenses][static_cast<std::size_t>(std::countr_zero(f.sector))];
     const T x = static_cast<T>(lens.xx) * f.x + static_cast<T>(lens.xy) * f.y;
     const T y = static_cast<T>(lens.yx) * f.x + static_cast<T>(lens.yy) * f.y;
-    return source_below<T, bool>(f.value, f.sigma, x, y, false, !lens.lit, 1, 0, 1, 0, 1, side.length);
+    return source_below<T>(f.value, f.sigma, x, y, false, !lens.lit, 1, 0, 1, 0, 1, side.length);
   }
-  const T c = at_end ? side.end_c : side.c, s = at_end ? side.end_s : side.s, sign = minus_if<T>(hand);
+  const SideTurn<T> t =
+      at_end ? side_turn(side.end_c, side.end_s, hand, f.around) : side_turn(side.c, side.s, hand, f.around);
   const SectorSet turned = at_end ? side.end_turned[hand] : side.turned[hand];
-  const T turn = sign * f.around.s;
-  return source_below<T, bool>(f.value, f.sigma, f.x, f.y, (f.sector & turned) != 0, (f.sector & dark) != 0, c, s,
-                               c * f.around.c - s * turn, s * f.around.c + c * turn, sign, side.length);
+  return source_below<T>(f.value, f.sigma, f.x, f.y, (f.sector & turned) != 0, (f.sector & dark) != 0, t.c, t.s, t.tc,
+                         t.ts, t.side, side.length);
 }
 
 template <class T>
@@ -145,26 +125,17 @@ BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, 
   const SourceAt<T> a = see(at.front, by, false, hand, at.lenses ? at.lenses[support].here[hand] : kNoIndex, dark_here);
   SourceAt<T> b = see(other, by, true, there, at.lenses ? at.lenses[support].end[there] : kNoIndex, dark_there);
   b.x = by.length - b.x;
-  // The target in the frame of the edge.
-  const T right = minus_if<T>(hand), own_turn = right * at.front.around.s;
-  const T tc = u.across() ? to.c * at.front.around.c - to.s * own_turn : to.c;
-  const T ts = u.across() ? to.s * at.front.around.c + to.c * own_turn : to.s;
-  const T x = to.length * (tc * by.c + ts * by.s), y = to.length * magnitude(ts * by.c - tc * by.s);
-  const Offer<T> o = offer_over<T>(by.length, x, y, to.length, at.front.value, other.value, a, b);
-  // Into the target's frame, where the way back to the vertex has a known direction.
-  const Around<T> around = fronts_[target.end].around;
-  const T c = u.seam() ? around.c : to.end_c, s = u.seam() ? around.s : to.end_s;
-  const T sign = minus_if<T>(u.same_turn() ? 0 : 1), inverse = T(-1) / to.length, sy = sign * y;
-  const T turn_c = (c * x + s * sy) * inverse, turn_s = (s * x - c * sy) * inverse, oy = sign * o.y;
-  accept<kLabelled>(target.end, {o.value, o.sigma, o.x * turn_c - oy * turn_s, o.x * turn_s + oy * turn_c}, u.sector(),
-                    at.front.label);
+  const OfferFrame<T> f = offer_frame(by, to, u, at.front.around, fronts_[target.end].around);
+  const Offer<T> o = offer_over<T>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, b);
+  const T oy = f.sign * o.y;
+  accept<kLabelled>(target.end, {o.value, o.sigma, o.x * f.turn_c - oy * f.turn_s, o.x * f.turn_s + oy * f.turn_c},
+                    u.sector(), at.front.label);
   ++updates_;
 }
 
 template <class T>
 template <bool kLabelled>
 BRUSHFIRE_INLINE void March<T>::turn(Index v) {
-  constexpr T kAnywhere = T(0x1p100);
   Front& f = fronts_[v];
   f.state = kClosed;
   ++f.turns, ++turns_;
@@ -178,7 +149,7 @@ BRUSHFIRE_INLINE void March<T>::turn(Index v) {
                 head.has_dark ? record.dark() : nullptr,
                 head.has_lenses ? record.lenses() : nullptr};
   const Update* const updates = record.updates();
-  const T r = front.value - front.sigma, later = r > head.reach ? 1 / (r - head.reach) : kAnywhere;
+  const T r = front.value - front.sigma, later = r > head.reach ? 1 / (r - head.reach) : kAnywhere<T>;
   const T now = front.value - slack_;
   // Lists are made without branches: which sides lead ahead and which ends are closed cannot be foreseen.
   Index ahead = 0, offers = 0, alongs = 0;

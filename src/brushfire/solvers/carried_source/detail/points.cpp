@@ -88,15 +88,15 @@ SourceAt<double> Points::see(Index v, const Known& known, const Direction& side,
     const Lens lens = lenses_of(sectors, ends_of_fans(mesh_, fans(), v), side, hand)[known.sector];
     const double x = lens.xx * known.to_source.x + lens.xy * known.to_source.y;
     const double y = lens.yx * known.to_source.x + lens.yy * known.to_source.y;
-    return source_below<double, bool>(known.value, known.sigma, x, y, false, !lens.lit, 1, 0, 1, 0, 1, length);
+    return source_below<double>(known.value, known.sigma, x, y, false, !lens.lit, 1, 0, 1, 0, 1, length);
   }
   const SightSets sets = sight_of(sectors, side.angle);
   const auto i = static_cast<std::size_t>(hand);
   const double around = sectors.front().around, turned = side.angle + sign * (around < kInfinity ? around : 0);
-  return source_below<double, bool>(known.value, known.sigma, known.to_source.x, known.to_source.y,
-                                    (sets.turned[i] >> known.sector & 1u) != 0,
-                                    (sets.dark[i] >> known.sector & 1u) != 0, std::cos(side.angle),
-                                    std::sin(side.angle), std::cos(turned), std::sin(turned), sign, length);
+  return source_below<double>(known.value, known.sigma, known.to_source.x, known.to_source.y,
+                              (sets.turned[i] >> known.sector & 1u) != 0, (sets.dark[i] >> known.sector & 1u) != 0,
+                              std::cos(side.angle), std::sin(side.angle), std::cos(turned), std::sin(turned), sign,
+                              length);
 }
 
 double Points::through_edge(Index h, Vec2 at, const Known& from, const Known& to) {

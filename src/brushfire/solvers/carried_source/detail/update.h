@@ -1,104 +1,36 @@
-// The update: what two vertices, each of which carries the (pseudo-)source that it is seen from, offer to a third one
-// over the edge between them.
-//
-// The frame of the edge: the vertex v that has its turn at (0,0), the other end b at (length,0), the target c above.
-// Sources lie on or below the edge. Derivation, and what of it is proven: docs/decisions/marching.md.
+// The update over one edge (update_kernel.h), for every target; of single numbers as it is compiled for any machine.
 #pragma once
 
-#include <brushfire/solvers/carried_source/detail/value.h>
+#include <brushfire/core/detail/lanes.h>
 
-#include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace brushfire::carried_source {
 
-// A source in the frame of an edge, and the value of the front there.
-template <class V>
-struct SourceAt {
-  V x, y, sigma;
-};
-
-// A value, and the way from the target to its source, in the frame of the edge.
-template <class V>
-struct Offer {
-  V value, sigma, x, y;
-};
-
 template <class T>
 inline constexpr T kEpsilon = std::numeric_limits<T>::epsilon();
+
+// Values are the same, but for rounding, below this.
+template <class T>
+inline constexpr T kTie = 1 + 8 * kEpsilon<T>;
 
 // A ray that misses the edge by this share of its length is let through. It would be longer through the end that it
 // misses, by the square of that share: by less than rounding.
 template <class T>
 inline constexpr T kGrazing = std::is_same_v<T, float> ? T(0x1p-12) : T(0x1p-26);
 
-// A vector that is turned by the edge's direction at a vertex; above the edge, or in the dark, it is not what lights
-// the edge: then the vertex is its own source.
-//
-// `turned`: the lanes that are turned by the whole angle around the vertex first; c, s: the edge's direction in the
-// vertex's frame; tc, ts: the same less (or plus) that angle; side: 1 where the target lies to the left of the edge as
-// it leaves the vertex, -1 where to the right.
-template <class V, class Mask>
-BRUSHFIRE_INLINE SourceAt<V> source_below(V value, V sigma, V px, V py, Mask turned, Mask dark, ScalarOf<V> c,
-                                          ScalarOf<V> s, ScalarOf<V> tc, ScalarOf<V> ts, ScalarOf<V> side,
-                                          ScalarOf<V> length) {
-  using T = ScalarOf<V>;
-  const V cc = select(turned, V(tc), V(c)), ss = select(turned, V(ts), V(s)), zero = V(T(0));
-  const V x = px * cc + py * ss, y = V(side) * (py * cc - px * ss);
-  const Mask own = dark | (V(kGrazing<T>) * (magnitude(x) + V(length)) < y);
-  return {select(own, zero, x), select(own, zero, y), select(own, value, sigma)};
-}
+}  // namespace brushfire::carried_source
 
-// The offer of v (value `at_v`, source a) and b (value `at_b`, source b, x from v as well) to c = (x, y). `along` is
-// the distance from v to c; lanes of v or b that have no value must hold +inf.
-//
-// - e_a = T_b - (what a foretells at b), e_b likewise: 0 where one source lights both.
-// - Each source sees c where its ray crosses the edge. Where both do, at the share s of the edge between them (s: the
-//   mediant of both crossings), u = e_a s and w = e_b (1 - s) say who is first at the crossing: u + w <= 0: the fronts
-//   meet there (concave), c sees the lesser value. Otherwise they part (convex): behind a saddle the greater value is
-//   nearer, and where each comes before the other's end (u, w > 0) a fan opens between the two, with the rational
-//   interpolant that keeps values and slopes at both ends and convexity between.
-template <class V>
-BRUSHFIRE_INLINE Offer<V> offer_over(ScalarOf<V> length, ScalarOf<V> to_x, ScalarOf<V> to_y, ScalarOf<V> along, V at_v,
-                                     V at_b, const SourceAt<V>& a, const SourceAt<V>& b) {
-  using T = ScalarOf<V>;
-  const V zero = V(T(0)), one = V(T(1)), l = V(length), x = V(to_x), y = V(to_y);
-  // Whether they see c: crossing / wide is where, from v (0) to b (1).
-  const V deep_a = y - a.y, deep_b = y - b.y, wide_a = l * deep_a, wide_b = l * deep_b;
-  const V cross_a = a.x * y - x * a.y, cross_b = b.x * y - x * b.y;
-  const V beside_a = V(kGrazing<T>) * wide_a, beside_b = V(kGrazing<T>) * wide_b;
-  const auto seen_a = (zero <= cross_a + beside_a) & (cross_a <= wide_a + beside_a);
-  const auto seen_b = (zero <= cross_b + beside_b) & (cross_b <= wide_b + beside_b);
-  // What each foretells at the other end, and at c.
-  const V over_a = l - a.x;
-  const V miss_a = at_b - (a.sigma + root(over_a * over_a + a.y * a.y));
-  const V miss_b = at_v - (b.sigma + root(b.x * b.x + b.y * b.y));
-  const V ax = x - a.x, bx = x - b.x;
-  const V far_a = root(ax * ax + deep_a * deep_a), far_b = root(bx * bx + deep_b * deep_b);
-  const V value_a = a.sigma + far_a, value_b = b.sigma + far_b;
-  const V share = (cross_a + cross_b) / (wide_a + wide_b);  // not a number where the triangle has no height
-  const V u = miss_a * share, w = miss_b * (one - share), sum = u + w;
-  // Less than rounding is no fan, and is not divided by.
-  const V noise = V(8 * kEpsilon<T>) * at_v;
-  const auto both = seen_a & seen_b;
-  const auto fan = both & (noise < miss_a) & (noise < miss_b) & (zero < u) & (zero < w);
-  // The one that c is lit by: the only one that sees it; of both, the lesser value or the greater.
-  const auto first_seen = without(seen_b, seen_a) | (both & ((value_a < value_b) ^ (zero < sum)));
-  const V inverse = one / select(fan, sum, one), m = select(first_seen, u, w);
-  const V through = select(first_seen, value_a, value_b) + select(fan, m * m * inverse, zero);
-  const V part = select(fan, u * inverse, select(first_seen, zero, one));
-  const V edge = at_v + V(along);
-  constexpr T kNever = std::numeric_limits<T>::infinity();
-  const auto over = (seen_a | seen_b) & (through < edge) & (at_v < V(kNever)) & (at_b < V(kNever));
-  V dx = select(over, part * (b.x - a.x) - ax, zero - x);
-  V dy = select(over, part * (b.y - a.y) - deep_a, zero - y);
-  // A front that opens is rounder than its sources are far.
-  const V bend = (miss_a + miss_b) * V(T(0.5) / (length * length));
-  const V rounder = lesser(select(first_seen, far_a, far_b) * bend + one, V(T(3)));
-  const V shorter = one / select(fan & over, rounder, one);
-  dx = dx * shorter, dy = dy * shorter;
-  const V value = select(over, through, edge);
-  return {value, value - root(dx * dx + dy * dy), dx, dy};
-}
+#define BRUSHFIRE_KERNEL_IS_WIDE
+#define BRUSHFIRE_KERNEL <brushfire/solvers/carried_source/detail/update_kernel.h>
+#include <brushfire/core/detail/each_target.h>
+
+namespace brushfire::carried_source {
+
+using portable::Offer;
+using portable::offer_over;
+using portable::source_below;
+using portable::SourceAt;
 
 }  // namespace brushfire::carried_source

@@ -124,8 +124,6 @@ inline constexpr double kSliver = 1e-14 * kFiner;
 [[gnu::always_inline]] inline Real sliver_scale(const Window& w) {
   return w.kind == WindowKind::Circular ? w.d0 - w.sigma : w.b1;
 }
-[[gnu::always_inline]] inline bool is_sliver(const Window& w) {
-  return !(w.b1 - w.b0 > kSliver * sliver_scale(w));
-}
+[[gnu::always_inline]] inline bool is_sliver(const Window& w) { return !(w.b1 - w.b0 > kSliver * sliver_scale(w)); }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <brushfire/solvers/window_field.h>
+#include <brushfire/solvers/windows/paths/record.h>
 #include <brushfire/solvers/windows/paths/trace.h>
 
 #include <cstdint>
@@ -60,6 +61,9 @@ class Departures {
   };
   // Of the last leg of the path to a vertex that is reached; throws as WindowField::last_leg() does.
   Departure of(Index vertex);
+
+  // What a field keeps, for those in this room that read it.
+  static const WindowFieldData& data_of(const WindowField& field) { return *field.data_; }
 
  private:
   std::optional<Departure> follow(Index vertex);

@@ -17,6 +17,8 @@ void Results::keep() {
   data->curves = CurveIndex(mesh, data->sources);
   data->bases.assign(run_.problem->bases.begin(), run_.problem->bases.end());
   data->shift = run_.shift;
+  data->relative = run_.rounding.relative;
+  data->absolute = run_.rounding.absolute;
   PointRecord unknown;
   if (run_.radius < kInfinity) unknown.value = std::numeric_limits<double>::quiet_NaN();
   constexpr Index kMany =

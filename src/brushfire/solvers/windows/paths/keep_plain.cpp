@@ -17,6 +17,8 @@ void Results::keep() {
   run.mesh = run_.structure.mesh;
   run.problem = run_.problem;
   run.shift = to_double(run_.shift);
+  run.relative = run_.rounding.relative;
+  run.absolute = run_.rounding.absolute;
   run.exact = !run_.merges();
   run.whole = !(run_.radius < kInfinity);
   for (const Part& part : parts_) {

@@ -9,9 +9,7 @@
 namespace brushfire::windows {
 namespace {
 
-PointRecord record_of(const PlainRun::Record& r) {
-  return {r.value, r.label, ray_of(r.ray)};
-}
+PointRecord record_of(const PlainRun::Record& r) { return {r.value, r.label, ray_of(r.ray)}; }
 
 }  // namespace
 
@@ -21,6 +19,8 @@ std::shared_ptr<const WindowField> window_field_of(const PlainRun& run) {
   data->sources.assign(run.problem->sources.begin(), run.problem->sources.end());
   data->curves = CurveIndex(run.mesh, data->sources);
   data->shift = run.shift;
+  data->relative = run.relative;
+  data->absolute = run.absolute;
   data->exact = run.exact;
   data->view = run.problem->view;
   PointRecord unknown;

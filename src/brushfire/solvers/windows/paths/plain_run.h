@@ -21,7 +21,7 @@ struct PlainRun {
   };
   Mesh mesh;
   const detail::Problem* problem = nullptr;
-  double shift = 0;
+  double shift = 0, relative = 0, absolute = 0;
   bool exact = true, whole = true;                // merged nothing; went as far as there is way
   std::vector<Record> vertices;                   // those with a final value
   std::vector<Record> targets;                    // [targets]

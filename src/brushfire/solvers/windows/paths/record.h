@@ -65,13 +65,23 @@ struct WindowFieldData {
   std::vector<PointRecord> target;     // [targets]
   std::shared_ptr<const PointValues> all_points;  // where all windows were kept
   std::shared_ptr<const detail::SheetView> view;  // where `mesh` is a single mesh (sheets.h): of the caller's
+  double relative = 0, absolute = 0;              // what rounding may do to values: see Rounding
 
   // What a leg and the value where it starts may miss the value at its end by: a share of the whole path, and what
   // values are rounded by, which offsets make larger.
   Real room_for(const PointRecord& record) const {
     constexpr double kAgreement = 1e-12, kRounding = 8 * std::numeric_limits<double>::epsilon();
-    const Real start = record.label < sources.size() ? sources[record.label].offset + shift : 0;
-    return kAgreement * (record.value - start) + kRounding * record.value;
+    return kAgreement * length_of(record) + kRounding * record.value;
+  }
+  // By how much more a leg and the value where it starts may come to at most, if the values at both of its ends are as
+  // far off as they may be.
+  Real most_room_for(const PointRecord& record) const {
+    return room_for(record) + 2 * (relative * length_of(record) + absolute);
+  }
+
+ private:
+  Real length_of(const PointRecord& record) const {
+    return record.value - (record.label < sources.size() ? sources[record.label].offset + shift : 0);
   }
 };
 

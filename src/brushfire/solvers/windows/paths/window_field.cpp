@@ -1,6 +1,7 @@
 // Values and legs of shortest paths at vertices, targets and, where all windows were kept, everywhere.
 #include <brushfire/solvers/window_field.h>
 
+#include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/solvers/detail/sheets.h>
@@ -98,6 +99,19 @@ WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Fou
   return leg;
 }
 
+// The best that was found may explain the value no better than by chance: a longer way, or one from another source. That
+// is a fault of ours, and no path.
+void hold_to_value(const windows::WindowFieldData& data, const PointRecord& record, const WindowField::Leg& leg) {
+  const double start =
+      leg.vertex != kNoIndex ? data.vertices[leg.vertex].value : data.sources[leg.source].offset + data.shift;
+  if (!(start + leg.length > record.value + data.most_room_for(record))) return;
+  const double unit = data.mesh.unit();
+  throw Error(ErrorCode::Internal, "the path was lost: the shortest way that was found comes to " +
+                                       number_as_text(unit * (start + leg.length - data.shift)) + ", the field says " +
+                                       number_as_text(unit * (record.value - data.shift)) +
+                                       ": please report the mesh and the points");
+}
+
 WindowField::Leg last_leg_of(const windows::WindowFieldData& data, const Found& found, Index vertex) {
   if (!data.exact) {
     throw Error(ErrorCode::InvalidArgument, "windows were merged: paths need the method exact");
@@ -113,6 +127,7 @@ WindowField::Leg last_leg_of(const windows::WindowFieldData& data, const Found& 
     leg = windows::find_leg({data.mesh, data.sources, data.curves, data.shift, vertex_value, at, found.record.value,
                              data.room_for(found.record), ray.pseudo_source, ray.halfedge, ray.source,
                              ray.kind == windows::WindowKind::Linear});
+    if (!leg.points.empty()) hold_to_value(data, found.record, leg);
   }
   leg.length *= data.mesh.unit();
   return leg;

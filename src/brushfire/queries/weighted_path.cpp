@@ -1,0 +1,136 @@
+// From a run to its paths, in the caller's numbers and units.
+#include <brushfire/queries/weighted_path.h>
+
+#include <brushfire/core/cancel.h>
+#include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/queries/detail/strip.h>
+#include <brushfire/queries/path.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace brushfire {
+namespace {
+
+using steiner::Run;
+using weighted::Leg;
+using weighted::Stop;
+using weighted::Strip;
+
+SurfacePoint point_of(const steiner::WeightedMesh& weighted, const Stop& stop) {
+  const Mesh& mesh = weighted.mesh();
+  if (stop.on == Stop::On::Place) return {stop.place.face, stop.place.weights};
+  if (stop.on == Stop::On::Vertex) return vertex_point(mesh, stop.vertex);
+  const Index h = weighted.edges().halfedge(stop.edge);
+  const double length = mesh.lengths()[h], t = length > 0 ? std::clamp(stop.at / length, 0.0, 1.0) : 0;
+  SurfacePoint point{Mesh::face_of(h), {0, 0, 0}};
+  point.weights[h % 3] = 1 - t;
+  point.weights[(h + 1) % 3] = t;
+  return point;
+}
+
+WeightedLeg leg_of(const Run& run, const Strip& strip, std::size_t k) {
+  const steiner::WeightedMesh& weighted = *run.mesh;
+  const Leg& leg = strip.legs[k];
+  WeightedLeg result;
+  result.length = length_of(weighted, strip, k) * weighted.mesh().unit();
+  result.weight = leg.weight;
+  result.toll = strip.stops[k].toll * weighted.mesh().unit();
+  Index face = leg.face;
+  if (face == kNoIndex) {
+    const Index h = weighted.edges().halfedge(leg.edge);
+    face = Mesh::face_of(h);
+    result.along = {weighted.vertex(weighted.mesh().from(h)), weighted.vertex(weighted.mesh().to(h))};
+  }
+  SurfacePoint somewhere{face, {1, 0, 0}};
+  weighted.to_caller({&somewhere, 1});
+  result.face = somewhere.face;
+  return result;
+}
+
+WeightedPath path_of(const Run& run, const Strip& strip) {
+  WeightedPath path;
+  if (strip.stops.empty()) return path;
+  path.cost = path.length = 0;
+  for (const Stop& stop : strip.stops) path.points.push_back(point_of(*run.mesh, stop));
+  run.mesh->to_caller(path.points);
+  for (std::size_t k = 0; k < strip.legs.size(); ++k) {
+    path.legs.push_back(leg_of(run, strip, k));
+    path.length += path.legs.back().length;
+    path.cost += path.legs.back().cost();
+  }
+  // A fence at the very end is paid without a leg.
+  if (!strip.legs.empty()) path.cost += strip.stops.back().toll * run.mesh->mesh().unit();
+  return path;
+}
+
+// Of the sides of a target, the cheapest.
+WeightedPath path_to(const Run& run, std::size_t target) {
+  const std::vector<steiner::ValueAt>& values = run.target_values[target];
+  const auto best =
+      std::min_element(values.begin(), values.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  if (best == values.end() || best->value == kInfinity) return {};
+  Strip strip = weighted::trace(run, run.targets[target][static_cast<std::size_t>(best - values.begin())], *best);
+  make_locally_shortest(*run.mesh, strip);
+  return path_of(run, strip);
+}
+
+// One weight everywhere.
+std::vector<WeightedPath> plain_paths(const Domain& domain, double weight, std::span<const Source> sources,
+                                      std::span<const SurfacePoint> targets, const WeightedOptions& options) {
+  std::vector<Source> scaled(sources.begin(), sources.end());
+  for (Source& s : scaled) s.offset /= weight;
+  DistanceSolver solver(domain);
+  DistanceOptions how;
+  how.max_distance = options.max_distance / weight;
+  how.cancel = options.cancel;
+  const Mesh& mesh = domain.mesh();
+  std::vector<WeightedPath> paths;
+  for (const SourcePath& found : paths_to(solver, scaled, targets, how)) {
+    WeightedPath& path = paths.emplace_back();
+    static_cast<SurfacePath&>(path) = found;
+    path.source = found.source;
+    if (found.points.empty()) continue;
+    path.cost = path.lower = found.length * weight;
+    for (std::size_t k = 0; k + 1 < found.points.size(); ++k) {
+      const PointLocation a = locate(mesh, found.points[k], 0), b = locate(mesh, found.points[k + 1], 0);
+      WeightedLeg& leg = path.legs.emplace_back();
+      leg.face = common_face(mesh, a, b, found.points[k].face);
+      leg.length = distance_within(mesh, leg.face, a, b) * mesh.unit();
+      leg.weight = weight;
+    }
+  }
+  return paths;
+}
+
+}  // namespace
+
+std::vector<WeightedPath> weighted_paths(WeightedSolver& solver, std::span<const Source> sources,
+                                         std::span<const SurfacePoint> targets, WeightedOptions options) {
+  const CancelScope listen(options.cancel);
+  if (targets.empty()) return {};
+  if (const double weight = solver.weights().uniform(); weight > 0) {
+    return plain_paths(solver.domain(), weight, sources, targets, options);
+  }
+  options.targets.assign(targets.begin(), targets.end());
+  const WeightedField field = solver.distance(sources, options);
+  std::vector<WeightedPath> paths;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (field.target_distance[t] == kInfinity) {
+      paths.emplace_back();
+      continue;
+    }
+    WeightedPath& path = paths.emplace_back(path_to(*field.run, t));
+    path.source = field.target_source[t];
+    if (!field.target_lower.empty()) path.lower = field.target_lower[t] - sources[path.source].offset;
+  }
+  return paths;
+}
+
+WeightedPath weighted_path(WeightedSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
+                           const WeightedOptions& options) {
+  const Source source{from};
+  return weighted_paths(solver, {&source, 1}, {&to, 1}, options).front();
+}
+
+}  // namespace brushfire

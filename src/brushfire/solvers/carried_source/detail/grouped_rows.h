@@ -1,0 +1,71 @@
+// Rows of distance matrices with carried sources: sixteen neighbouring vertices at a time.
+#pragma once
+
+#include <brushfire/core/detail/targets.h>
+#include <brushfire/mesh/domain.h>
+#include <brushfire/solvers/carried_source/detail/group_march.h>
+#include <brushfire/solvers/carried_source/detail/source_groups.h>
+#include <brushfire/solvers/detail/local_mesh.h>
+#include <brushfire/solvers/distance.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace brushfire::carried_source {
+
+// What threads share: the records of the mesh, and which vertices are sources together. A group is run as a whole,
+// whichever of its rows are asked for: so a row is the same whatever else is.
+class GroupedRows {
+ public:
+  // Whether these options are those of grouped rows: in single precision, where that is enough for the mesh.
+  static bool serve(const Domain& domain, const DistanceOptions& options);
+
+  // `asked`: vertices of domain.mesh(). Those that are in no group afterwards are to be run alone: vertices on walls
+  // (each is a source on every side), with hardly any others close by, or in no face.
+  GroupedRows(const Domain& domain, std::span<const Index> asked);
+
+  struct Group {
+    std::vector<Index> vertices;  // of domain.mesh(), by lane
+    double spread = 0;
+  };
+  const std::vector<Group>& groups() const { return groups_; }
+
+ private:
+  friend class GroupRunner;
+
+  double unit_ = 1;
+  detail::LocalMesh local_;  // of domain.open(), where faces over the same vertices are one
+  Records<float> records_;
+  std::vector<Index> place_;                     // [vertices of domain.mesh()] in the records
+  std::vector<std::pair<Index, Index>> copies_;  // further copies of vertices on walls: the vertex, its place
+  std::vector<Group> groups_;
+};
+
+// One thread's memory for the march: some 350 bytes a vertex, and 64 more for the rows.
+class GroupRunner {
+ public:
+  explicit GroupRunner(const GroupedRows& rows, Variant variant = Variant::Best,
+                       int most_turns = GroupMarch::kMostTurns);
+
+  // A lane's distances to all vertices of domain.mesh(), in unit()s of the mesh. Valid during the call.
+  using Take = std::function<void(int lane, std::span<const float> distances)>;
+  // Hands out all lanes, whose values up to max_distance (in the mesh's units; those beyond may be there, too) are
+  // right, in any order, but those that it returns: they are to be run alone. Where a vertex uses up its turns that is
+  // known in time, and the group is run by halves; a lane by itself is none. Throws Error(Cancelled).
+  std::vector<int> run(const GroupedRows::Group& group, double max_distance, const Take& take);
+
+  double unit() const { return rows_.unit_; }
+  const GroupMarch& march() const { return march_; }
+
+ private:
+  bool run_lanes(const GroupedRows::Group& group, int begin, int end, double max_distance);
+  void transpose();
+
+  const GroupedRows& rows_;
+  GroupMarch march_;
+  std::vector<float> values_;  // [kGroupLanes][vertices of domain.mesh()], in units of the open mesh
+};
+
+}  // namespace brushfire::carried_source

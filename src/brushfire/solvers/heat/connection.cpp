@@ -1,0 +1,112 @@
+#include <brushfire/solvers/heat/connection.h>
+
+#include <cmath>
+
+namespace brushfire::heat {
+namespace {
+
+double angle_at_tail(const Triangulation& t, Index h) {
+  const FlatTriangle flat = lay_flat(t, h / 3);
+  const Complex a = direction_in(flat, static_cast<int>(h % 3));
+  const Complex b = -direction_in(flat, static_cast<int>(Mesh::previous(h) % 3));
+  return std::abs(std::arg(b / a));
+}
+
+}  // namespace
+
+Complex direction_in(const FlatTriangle& flat, int k) {
+  const Complex corners[3] = {0, flat.length, {flat.apex.x, flat.apex.y}};
+  const Complex edge = corners[(k + 1) % 3] - corners[k];
+  return edge / std::abs(edge);
+}
+
+TangentSpaces lay_out_tangents(Triangulation& t) {
+  TangentSpaces spaces{std::vector<double>(t.vertex_count, 0), std::vector<double>(t.vertex_count, 1)};
+  t.bearing.assign(t.tail.size(), -1);
+  std::vector<bool> on_border(t.vertex_count, false);
+  // Counter-clockwise from h on, until the fan ends or closes.
+  const auto go_around = [&](Index h) {
+    double& total = spaces.total[t.tail[h]];
+    while (h != kNoIndex && t.bearing[h] < 0) {
+      t.bearing[h] = total;
+      total += angle_at_tail(t, h);
+      h = t.twin[Mesh::previous(h)];
+    }
+  };
+  for (Index h = 0; h < t.tail.size(); ++h) {
+    if (t.twin[h] != kNoIndex) continue;
+    on_border[t.tail[h]] = true;
+    go_around(h);
+  }
+  for (Index h = 0; h < t.tail.size(); ++h) go_around(h);
+  for (Index v = 0; v < t.vertex_count; ++v) {
+    if (spaces.total[v] > 0) spaces.stretch[v] = (on_border[v] ? kPi : 2 * kPi) / spaces.total[v];
+  }
+  return spaces;
+}
+
+Complex direction(const Triangulation& t, const TangentSpaces& spaces, Index h) {
+  return std::polar(1.0, spaces.stretch[t.tail[h]] * t.bearing[h]);
+}
+
+Complex direction_back(const Triangulation& t, const TangentSpaces& spaces, Index h) {
+  if (t.twin[h] != kNoIndex) return direction(t, spaces, t.twin[h]);
+  // The last edge of the fan: after the halfedge before it, by the angle between them.
+  const Index before = Mesh::next(h);
+  const Index v = t.tail[before];
+  return std::polar(1.0, spaces.stretch[v] * (t.bearing[before] + angle_at_tail(t, before)));
+}
+
+std::vector<Complex> connection_laplacian(const Triangulation& t, const TangentSpaces& spaces, const Operators& o) {
+  std::vector<Complex> matrix(o.pattern.row.size());
+  for (Index h = 0; h < t.tail.size(); ++h) {
+    const Index a = t.tail[h], b = t.tail[Mesh::next(h)];
+    const double weight = half_cotangent(t, h) / t.sheets;
+    // From the frame of b to that of a: the edge runs against its own way back.
+    const Complex turn = -direction(t, spaces, h) * std::conj(direction_back(t, spaces, h));
+    matrix[o.pattern.start[a]] += weight;
+    matrix[o.pattern.start[b]] += weight;
+    matrix[o.edge_entry[h]] -= a == b ? Complex(2 * weight * turn.real()) : weight * (a > b ? turn : std::conj(turn));
+  }
+  return matrix;
+}
+
+VectorSystem::VectorSystem(const Mesh& mesh, bool delaunay, double time_factor, double time) {
+  require_factorization();
+  triangulation_ = triangulation_of(mesh, Cover::Single);
+  mollify(triangulation_);
+  spaces_ = lay_out_tangents(triangulation_);
+  mesh_bearings_ = triangulation_.bearing;
+  if (delaunay) flip_to_delaunay(triangulation_);
+  const double mean = mean_edge_length(triangulation_);
+  time_ = time > 0 ? time / mesh.unit() / mesh.unit() : time_factor * mean * mean;
+  if (!(time_ > 0 && time_ < kInfinity)) time_ = 1;
+  operators_ = operators_of(triangulation_);
+  connection_ = heat::connection_laplacian(triangulation_, spaces_, operators_);
+}
+
+namespace {
+
+// M + t L, and 1 where there is nothing.
+template <class Scalar>
+Factors<Scalar> heat_factors(const Operators& o, std::vector<Scalar> laplacian, double time) {
+  for (Scalar& entry : laplacian) entry *= time;
+  for (std::size_t v = 0; v < o.mass.size(); ++v) {
+    laplacian[o.pattern.start[v]] += o.mass[v] > 0 ? o.mass[v] : 1;
+  }
+  return Factors<Scalar>(o.pattern, {&laplacian, 1});
+}
+
+}  // namespace
+
+const Factors<double>& VectorSystem::scalar_heat() {
+  if (scalar_.empty()) scalar_.push_back(heat_factors(operators_, operators_.laplacian, time_));
+  return scalar_.front();
+}
+
+const Factors<Complex>& VectorSystem::vector_heat() {
+  if (vector_.empty()) vector_.push_back(heat_factors(operators_, connection_, time_));
+  return vector_.front();
+}
+
+}  // namespace brushfire::heat

@@ -1,0 +1,67 @@
+// Tangent spaces at the vertices of a triangulation, and the Laplacian of vectors in them.
+//
+// Based on: Knoppel, Crane, Pinkall, Schroder, "Globally optimal direction fields", 2013.
+#pragma once
+
+#include <brushfire/solvers/heat/operators.h>
+#include <brushfire/solvers/heat/triangulation.h>
+
+#include <complex>
+#include <vector>
+
+namespace brushfire::heat {
+
+using Complex = std::complex<double>;
+
+// Angles at vertices: bearings count them from the first edge on, as they are; directions stretch the sum of the angles
+// to a full turn, on a border to half of one. Flips change neither.
+struct TangentSpaces {
+  std::vector<double> total;    // [vertex_count] the sum of the angles
+  std::vector<double> stretch;  // [vertex_count] direction = stretch * bearing
+};
+
+// Fills t.bearing. The first edge is that of the lowest halfedge; on a border that one of the two after which the
+// surface comes. At a vertex of several fans the angles of one follow those of another.
+TangentSpaces lay_out_tangents(Triangulation& t);
+
+// The direction of halfedge h at its tail; and at its head the one back along it.
+Complex direction(const Triangulation& t, const TangentSpaces& spaces, Index h);
+Complex direction_back(const Triangulation& t, const TangentSpaces& spaces, Index h);
+
+// The direction of halfedge k of a triangle laid flat.
+Complex direction_in(const FlatTriangle& flat, int k);
+
+// The entries of the connection Laplacian, below the diagonal: entry (i, j) takes a vector from the frame of j to that
+// of i along the edge, times minus its weight.
+std::vector<Complex> connection_laplacian(const Triangulation& t, const TangentSpaces& spaces, const Operators& o);
+
+// A surface with its tangent spaces, and both heat equations on it, each factored when it is first asked for.
+class VectorSystem {
+ public:
+  // Throws Error(InvalidArgument) for what is no oriented manifold. `time_factor` and `time` as in HeatOptions.
+  VectorSystem(const Mesh& mesh, bool delaunay, double time_factor, double time);
+
+  const Triangulation& triangulation() const { return triangulation_; }
+  const TangentSpaces& spaces() const { return spaces_; }
+  const Operators& operators() const { return operators_; }
+  double time() const { return time_; }  // in mesh.unit() squared
+  // The bearings of the mesh's own halfedges, which are those before any flip.
+  const std::vector<double>& mesh_bearings() const { return mesh_bearings_; }
+  // The Laplacian of vectors is kept: it is asked for by itself, too.
+  const std::vector<Complex>& laplacian_of_vectors() const { return connection_; }
+
+  const Factors<double>& scalar_heat();
+  const Factors<Complex>& vector_heat();
+
+ private:
+  Triangulation triangulation_;
+  TangentSpaces spaces_;
+  std::vector<double> mesh_bearings_;
+  Operators operators_;
+  std::vector<Complex> connection_;
+  double time_ = 0;
+  std::vector<Factors<double>> scalar_;  // none or one
+  std::vector<Factors<Complex>> vector_;
+};
+
+}  // namespace brushfire::heat

@@ -1,0 +1,229 @@
+#include <brushfire/solvers/signed_heat.h>
+
+#include <brushfire/core/error.h>
+#include <brushfire/mesh/detail/components.h>
+#include <brushfire/solvers/heat/connection.h>
+#include <brushfire/solvers/heat/level_sets.h>
+#include <brushfire/solvers/heat/system.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace brushfire {
+
+using heat::Complex;
+
+namespace {
+
+HeatOptions checked(const HeatOptions& options) {
+  heat::check(options);
+  return options;
+}
+
+// A piece of a curve within one face, laid flat.
+struct Segment {
+  Index face;
+  Complex along;                  // in the frame of the face's first edge
+  std::array<double, 3> weights;  // of its middle
+};
+
+// A face that both points are in, and their weights there; the lowest one.
+struct InFace {
+  Index face = kNoIndex;
+  std::array<double, 3> a, b;
+};
+
+// The weights of a point in face f; all 0 where it is not in it.
+std::array<double, 3> weights_in(const Mesh& mesh, const PointLocation& p, Index f) {
+  std::array<double, 3> weights{};
+  if (p.face == f) return p.weights;
+  double found = 0;
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 3; ++j) {
+      if (mesh.faces()[p.face][j] == mesh.faces()[f][k]) weights[k] = p.weights[j];
+    }
+    found += weights[k];
+  }
+  return std::abs(found - 1) < kWeightError ? weights : std::array<double, 3>{};
+}
+
+InFace shared_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b, std::size_t where) {
+  InFace best;
+  const auto offer = [&](Index f) {
+    const std::array<double, 3> wa = weights_in(mesh, a, f), wb = weights_in(mesh, b, f);
+    if (f < best.face && wa[0] + wa[1] + wa[2] > 0 && wb[0] + wb[1] + wb[2] > 0) best = {f, wa, wb};
+  };
+  for (int k = 0; k < 3; ++k) {
+    if (!(a.weights[k] > 0)) continue;
+    for (const Index h : mesh.corners(mesh.faces()[a.face][k])) offer(Mesh::face_of(h));
+  }
+  if (best.face == kNoIndex) {
+    throw Error(ErrorCode::InvalidArgument,
+                "points " + std::to_string(where) + " and " + std::to_string(where + 1) + " of a curve share no face");
+  }
+  return best;
+}
+
+}  // namespace
+
+struct SignedHeatSolver::State {
+  State(const Mesh& given, const HeatOptions& how)
+      : mesh(given),
+        system(given, how.delaunay, how.time_factor, how.time),
+        components(detail::components_of(given)),
+        levels(system.operators(), components) {
+    flat = heat::triangulation_of(mesh, heat::Cover::Single);
+    heat::mollify(flat);
+    flat.bearing = system.mesh_bearings();
+  }
+
+  Mesh mesh;
+  heat::VectorSystem system;
+  detail::Components components;
+  heat::LevelSets levels;
+  heat::Triangulation flat;  // the mesh itself, where curves are
+
+  std::vector<PointLocation> located(std::span<const SurfacePoint> points) const;
+  std::vector<Segment> segments(const std::vector<PointLocation>& nodes) const;
+  void add(const Segment& s, std::vector<Complex>& x) const;
+  void add_outward(const PointLocation& p, double weight, std::vector<Complex>& x) const;
+  std::vector<double> divergence(const std::vector<Complex>& x) const;
+  void turn_along(std::span<const Segment> all, const std::vector<Complex>& x, std::vector<double>& b) const;
+  Complex mean_in(const heat::Triangulation& t, std::size_t face, const std::vector<Complex>& x) const;
+};
+
+SignedHeatSolver::SignedHeatSolver(const Mesh& mesh, const HeatOptions& options)
+    : state_(std::make_unique<State>(mesh, checked(options))) {}
+SignedHeatSolver::~SignedHeatSolver() = default;
+SignedHeatSolver::SignedHeatSolver(SignedHeatSolver&&) noexcept = default;
+SignedHeatSolver& SignedHeatSolver::operator=(SignedHeatSolver&&) noexcept = default;
+
+std::vector<PointLocation> SignedHeatSolver::State::located(std::span<const SurfacePoint> points) const {
+  std::vector<PointLocation> nodes;
+  for (const SurfacePoint& p : points) nodes.push_back(locate(mesh, p));
+  return nodes;
+}
+
+std::vector<Segment> SignedHeatSolver::State::segments(const std::vector<PointLocation>& nodes) const {
+  std::vector<Segment> all;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const InFace in = shared_face(mesh, nodes[i], nodes[i + 1], i);
+    const heat::FlatTriangle t = heat::lay_flat(flat, in.face);
+    const auto place = [&](const std::array<double, 3>& w) {
+      return Complex(w[1] * t.length + w[2] * t.apex.x, w[2] * t.apex.y);
+    };
+    Segment& s = all.emplace_back(Segment{in.face, place(in.b) - place(in.a), {}});
+    for (int k = 0; k < 3; ++k) s.weights[k] = 0.5 * (in.a[k] + in.b[k]);
+  }
+  return all;
+}
+
+// To its right, as strong as it is long.
+void SignedHeatSolver::State::add(const Segment& s, std::vector<Complex>& x) const {
+  const heat::FlatTriangle t = heat::lay_flat(flat, s.face);
+  for (int k = 0; k < 3; ++k) {
+    const Index h = 3 * s.face + k;
+    x[flat.tail[h]] +=
+        s.weights[k] * Complex(0, -1) * s.along * heat::direction(flat, system.spaces(), h) / heat::direction_in(t, k);
+  }
+}
+
+// Away from a point without a direction: at the neighbours of the vertices around it, with the weights of the Laplacian,
+// so that on a flat place they sum to 0.
+void SignedHeatSolver::State::add_outward(const PointLocation& p, double weight, std::vector<Complex>& x) const {
+  for (int k = 0; k < 3; ++k) {
+    if (!(p.weights[k] > 0)) continue;
+    const Index v = mesh.faces()[p.face][k];
+    for (const Index corner : mesh.corners(v)) {
+      for (const Index h : {corner, Mesh::previous(corner)}) {  // out along an edge, and in: each face's half
+        const bool out = flat.tail[h] == v;
+        const Index other = out ? flat.tail[Mesh::next(h)] : flat.tail[h];
+        const Complex back =
+            out ? heat::direction_back(flat, system.spaces(), h) : heat::direction(flat, system.spaces(), h);
+        x[other] -= weight * p.weights[k] * heat::half_cotangent(flat, h) * flat.length[h] * back;
+      }
+    }
+  }
+}
+
+// The vectors of a triangle's corners in its own frame, together.
+Complex SignedHeatSolver::State::mean_in(const heat::Triangulation& t, std::size_t face,
+                                         const std::vector<Complex>& x) const {
+  const heat::FlatTriangle flat_face = heat::lay_flat(t, face);
+  double largest = 0;
+  for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(x[t.tail[3 * face + k]]));
+  Complex sum;
+  for (int k = 0; k < 3 && largest > 0; ++k) {
+    const Index h = static_cast<Index>(3 * face + k);
+    sum += x[t.tail[h]] / largest * heat::direction_in(flat_face, k) / heat::direction(t, system.spaces(), h);
+  }
+  const double length = std::abs(sum);
+  return length > 0 ? sum / length : Complex();
+}
+
+namespace {
+
+void add_flux(const heat::Triangulation& t, std::size_t face, Complex x, std::vector<double>& b) {
+  const heat::FlatTriangle flat = heat::lay_flat(t, face);
+  const double to_1 = 0.5 * (x.real() * flat.apex.y - x.imag() * flat.apex.x);
+  const double to_2 = 0.5 * x.imag() * flat.length;
+  b[t.tail[3 * face]] -= to_1 + to_2;
+  b[t.tail[3 * face + 1]] += to_1;
+  b[t.tail[3 * face + 2]] += to_2;
+}
+
+}  // namespace
+
+std::vector<double> SignedHeatSolver::State::divergence(const std::vector<Complex>& x) const {
+  const heat::Triangulation& t = system.triangulation();
+  std::vector<double> b(mesh.vertex_count(), 0.0);
+  for (std::size_t f = 0; f < t.face_count(); ++f) add_flux(t, f, mean_in(t, f, x), b);
+  return b;
+}
+
+// In the faces that curves run through, the direction at right angles to them in place of what heat says.
+void SignedHeatSolver::State::turn_along(std::span<const Segment> all, const std::vector<Complex>& x,
+                                         std::vector<double>& b) const {
+  std::map<Index, Complex> across;
+  for (const Segment& s : all) across[s.face] += Complex(0, -1) * s.along;
+  for (const auto& [face, normal] : across) {
+    if (!(std::abs(normal) > 0)) continue;
+    add_flux(flat, face, normal / std::abs(normal) - mean_in(flat, face, x), b);
+  }
+}
+
+std::vector<double> SignedHeatSolver::distance(std::span<const SignedCurve> curves,
+                                               std::span<const SurfacePoint> points, const SignedHeatOptions& options) {
+  State& s = *state_;
+  if (curves.empty() && points.empty()) throw Error(ErrorCode::InvalidArgument, "no curve and no point given");
+  std::vector<Complex> x(s.mesh.vertex_count());
+  std::vector<Segment> directed;
+  std::vector<std::vector<PointLocation>> groups;
+  for (const SignedCurve& curve : curves) {
+    const std::vector<PointLocation>& nodes = groups.emplace_back(s.located(curve.points));
+    for (const Segment& segment : s.segments(nodes)) {
+      if (curve.is_signed) {
+        directed.push_back(segment);
+        s.add(segment, x);
+      }
+    }
+    if (!curve.is_signed) {
+      for (const PointLocation& p : nodes) s.add_outward(p, 1, x);
+    }
+  }
+  for (const PointLocation& p : s.located(points)) {
+    s.add_outward(p, 1, x);
+    groups.push_back({p});
+  }
+  s.system.vector_heat().solve(0, 1, x);
+  std::vector<double> b = s.divergence(x);
+  if (options.preserve_normals) s.turn_along(directed, x, b);
+  return s.levels.integrate(s.mesh, std::move(b), groups, options);
+}
+
+}  // namespace brushfire

@@ -1,0 +1,25 @@
+// The Laplacian of any triangle mesh, for whoever builds on it: cotangents on the intrinsic Delaunay triangulation.
+#pragma once
+
+#include <brushfire/core/types.h>
+#include <brushfire/mesh/mesh.h>
+
+#include <vector>
+
+namespace brushfire {
+
+struct Laplacian {
+  // Both triangles and the diagonal, columns ascending. Symmetric, rows sum to 0, positive semidefinite; with
+  // `delaunay` no entry off the diagonal is above 1e-6.
+  std::vector<Index> row, column;
+  std::vector<double> value;
+  std::vector<double> mass;  // [vertex_count] a third of the area around each vertex, in units of the mesh squared
+};
+
+// Of whatever is given: borders, edges of three faces and mirrored faces by way of the tufted cover, faces without an
+// area by mollification. delaunay false: on the faces as they are, whose weights may be negative. O(vertices + faces).
+//
+// Based on: Sharp, Crane, "A Laplacian for nonmanifold triangle meshes", 2020.
+Laplacian laplacian_of(const Mesh& mesh, bool delaunay = true);
+
+}  // namespace brushfire

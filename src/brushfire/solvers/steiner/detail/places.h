@@ -1,0 +1,80 @@
+// Where things are on the rows of points: frames of edges, the rows around a place, values between points.
+#pragma once
+
+#include <brushfire/mesh/surface_point.h>
+#include <brushfire/solvers/detail/engine.h>
+#include <brushfire/solvers/steiner/detail/point_layout.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace brushfire::steiner {
+
+// Of real paths, whose costs are nowhere below the distance; or lowered (lower_costs.h) to be nowhere above it.
+enum class Costs : std::uint8_t { Real, Below };
+
+// Where a value comes from: a point of the layout, or kFromSource + position in the list of sources.
+inline constexpr Index kFromSource = Index{1} << 31;
+
+// In mesh.unit() times weight, from the least offset of a source on. Copies of a vertex at the ends of rows agree.
+struct Front {
+  std::vector<double> value;  // [layout.size()]
+  std::vector<Index> parent;  // [layout.size()] kNoIndex: not reached. At ends of rows that of vertex_parent counts
+  std::vector<double> vertex_value;
+  std::vector<Index> vertex_parent;
+  double horizon = kInfinity;  // values up to this are final
+  std::uint64_t rows_sent = 0;
+};
+
+struct ValueAt {
+  double value = kInfinity;
+  Index parent = kNoIndex;
+};
+
+// A face over an edge, in the frame of the edge: from its start at (0, 0) to its end at (length, 0).
+struct FaceOver {
+  Index edge = kNoIndex, face = kNoIndex;
+  Index start = kNoIndex, end = kNoIndex;  // the edge's vertices
+  double length = 0;
+  Vec2 apex;
+};
+
+// Where a place is in the frame of an edge beside it, or under it.
+struct RowBeside {
+  Index edge = kNoIndex;
+  double weight = 0;
+  Vec2 place;
+  bool under = false;
+  double rounding = 0;  // of distances from it
+};
+
+class Places {
+ public:
+  Places(const WeightedMesh& mesh, const PointLayout& layout, Costs costs)
+      : mesh_(mesh), layout_(layout), costs_(costs) {}
+
+  Index end_of(Index edge, bool last) const {
+    const Index h = mesh_.edges().halfedge(edge);
+    return last ? mesh_.mesh().to(h) : mesh_.mesh().from(h);
+  }
+  // The face of a halfedge over its edge.
+  FaceOver over(Index h) const;
+  // The rows of the faces that hold a place which is not a vertex; of an edge also its own.
+  std::vector<RowBeside> beside(const PointLocation& place) const;
+  // From the place to point i of the row, without its weight.
+  double distance_to(const RowBeside& row, Index i) const;
+  // What a front says of any place. O(points on the rows around it).
+  ValueAt value(const Front& front, std::span<const detail::LocatedSource> sources, const PointLocation& place) const;
+
+ private:
+  void add_beside(Index h, const PointLocation& place, std::vector<RowBeside>& rows) const;
+  ValueAt straight_from(std::span<const detail::LocatedSource> sources, const PointLocation& place) const;
+  ValueAt between_points(const Front& front, const RowBeside& row) const;
+
+  const WeightedMesh& mesh_;
+  const PointLayout& layout_;
+  Costs costs_;
+};
+
+}  // namespace brushfire::steiner

@@ -1,0 +1,62 @@
+// The inner loops of the search: every receiving point, four at a time, against every offering one.
+namespace brushfire::steiner::BRUSHFIRE_TARGET {
+using namespace lanes::BRUSHFIRE_TARGET;
+
+// The straight distance times the weight. Whether anything is lower than what was there.
+inline bool relax_rows(const Offering& from, const Receiving& to, double weight, Offers& offers) {
+  using V = Lanes<double, 4>;
+  bool any_lower = false;
+  for (Index j = 0; j < to.room; j += 4) {
+    const V old = load<V>(to.value + j), at = load<V>(to.at + j);
+    V best = old, origin(-1);
+    if (any(V(from.least) < old)) {
+      const V x = to.start.x + at * to.direction.x, y = to.start.y + at * to.direction.y, yy = y * y;
+      for (Index i = from.first; i <= from.last; ++i) {
+        const V dx = x - from.at[i], offer = from.value[i] + weight * square_root(dx * dx + yy);
+        const auto lower = offer < best;
+        best = select(lower, offer, best);
+        origin = select(lower, V(static_cast<double>(i)), origin);
+      }
+      any_lower = any_lower || any(best < old);
+    }
+    store(offers.value.data() + j, best);
+    store(offers.from.data() + j, origin);
+  }
+  return any_lower;
+}
+
+// The same with the lowered costs of lower_costs.h; `rounding` is what a distance may be off by.
+inline bool relax_rows_below(const Offering& from, const Receiving& to, double weight, const LowerTerms& near,
+                             const LowerTerms& far, double rounding, Offers& offers) {
+  using V = Lanes<double, 4>;
+  constexpr double kTiny = 1e-100;  // its square is a number, and so is a quotient by it
+  bool any_lower = false;
+  for (Index j = 0; j < to.room; j += 4) {
+    const V old = load<V>(to.value + j), at = load<V>(to.at + j);
+    V best = old, origin(-1);
+    if (any(V(from.least) < old)) {
+      const V x = to.start.x + at * to.direction.x, y = to.start.y + at * to.direction.y, yy = y * y;
+      const V height = load<V>(far.height.data() + j), reach = load<V>(far.reach.data() + j),
+              variance = load<V>(far.variance.data() + j), quotient = load<V>(far.quotient.data() + j), ceiling = load<V>(far.ceiling.data() + j);
+      for (Index i = from.first; i <= from.last; ++i) {
+        const V dx = x - from.at[i], d = square_root(dx * dx + yy) - rounding;
+        const V apart =
+            greater(greater(d - reach - near.reach[i], V(kTiny)), greater(height, V(near.height[i])));
+        const V square = apart * apart;
+        const V spread = lesser(quotient * square, variance) + lesser(near.quotient[i] * square, V(near.variance[i]));
+        const V share = apart / square_root(square + spread);
+        const V cost = lesser(greater(d, V(0)) * share, ceiling + near.ceiling[i]);
+        const V offer = from.value[i] + weight * cost;
+        const auto lower = offer < best;
+        best = select(lower, offer, best);
+        origin = select(lower, V(static_cast<double>(i)), origin);
+      }
+      any_lower = any_lower || any(best < old);
+    }
+    store(offers.value.data() + j, best);
+    store(offers.from.data() + j, origin);
+  }
+  return any_lower;
+}
+
+}  // namespace brushfire::steiner::BRUSHFIRE_TARGET

@@ -1,0 +1,56 @@
+// A mesh as the search on it sees it: walls and fences cut open, a weight for every face and edge.
+#pragma once
+
+#include <brushfire/mesh/domain.h>
+#include <brushfire/solvers/steiner/detail/edge_table.h>
+#include <brushfire/solvers/steiner/weights.h>
+
+#include <span>
+#include <vector>
+
+namespace brushfire::steiner {
+
+// From an edge on one side of a fence to one on another, which lies over the same two vertices of the caller's mesh.
+struct Bridge {
+  Index from = kNoIndex, to = kNoIndex;  // edges
+  bool mirrored = false;                 // the two run in opposite directions
+  double cost = 0;                       // of crossing, in mesh().unit()
+};
+
+class WeightedMesh {
+ public:
+  // Throws as check() does. O(vertices + faces + edges that are special).
+  WeightedMesh(const Domain& domain, const Weights& weights);
+
+  const Domain& domain() const { return domain_; }
+  const Mesh& mesh() const { return fenced_.open(); }
+  const EdgeTable& edges() const { return edges_; }
+  double face_weight(Index f) const { return face_weight_[f]; }  // +inf: nothing enters
+  // The least of the edge's own and of those of its faces.
+  double edge_weight(Index e) const { return edge_weight_[e]; }
+  std::span<const Bridge> bridges(Index edge) const;
+  std::span<const Bridge> all_bridges() const { return bridges_; }
+  double mean_weight() const { return mean_weight_; }  // harmonic, so that walls and marshes do not count
+
+  // Points and vertices of the caller's mesh there and back, as those of Domain.
+  std::vector<SurfacePoint> on_open(const SurfacePoint& point) const;
+  Index vertex(Index v) const { return domain_.vertex(fenced_.vertex(v)); }
+  void to_caller(std::span<SurfacePoint> points) const;
+
+ private:
+  struct Opened {  // weights in the numbers of domain.open()
+    Weights weights;
+  };
+  WeightedMesh(const Domain& domain, const Opened& opened);
+  void find_bridges(const std::vector<EdgeCost>& fences);
+  std::vector<Index> open_halfedges(Index a, Index b) const;
+
+  Domain domain_;
+  Domain fenced_;  // of domain_.open()
+  EdgeTable edges_;
+  std::vector<double> face_weight_, edge_weight_;
+  std::vector<Bridge> bridges_;  // by `from`
+  double mean_weight_ = 1;
+};
+
+}  // namespace brushfire::steiner

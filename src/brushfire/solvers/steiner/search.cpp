@@ -1,0 +1,226 @@
+// Rows of points wait in buckets; one that is taken offers what has changed to its faces, its own edge and over fences.
+#include <brushfire/solvers/steiner/detail/search.h>
+
+#include <brushfire/solvers/steiner/detail/lower_costs.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace brushfire::steiner {
+namespace {
+
+// As a share of the mean cost of an edge: narrow ones order rows better, wide ones gather more changes of a row.
+constexpr double kBucketWidth = 0.5;
+
+double mean_length(const WeightedMesh& weighted) {
+  double sum = 0;
+  for (const double l : weighted.mesh().lengths()) sum += l;
+  return sum / std::max<Index>(1, weighted.mesh().halfedge_count());
+}
+
+void resize(LowerTerms& terms, Index room) {
+  for (std::vector<double>* v : {&terms.height, &terms.reach, &terms.variance, &terms.quotient, &terms.ceiling}) v->assign(room, 0);
+}
+
+}  // namespace
+
+Search::Search(const WeightedMesh& mesh, const PointLayout& layout, Costs costs)
+    : mesh_(mesh), layout_(layout), costs_(costs), places_(mesh, layout, costs) {
+  const double width = kBucketWidth * mean_length(mesh) * mesh.mean_weight();
+  width_ = width > 0 && width < kInfinity ? width : 1;
+  offers_.value.resize(layout.longest_row());
+  offers_.from.resize(layout.longest_row());
+  resize(near_, layout.longest_row());
+  resize(far_, layout.longest_row());
+}
+
+void Search::run(std::span<const detail::LocatedSource> sources, const SearchLimits& limits) {
+  sources_ = sources;
+  const Index edges = mesh_.edges().count();
+  front_.value.assign(layout_.size(), kInfinity);
+  front_.parent.assign(layout_.size(), kNoIndex);
+  front_.vertex_value.assign(mesh_.mesh().vertex_count(), kInfinity);
+  front_.vertex_parent.assign(mesh_.mesh().vertex_count(), kNoIndex);
+  front_.horizon = kInfinity;
+  front_.rows_sent = 0;
+  for (Index e = 0; e < edges; ++e) {  // the room behind the points takes nothing
+    const Index row = layout_.row(e);
+    std::fill(front_.value.begin() + row + layout_.count(e), front_.value.begin() + row + layout_.room(e), -kInfinity);
+  }
+  first_.assign(edges, kNoIndex);
+  last_.assign(edges, 0);
+  waiting_.assign(edges, RowQueue::kNever);
+  queue_.reset();
+  for (std::size_t i = 0; i < sources.size(); ++i) start(sources[i], static_cast<Index>(i));
+
+  Poll poll(64);  // rows, of some microseconds each
+  std::size_t done = 0;
+  while (queue_.advance()) {
+    const double from = static_cast<double>(queue_.cursor()) * width_;
+    front_.horizon = from;
+    if (from > limits.max_value || targets_are_final(limits.targets, done)) return;
+    for (std::size_t i = 0; i < queue_.current().size(); ++i) {
+      const Index edge = queue_.current()[i];
+      if (waiting_[edge] != queue_.cursor()) continue;  // sent since
+      poll();
+      send(edge);
+      if (limits.progress && front_.rows_sent % 4096 == 0) {
+        const double n = static_cast<double>(front_.rows_sent);
+        limits.progress(n / (n + edges));  // most rows are sent once or twice: an estimate that never goes back
+      }
+    }
+    queue_.clear_current();
+  }
+  front_.horizon = kInfinity;
+}
+
+bool Search::targets_are_final(std::span<const PointLocation> targets, std::size_t& done) const {
+  if (targets.empty()) return false;
+  while (done < targets.size() && at(targets[done]).value <= front_.horizon) ++done;
+  return done == targets.size();
+}
+
+void Search::start(const detail::LocatedSource& source, Index number) {
+  const Index parent = kFromSource + number;
+  if (source.at.on == PointLocation::On::Vertex) {
+    return reach(source.at.vertex, source.offset, parent, kNoIndex);
+  }
+  for (const RowBeside& row : places_.beside(source.at)) {
+    if (row.weight == kInfinity) continue;
+    for (Index i = 0; i < layout_.count(row.edge); ++i) {
+      const double value = source.offset + row.weight * places_.distance_to(row, i);
+      if (value < front_.value[layout_.row(row.edge) + i]) improve(row.edge, i, value, parent);
+    }
+  }
+}
+
+void Search::improve(Index edge, Index j, double value, Index parent) {
+  if (j == 0 || j + 1 == layout_.count(edge)) return reach(end_of(edge, j > 0), value, parent, kNoIndex);
+  front_.value[layout_.row(edge) + j] = value;
+  front_.parent[layout_.row(edge) + j] = parent;
+  mark(edge, j, value);
+}
+
+// All rows that end at the vertex hear of it, `except` without being sent again.
+void Search::reach(Index v, double value, Index parent, Index except) {
+  if (!(value < front_.vertex_value[v])) return;
+  front_.vertex_value[v] = value;
+  front_.vertex_parent[v] = parent;
+  for (const Index e : mesh_.edges().at(v)) {
+    const Index j = end_of(e, false) == v ? 0 : layout_.count(e) - 1;
+    front_.value[layout_.row(e) + j] = value;
+    front_.parent[layout_.row(e) + j] = parent;
+    if (e != except) mark(e, j, value);
+  }
+}
+
+void Search::mark(Index edge, Index j, double value) {
+  first_[edge] = std::min(first_[edge], j);
+  last_[edge] = std::max(last_[edge], j);
+  constexpr double kLastBucket = 0x1p62;
+  const auto bucket =
+      std::max(static_cast<RowQueue::Bucket>(std::min(value / width_, kLastBucket)), queue_.cursor());
+  if (bucket >= waiting_[edge]) return;
+  waiting_[edge] = bucket;
+  queue_.push(edge, bucket);
+}
+
+void Search::send(Index edge) {
+  Index first = first_[edge], last = last_[edge];
+  first_[edge] = kNoIndex;
+  last_[edge] = 0;
+  waiting_[edge] = RowQueue::kNever;
+  ++front_.rows_sent;
+  sweep(edge, first, last);
+  const std::span<const Index> opposite = mesh_.mesh().opposite();
+  const Index begin = mesh_.edges().halfedge(edge);
+  Index h = begin;
+  do {
+    const Index f = Mesh::face_of(h);
+    if (mesh_.mesh().is_face_usable(f) && mesh_.face_weight(f) < kInfinity) send_into_face(places_.over(h), first, last);
+    h = opposite[h];
+  } while (h != begin);
+  cross(edge, first, last);
+}
+
+// Along the edge, both ways, as far as that lowers anything.
+void Search::sweep(Index edge, Index& first, Index& last) {
+  const double weight = mesh_.edge_weight(edge);
+  if (weight == kInfinity) return;
+  const double* at = layout_.at_row(edge);
+  const Index count = layout_.count(edge), from = first, to = last;
+  for (Index j = from; j + 1 < count && j <= last; ++j) step(edge, j, j + 1, weight * (at[j + 1] - at[j]), first, last);
+  for (Index j = std::max(to, last); j > 0 && j >= first; --j) {
+    step(edge, j, j - 1, weight * (at[j] - at[j - 1]), first, last);
+  }
+}
+
+void Search::step(Index edge, Index from, Index to, double cost, Index& first, Index& last) {
+  const Index row = layout_.row(edge);
+  const double value = front_.value[row + from] + cost;
+  if (!(value < front_.value[row + to])) return;
+  if (to == 0 || to + 1 == layout_.count(edge)) {
+    reach(end_of(edge, to > 0), value, row + from, edge);
+  } else {
+    front_.value[row + to] = value;
+    front_.parent[row + to] = row + from;
+  }
+  first = std::min(first, to);
+  last = std::max(last, to);
+}
+
+void Search::send_into_face(const FaceOver& over, Index first, Index last) {
+  for (Index k = 0; k < 3; ++k) {
+    const Index target = mesh_.edges().edge(3 * over.face + k);
+    if (target != over.edge) send_to_row(over, target, first, last);
+  }
+}
+
+void Search::send_to_row(const FaceOver& over, Index target, Index first, Index last) {
+  const double* values = front_.value.data() + layout_.row(over.edge);
+  const Offering from{layout_.at_row(over.edge), values, first, last, *std::min_element(values + first, values + last + 1)};
+  const auto place = [&](Index v) {
+    return v == over.start ? Vec2{} : v == over.end ? Vec2{over.length, 0} : over.apex;
+  };
+  Receiving to{layout_.at_row(target), front_.value.data() + layout_.row(target), place(end_of(target, false)), {},
+               layout_.room(target)};
+  const double length = to.at[layout_.count(target) - 1];
+  if (length > 0) to.direction = (1 / length) * (place(end_of(target, true)) - to.start);
+  const double weight = mesh_.face_weight(over.face);
+  bool lower;
+  if (costs_ == Costs::Real) {
+    lower = BRUSHFIRE_ON_TARGET(Variant::Best, relax_rows(from, to, weight, offers_));
+  } else {
+    find_lower_terms(over, target, to);
+    const double rounding = kPlaceRounding * std::max({over.length, norm(over.apex), length});
+    lower = BRUSHFIRE_ON_TARGET(Variant::Best, relax_rows_below(from, to, weight, near_, far_, rounding, offers_));
+  }
+  for (Index j = 0; lower && j < layout_.count(target); ++j) {
+    if (offers_.from[j] < 0) continue;
+    improve(target, j, offers_.value[j], layout_.row(over.edge) + static_cast<Index>(offers_.from[j]));
+  }
+}
+
+void Search::find_lower_terms(const FaceOver& over, Index target, const Receiving& to) {
+  const Index target_start = end_of(target, false);
+  const MeetingRow mine{layout_.at_row(over.edge), layout_.count(over.edge),
+                        over.end == target_start || over.end == end_of(target, true)};
+  const MeetingRow theirs{to.at, layout_.count(target), target_start != over.start && target_start != over.end};
+  const double length = to.at[theirs.count - 1], product = over.length * length;
+  const double along = (mine.at_last ? -1 : 1) * (theirs.at_last ? -1 : 1) * to.direction.x;
+  const double sine = product > 0 ? std::min(1.0, mesh_.mesh().double_areas()[over.face] / product) : 0;
+  lower_terms(mine, theirs, sine, std::clamp(along, -1.0, 1.0), near_, far_);
+}
+
+void Search::cross(Index edge, Index first, Index last) {
+  for (const Bridge& bridge : mesh_.bridges(edge)) {
+    const Index row = layout_.row(edge), other = layout_.row(bridge.to), count = layout_.count(edge);
+    for (Index i = first; i <= last; ++i) {
+      const Index j = bridge.mirrored ? count - 1 - i : i;
+      const double value = front_.value[row + i] + bridge.cost;
+      if (value < front_.value[other + j]) improve(bridge.to, j, value, row + i);
+    }
+  }
+}
+
+}  // namespace brushfire::steiner

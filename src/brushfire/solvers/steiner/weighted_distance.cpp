@@ -1,0 +1,307 @@
+// From the caller's mesh to the search and back.
+#include <brushfire/solvers/steiner/weighted_distance.h>
+
+#include <brushfire/core/detail/text.h>
+#include <brushfire/core/error.h>
+#include <brushfire/solvers/steiner/detail/run.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace brushfire {
+namespace steiner {
+
+Index source_behind(const Run& run, Index parent) {
+  while (parent < kFromSource) {
+    const Index edge = run.layout->edge_of(parent), i = parent - run.layout->row(edge);
+    const Index h = run.mesh->edges().halfedge(edge);
+    if (i == 0) {
+      parent = run.front.vertex_parent[run.mesh->mesh().from(h)];
+    } else if (i + 1 == run.layout->count(edge)) {
+      parent = run.front.vertex_parent[run.mesh->mesh().to(h)];
+    } else {
+      parent = run.front.parent[parent];
+    }
+  }
+  return parent == kNoIndex ? kNoIndex : parent - kFromSource;
+}
+
+}  // namespace steiner
+
+namespace {
+
+using namespace steiner;
+
+// Sums of up to 2^20 costs, each off by a unit in the last place, stay below what they stand for.
+constexpr double kBelowSums = 1 - 0x1p-32;
+
+// Measured (docs/weights.md): so dense, upper bounds are off by about half of the tolerance on average and by all of it
+// at most, and lower ones by the tolerance on average.
+Density density_for(Costs costs, double tolerance, unsigned doublings) {
+  const double finer = std::ldexp(1.0, -static_cast<int>(doublings)), root = std::sqrt(tolerance) * finer;
+  const auto most = static_cast<Index>(std::min(4096.0, 64 / finer));
+  if (costs == Costs::Real) return {3 * root, std::min(0.25, 8 * tolerance * finer), most};
+  return {2.1 * root / (1 + root), std::min(0.25, 0.7 * tolerance * finer), 4 * most};
+}
+
+void check(const WeightedOptions& options) {
+  if (!(options.tolerance >= kLeastWeightedTolerance && options.tolerance <= kMostWeightedTolerance)) {
+    throw Error(ErrorCode::InvalidArgument, "tolerance " + number_as_text(options.tolerance) + " is not in [" +
+                                                number_as_text(kLeastWeightedTolerance) + ", " +
+                                                number_as_text(kMostWeightedTolerance) + "]: weighted distances are " +
+                                                "computed between bounds");
+  }
+  if (!(options.max_distance >= 0)) {
+    throw Error(ErrorCode::InvalidArgument,
+                "max_distance " + number_as_text(options.max_distance) + " is not a number >= 0");
+  }
+}
+
+double least_offset(std::span<const Source> sources) {
+  if (sources.empty()) throw Error(ErrorCode::InvalidArgument, "no source given: a distance needs at least one");
+  double least = kInfinity;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (!std::isfinite(sources[i].offset)) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
+    }
+    if (sources[i].curve) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "source " + std::to_string(i) + " is a curve: weighted distances start at points");
+    }
+    least = std::min(least, sources[i].offset);
+  }
+  return least;
+}
+
+// A vertex of the caller's reads the least of its copies.
+void bring_back(const WeightedMesh& mesh, std::vector<double>& values) {
+  std::vector<double> least(mesh.domain().mesh().vertex_count(), kInfinity);
+  for (Index v = 0; v < values.size(); ++v) least[mesh.vertex(v)] = std::min(least[mesh.vertex(v)], values[v]);
+  values = std::move(least);
+}
+
+}  // namespace
+
+struct WeightedSolver::Workspace {
+  Domain domain{Mesh()};
+  Weights weights;
+  double uniform = 0;
+  std::unique_ptr<DistanceSolver> plain;      // where the weight is uniform
+  std::shared_ptr<const WeightedMesh> mesh;   // elsewhere
+  struct LaidOut {
+    Density density;
+    std::shared_ptr<const PointLayout> points;
+  };
+  LaidOut for_real, for_below;  // the last ones: upper bounds need fewer points
+
+  std::shared_ptr<const PointLayout> points_for(Costs costs, const WeightedOptions& options, unsigned doublings);
+  WeightedField run_uniform(std::span<const Source> sources, const WeightedOptions& options);
+  WeightedField run(std::span<const Source> sources, const WeightedOptions& options, unsigned doublings);
+  void locate(std::span<const Source> sources, const WeightedOptions& options, Run& run) const;
+  void search(Run& run, const WeightedOptions& options, const PointLayout* below, WeightedField& field) const;
+  void fill_upper(const Run& run, const WeightedOptions& options, WeightedField& field) const;
+  void fill_lower(const Search& below, const Run& run, const WeightedOptions& options, WeightedField& field) const;
+};
+
+std::shared_ptr<const PointLayout> WeightedSolver::Workspace::points_for(Costs costs, const WeightedOptions& options,
+                                                                         unsigned doublings) {
+  const Density wanted = density_for(costs, options.tolerance, doublings);
+  LaidOut& last = costs == Costs::Real ? for_real : for_below;
+  if (!last.points || !(last.density == wanted)) {
+    last.points.reset();
+    last.points = std::make_shared<PointLayout>(*mesh, wanted);
+    last.density = wanted;
+  }
+  return last.points;
+}
+
+void WeightedSolver::Workspace::locate(std::span<const Source> sources, const WeightedOptions& options,
+                                       Run& run) const {
+  run.base = least_offset(sources);
+  run.given.assign(sources.begin(), sources.end());
+  const double unit = mesh->mesh().unit();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const std::vector<SurfacePoint> sides = mesh->on_open(sources[i].point);
+    if (sides.empty()) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "source " + std::to_string(i) + " lies behind a wall: nothing can be reached from there");
+    }
+    for (const SurfacePoint& p : sides) {
+      run.sources.push_back(
+          {brushfire::locate(mesh->mesh(), p), (sources[i].offset - run.base) / unit, static_cast<Index>(i), nullptr});
+    }
+  }
+  for (const SurfacePoint& t : options.targets) {
+    std::vector<PointLocation>& sides = run.targets.emplace_back();
+    for (const SurfacePoint& p : mesh->on_open(t)) sides.push_back(brushfire::locate(mesh->mesh(), p));
+  }
+}
+
+// `below_points`: the points for lower bounds, where they are wanted.
+void WeightedSolver::Workspace::search(Run& run, const WeightedOptions& options, const PointLayout* below_points,
+                                       WeightedField& field) const {
+  std::vector<PointLocation> places;
+  for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
+  const double unit = mesh->mesh().unit(), share = options.lower ? 0.1 : 1;
+  SearchLimits limits{(options.max_distance - run.base) / unit, places, {}};
+  if (options.progress) limits.progress = [&](double done) { options.progress(share * done); };
+  if (!options.targets.empty() && places.empty()) limits.max_value = -1;  // all targets are nowhere
+  {
+    Search real(*mesh, *run.layout, Costs::Real);
+    real.run(run.sources, limits);
+    for (const auto& sides : run.targets) {
+      std::vector<ValueAt>& values = run.target_values.emplace_back();
+      for (const PointLocation& p : sides) values.push_back(real.at(p));
+    }
+    run.front = real.take();
+  }
+  fill_upper(run, options, field);
+  if (!below_points) return;
+  if (options.progress) limits.progress = [&](double done) { options.progress(share + (1 - share) * done); };
+  Search below(*mesh, *below_points, Costs::Below);
+  below.run(run.sources, limits);
+  fill_lower(below, run, options, field);
+}
+
+void WeightedSolver::Workspace::fill_upper(const Run& run, const WeightedOptions& options,
+                                           WeightedField& field) const {
+  const double unit = mesh->mesh().unit(), horizon = run.front.horizon;
+  const Index count = domain.mesh().vertex_count();
+  const auto label = [&](Index parent) {
+    const Index s = source_behind(run, parent);
+    return s == kNoIndex ? kNoIndex : run.sources[s].label;
+  };
+  const auto value = [&](double v) { return v <= horizon ? run.base + v * unit : kInfinity; };
+  field.distance.assign(count, kInfinity);
+  field.source.assign(count, kNoIndex);
+  for (Index v = 0; v < run.front.vertex_value.size(); ++v) {
+    const double d = value(run.front.vertex_value[v]);
+    double& least = field.distance[mesh->vertex(v)];
+    if (!(d <= options.max_distance) || d == kInfinity || !(d < least)) continue;
+    least = d;
+    field.source[mesh->vertex(v)] = run.given.size() == 1 ? 0 : label(run.front.vertex_parent[v]);
+  }
+  field.reached = static_cast<Index>(
+      std::count_if(field.distance.begin(), field.distance.end(), [](double d) { return d < kInfinity; }));
+  for (const std::vector<ValueAt>& sides : run.target_values) {
+    ValueAt best;
+    for (const ValueAt& at : sides) best = at.value < best.value ? at : best;
+    const double d = value(best.value);
+    const bool is_reached = d < kInfinity && d <= options.max_distance;
+    field.target_distance.push_back(is_reached ? d : kInfinity);
+    field.target_source.push_back(is_reached ? label(best.parent) : kNoIndex);
+  }
+}
+
+void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, const WeightedOptions& options,
+                                           WeightedField& field) const {
+  const double unit = mesh->mesh().unit(), horizon = below.front().horizon;
+  // What is not final may still fall, but not below the horizon.
+  const auto value = [&](double v) { return std::min(v, horizon) * kBelowSums * unit + run.base; };
+  field.lower = below.front().vertex_value;
+  bring_back(*mesh, field.lower);
+  double sum = 0, most = 0;
+  std::size_t count = 0;
+  const auto compare = [&](double upper, double lower) {
+    if (upper == kInfinity || upper == run.base) return;
+    const double excess = (upper - lower) / (lower - run.base);
+    sum += excess;
+    most = std::max(most, excess);
+    ++count;
+  };
+  for (std::size_t v = 0; v < field.lower.size(); ++v) {
+    field.lower[v] = field.distance[v] < kInfinity ? std::min(value(field.lower[v]), field.distance[v]) : kInfinity;
+    if (options.targets.empty()) compare(field.distance[v], field.lower[v]);
+  }
+  for (std::size_t t = 0; t < run.targets.size(); ++t) {
+    double least = kInfinity;
+    for (const PointLocation& p : run.targets[t]) least = std::min(least, below.at(p).value);
+    const double upper = field.target_distance[t];
+    field.target_lower.push_back(upper < kInfinity ? std::min(value(least), upper) : kInfinity);
+    compare(upper, field.target_lower.back());
+  }
+  field.max_error_bound = most;
+  field.mean_error_bound = count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, const WeightedOptions& options,
+                                             unsigned doublings) {
+  if (!mesh) mesh = std::make_shared<WeightedMesh>(domain, weights);
+  auto run = std::make_shared<Run>();
+  run->mesh = mesh;
+  run->layout = points_for(Costs::Real, options, doublings);
+  locate(sources, options, *run);
+  WeightedField field;
+  std::shared_ptr<const PointLayout> below;
+  if (options.lower) below = points_for(Costs::Below, options, doublings);
+  search(*run, options, below.get(), field);
+  field.points = run->layout->size() + (below ? below->size() : 0);
+  field.run = std::move(run);
+  return field;
+}
+
+// With one weight everywhere these are distances, and proven to any tolerance.
+WeightedField WeightedSolver::Workspace::run_uniform(std::span<const Source> sources, const WeightedOptions& options) {
+  if (!plain) plain = std::make_unique<DistanceSolver>(domain);
+  std::vector<Source> scaled(sources.begin(), sources.end());
+  for (Source& s : scaled) s.offset /= uniform;
+  DistanceOptions how;
+  how.tolerance = std::min(options.tolerance, kMaxTolerance);
+  how.bound = Bound::Upper;
+  how.max_distance = options.max_distance / uniform;
+  how.targets = options.targets;
+  how.progress = options.progress;
+  const DistanceField found = plain->distance(scaled, how);
+  WeightedField field;
+  field.distance = found.distance;
+  field.source = found.source;
+  field.target_distance = found.target_distance;
+  field.target_source = found.target_source;
+  field.reached = found.reached;
+  for (std::vector<double>* values : {&field.distance, &field.target_distance}) {
+    for (double& d : *values) d *= uniform;
+  }
+  if (!options.lower) return field;
+  field.max_error_bound = field.mean_error_bound = found.max_error_bound;
+  field.lower = field.distance;
+  for (std::size_t v = 0; v < field.lower.size(); ++v) {
+    if (field.lower[v] < kInfinity) field.lower[v] -= found.error_bound[v] * uniform;
+  }
+  field.target_lower = field.target_distance;
+  const double base = least_offset(sources);  // a path is not longer than from there
+  for (double& d : field.target_lower) d = d < kInfinity ? d - found.max_error_bound * (d - base) : d;
+  return field;
+}
+
+WeightedSolver::WeightedSolver(Domain domain, Weights weights) : workspace_(std::make_unique<Workspace>()) {
+  brushfire::check(domain.mesh(), weights);
+  workspace_->domain = std::move(domain);
+  workspace_->weights = std::move(weights);
+  workspace_->uniform = workspace_->weights.uniform();
+}
+WeightedSolver::~WeightedSolver() = default;
+WeightedSolver::WeightedSolver(WeightedSolver&&) noexcept = default;
+WeightedSolver& WeightedSolver::operator=(WeightedSolver&&) noexcept = default;
+const Domain& WeightedSolver::domain() const noexcept { return workspace_->domain; }
+const Weights& WeightedSolver::weights() const noexcept { return workspace_->weights; }
+
+WeightedField WeightedSolver::distance(std::span<const Source> sources, const WeightedOptions& options) {
+  const CancelScope listen(options.cancel);
+  check(options);
+  if (workspace_->uniform > 0) return workspace_->run_uniform(sources, options);
+  WeightedField field = workspace_->run(sources, options, 0);
+  for (unsigned k = 1; k <= options.refinements && field.max_error_bound > options.tolerance; ++k) {
+    field = workspace_->run(sources, options, k);
+    field.refinements = k;
+  }
+  return field;
+}
+
+WeightedField weighted_distance(const Domain& domain, const Weights& weights, std::span<const Source> sources,
+                                const WeightedOptions& options) {
+  return WeightedSolver(domain, weights).distance(sources, options);
+}
+
+}  // namespace brushfire

@@ -1,0 +1,90 @@
+// weighted_distance(): what it costs to get from sources to every vertex where not all places are equally easy to cross.
+//
+// Example:
+//     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;
+//     const brushfire::Weights weights{.face = std::vector<double>(mesh.face_count(), 2.0)};
+//     const std::vector<brushfire::Source> sources{{brushfire::vertex_point(mesh, 0)}};
+//     const brushfire::WeightedField field = brushfire::weighted_distance(mesh, weights, sources);
+//     std::printf("vertex 2: between %g and %g\n", field.lower[2], field.distance[2]);
+#pragma once
+
+#include <brushfire/core/progress.h>
+#include <brushfire/core/types.h>
+#include <brushfire/mesh/domain.h>
+#include <brushfire/mesh/surface_point.h>
+#include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/steiner/weights.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace brushfire {
+
+namespace steiner {
+struct Run;
+}
+
+inline constexpr double kLeastWeightedTolerance = 1e-5;
+inline constexpr double kMostWeightedTolerance = 1;
+
+struct WeightedOptions {
+  // How far apart the bounds may be: (upper - lower) / lower; in [kLeastWeightedTolerance, kMostWeightedTolerance]. A
+  // wish: how dense the points on edges are follows from it, so that most vertices meet it, and max_error_bound says
+  // what was reached. Costs grow as its inverse.
+  double tolerance = 0.01;
+  // Where the wish is not met at every vertex, run again with points twice as dense, this many times at most.
+  unsigned refinements = 0;
+  bool lower = true;                        // false: upper bounds only, in a third of the time
+  double max_distance = kInfinity;          // vertices that cost more read +inf; >= 0, may be +inf
+  std::vector<SurfacePoint> targets = {};   // where there are any, it stops once all of them are final
+  Progress progress = {};
+  const CancelToken* cancel = nullptr;      // null: what the thread listens to
+};
+
+// Costs are those of the cheapest paths, plus the sources' offsets. [vertex_count] unless said otherwise.
+struct WeightedField {
+  std::vector<double> distance;  // an upper bound, which a real path has; +inf: unreachable or beyond max_distance
+  std::vector<double> lower;     // a lower bound, proven (docs/weights.md); empty where none was asked for
+  std::vector<Index> source;     // whose path it is: position in the caller's list; kNoIndex: none
+  std::vector<double> target_distance, target_lower;  // [targets]
+  std::vector<Index> target_source;                   // [targets]
+  // The greatest (distance - lower) / lower, without offsets, over all vertices (or targets, where there are any) that
+  // were reached; +inf without lower bounds.
+  double max_error_bound = kInfinity;
+  double mean_error_bound = kInfinity;
+  Index reached = 0;
+  std::uint64_t points = 0;     // on edges, the vertices' copies among them; 0 where the weight is the same everywhere
+  unsigned refinements = 0;     // done
+  std::shared_ptr<const steiner::Run> run;  // for weighted_path(); null where the weight is the same everywhere
+};
+
+// One mesh and its weights, for many sources. Weights that are one and the same everywhere give what Method::Windows
+// gives, times the weight. Not for use from several threads at once.
+class WeightedSolver {
+ public:
+  // Throws as check() does. O(vertices + faces).
+  WeightedSolver(Domain domain, Weights weights);
+  ~WeightedSolver();
+  WeightedSolver(WeightedSolver&&) noexcept;
+  WeightedSolver& operator=(WeightedSolver&&) noexcept;
+
+  const Domain& domain() const noexcept;
+  const Weights& weights() const noexcept;
+
+  // Throws Error(InvalidArgument) for no sources, an offset that is not finite, a tolerance that is out of range, a
+  // negative max_distance and a source behind a wall; Error(TooLarge) where the points need more memory than there is;
+  // Error(Cancelled). About 0.5 to 2 microseconds for every point on an edge.
+  WeightedField distance(std::span<const Source> sources, const WeightedOptions& options = {});
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+WeightedField weighted_distance(const Domain& domain, const Weights& weights, std::span<const Source> sources,
+                                const WeightedOptions& options = {});
+
+}  // namespace brushfire

@@ -1,0 +1,289 @@
+// Bounds of weighted distances, beside a dense graph of real paths and beside distances without weights.
+#include <brushfire/core/detail/random.h>
+#include <brushfire/core/error.h>
+#include <brushfire/mesh/shapes.h>
+#include <brushfire/solvers/steiner/weighted_distance.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "dense_graph.h"
+
+namespace brushfire {
+namespace {
+
+using testing_support::DenseGraph;
+
+constexpr double kRounding = 1e-11;
+
+std::vector<Source> at_vertex(const Mesh& mesh, Index v) { return {{vertex_point(mesh, v)}}; }
+
+constexpr std::uint64_t kKinds = 6, kFansAtAVertex = 3;
+
+// A small complex of one of several kinds, shaken.
+Mesh random_complex(std::uint64_t kind, Random& random) {
+  Shape shape;
+  switch (kind) {
+    case 0:
+      shape = shapes::plane(static_cast<Index>(1 + random.below(3)), static_cast<Index>(1 + random.below(3)));
+      break;
+    case 1:
+      shape = shapes::icosphere(0);
+      break;
+    case 2:
+      shape = shapes::book(3, 1, 2);
+      break;
+    case kFansAtAVertex:
+      shape = shapes::bow_tie(2, 4);
+      break;
+    case 4:
+      shape = shapes::cube(1);
+      break;
+    default:
+      shape = shapes::cone(2, 4, 1, random.uniform(0.1, 3));
+  }
+  const double shake = random.uniform(0, 0.3), stretch = std::exp(random.uniform(-2, 2));
+  for (Vec3& p : shape.positions) {
+    p = p + Vec3{random.uniform(-shake, shake), random.uniform(-shake, shake), random.uniform(-shake, shake)};
+    p.x *= stretch;
+  }
+  return shape.mesh();
+}
+
+Weights random_weights(const Mesh& mesh, bool with_walls, Random& random) {
+  Weights weights;
+  const std::uint64_t kind = with_walls ? random.below(5) : random.below(3);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const double u = random.uniform();
+    weights.face.push_back(kind == 0   ? 1 + std::floor(4 * u)
+                           : kind == 1 ? 1 + 9 * u
+                           : kind == 2 ? (u < 0.5 ? 1 : 1e9)
+                           : kind == 3 ? (u < 0.2 ? kInfinity : 1 + u)
+                                       : 1);
+  }
+  const std::uint64_t special = random.below(4);
+  for (std::uint64_t i = 0; i < special; ++i) {
+    const auto h = static_cast<Index>(random.below(mesh.halfedge_count()));
+    EdgeCost edge{{mesh.from(h), mesh.to(h)}, kInfinity, 0};
+    if (random.below(2) == 0) edge.along = random.uniform(0.1, 1);
+    if (with_walls && random.below(2) == 0) edge.crossing = random.below(4) == 0 ? kInfinity : random.uniform(0, 1);
+    bool again = false;
+    for (const EdgeCost& e : weights.edges) {
+      again = again || std::minmax(e.vertices[0], e.vertices[1]) == std::minmax(edge.vertices[0], edge.vertices[1]);
+    }
+    if (!again) weights.edges.push_back(edge);
+  }
+  return weights;
+}
+
+TEST(WeightedBounds, HoldOnThreeHundredRandomComplexesBesideADenseGraph) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const std::uint64_t kind = random.below(kKinds);
+    const Mesh mesh = random_complex(kind, random);
+    const Weights weights = random_weights(mesh, kind != kFansAtAVertex, random);
+    const auto source = static_cast<Index>(random.below(mesh.vertex_count()));
+    DenseGraph graph(mesh, weights, 64);
+    if (kind == kFansAtAVertex) graph.join_at_vertices();
+    const std::vector<double> dense = graph.from(source);
+    const auto is_refused = [&](const EdgeCost& e) {  // a road between walls
+      const std::vector<Index> sides = halfedges_between(mesh, e.vertices[0], e.vertices[1]);
+      return e.along < kInfinity &&
+             std::all_of(sides.begin(), sides.end(), [&](Index h) { return weights.face[h / 3] == kInfinity; });
+    };
+    if (std::any_of(weights.edges.begin(), weights.edges.end(), is_refused)) continue;
+    WeightedField field;
+    try {
+      field = weighted_distance(mesh, weights, at_vertex(mesh, source), {.tolerance = 0.03});
+    } catch (const Error& error) {
+      ASSERT_EQ(error.code(), ErrorCode::InvalidArgument) << error.what();  // behind a wall
+      for (Index v = 0; v < dense.size(); ++v) ASSERT_TRUE(v == source || dense[v] == kInfinity) << v;
+      continue;
+    }
+    for (Index v = 0; v < dense.size(); ++v) {
+      ASSERT_EQ(field.distance[v] < kInfinity, dense[v] < kInfinity) << v;
+      if (dense[v] == kInfinity) continue;
+      ASSERT_LE(field.lower[v], dense[v] * (1 + kRounding)) << v;
+      ASSERT_LE(field.lower[v], field.distance[v]) << v;
+      // The dense graph is off by 1e-2 in the worst faces of these; a path that misses a fence or a weight by far more.
+      ASSERT_GE(field.distance[v], dense[v] * (1 - 0.02) - kRounding) << v;
+      ASSERT_LE(field.distance[v], dense[v] * (1 + 0.05) + kRounding) << v;
+    }
+  }
+}
+
+TEST(WeightedBounds, EnclosePlainDistancesWhereAllWeightsAreOne) {
+  const Mesh mesh = shapes::noise_terrain(30, 30, 0.3, 5).mesh();
+  Weights weights;  // a road as dear as its faces: the search is not left to windows
+  weights.edges.push_back({{mesh.from(0), mesh.to(0)}, 1, 0});
+  const std::vector<double> exact = distance(mesh, at_vertex(mesh, 0), {.method = Method::Exact}).distance;
+  double last = kInfinity;
+  for (const double tolerance : {0.1, 0.03, 0.01}) {
+    const WeightedField field = weighted_distance(mesh, weights, at_vertex(mesh, 0), {.tolerance = tolerance});
+    for (Index v = 0; v < exact.size(); ++v) {
+      ASSERT_GE(field.distance[v], exact[v] * (1 - kRounding));
+      ASSERT_LE(field.lower[v], exact[v] * (1 + kRounding));
+    }
+    EXPECT_LT(field.mean_error_bound, last / 2);
+    EXPECT_LT(field.mean_error_bound, 2 * tolerance);
+    last = field.mean_error_bound;
+  }
+}
+
+TEST(WeightedBounds, OfOneWeightEverywhereAreThoseOfWindowsToTheBit) {
+  const Mesh mesh = shapes::noise_terrain(20, 20, 0.3, 5).mesh();
+  const Weights weights{.face = std::vector<double>(mesh.face_count(), 3.7)};
+  const WeightedField field = weighted_distance(mesh, weights, at_vertex(mesh, 7), {.tolerance = 1e-3});
+  const DistanceField plain = distance(mesh, at_vertex(mesh, 7), {.tolerance = 1e-3, .bound = Bound::Upper});
+  for (Index v = 0; v < mesh.vertex_count(); ++v) ASSERT_EQ(field.distance[v], 3.7 * plain.distance[v]);
+}
+
+TEST(WeightedBounds, AreWTimesAsHighWhereWeightsAre) {
+  const Mesh mesh = shapes::noise_terrain(12, 12, 0.3, 5).mesh();
+  Random random(3);
+  Weights weights, fourfold;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    weights.face.push_back(random.uniform(1, 5));
+    fourfold.face.push_back(4 * weights.face.back());
+  }
+  const WeightedField a = weighted_distance(mesh, weights, at_vertex(mesh, 7));
+  const WeightedField b = weighted_distance(mesh, fourfold, at_vertex(mesh, 7));
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    ASSERT_EQ(4 * a.distance[v], b.distance[v]);
+    ASSERT_NEAR(4 * a.lower[v], b.lower[v], kRounding * b.lower[v]);
+  }
+}
+
+TEST(WeightedBounds, OfInfiniteWeightsAreThoseOfTheCutMesh) {
+  const Mesh mesh = shapes::plane(8, 8).mesh();
+  Random random(11);
+  Weights weights, rest;
+  Barriers barriers;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const bool wall = f > 2 && random.uniform() < 0.3;
+    weights.face.push_back(wall ? kInfinity : 1 + random.uniform());
+    rest.face.push_back(wall ? 1 : weights.face.back());
+    if (wall) barriers.faces.push_back(f);
+  }
+  const WeightedField walls = weighted_distance(mesh, weights, at_vertex(mesh, 0));
+  const WeightedField cut = weighted_distance(Domain(mesh, barriers), rest, at_vertex(mesh, 0));
+  EXPECT_EQ(walls.distance, cut.distance);
+  EXPECT_EQ(walls.lower, cut.lower);
+}
+
+TEST(WeightedBounds, TellTheSourceOfEveryVertexAndStartFromOffsets) {
+  const Mesh mesh = shapes::plane(20, 1, 20, 1).mesh();
+  Weights weights{.face = std::vector<double>(mesh.face_count(), 1)};
+  for (Index f = 0; f < 20; ++f) weights.face[f] = 3;  // the left half
+  const std::vector<Source> sources{{vertex_point(mesh, 0), -1}, {vertex_point(mesh, 20), 2}};
+  const WeightedField field = weighted_distance(mesh, weights, sources);
+  // They meet where 3 x - 1 == 12 + 3 (10 - x): at x = 43 / 6.
+  for (Index v = 0; v <= 20; ++v) {
+    EXPECT_EQ(field.source[v], v <= 7 ? 0 : 1) << v;
+    const double x = v, truth = v <= 7 ? 3 * x - 1 : v <= 10 ? 12 + 3 * (10 - x) : 2 + 20 - x;
+    EXPECT_NEAR(field.distance[v], truth, 1e-12) << v;
+    EXPECT_LE(field.lower[v], truth + 1e-12);
+  }
+}
+
+TEST(WeightedBounds, StopAtARadiusAndAtTargets) {
+  const Mesh mesh = shapes::noise_terrain(20, 20, 0.3, 5).mesh();
+  Random random(3);
+  Weights weights;
+  for (Index f = 0; f < mesh.face_count(); ++f) weights.face.push_back(random.uniform(1, 5));
+  const WeightedField whole = weighted_distance(mesh, weights, at_vertex(mesh, 7));
+  const WeightedField near = weighted_distance(mesh, weights, at_vertex(mesh, 7), {.max_distance = 0.5});
+  Index reached = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const bool inside = whole.distance[v] <= 0.5;
+    reached += inside;
+    ASSERT_EQ(near.distance[v], inside ? whole.distance[v] : kInfinity);
+    if (inside) {
+      ASSERT_LE(near.lower[v], whole.lower[v]);
+    }
+  }
+  EXPECT_EQ(near.reached, reached);
+  const SurfacePoint inside_a_face{5, {0.25, 0.25, 0.5}};
+  const WeightedField targets =
+      weighted_distance(mesh, weights, at_vertex(mesh, 7), {.targets = {vertex_point(mesh, 30), inside_a_face}});
+  EXPECT_EQ(targets.target_distance[0], whole.distance[30]);
+  EXPECT_LE(targets.target_lower[0], whole.lower[30]);
+  EXPECT_LT(targets.target_lower[1], targets.target_distance[1]);
+  EXPECT_LT(targets.target_distance[1], 1.2 * targets.target_lower[1]);
+}
+
+TEST(WeightedBounds, FromPointsInsideFacesAndOnEdgesEnclosePlainDistances) {
+  const Mesh mesh = shapes::icosphere(1).mesh();
+  Weights weights;
+  weights.edges.push_back({{mesh.from(0), mesh.to(0)}, 1, 0});
+  Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    const auto f = static_cast<Index>(random.below(mesh.face_count())), g = static_cast<Index>(random.below(20));
+    const double a = i % 3 == 0 ? 0 : random.uniform(0, 0.5), b = random.uniform(0, 0.5);
+    const std::vector<Source> source{{{f, {a, b, 1 - a - b}}}};
+    const SurfacePoint target{g, {b, i % 4 == 0 ? 0 : a, i % 4 == 0 ? 1 - b : 1 - a - b}};
+    const DistanceField exact = distance(mesh, source, {.method = Method::Exact, .targets = {target}});
+    const WeightedField field = weighted_distance(mesh, weights, source, {.targets = {target}});
+    ASSERT_GE(field.target_distance[0], exact.target_distance[0] * (1 - kRounding)) << i;
+    ASSERT_LE(field.target_lower[0], exact.target_distance[0] * (1 + kRounding)) << i;
+    ASSERT_LE(field.target_distance[0], 1.03 * exact.target_distance[0]) << i;
+  }
+}
+
+TEST(WeightedBounds, AreRefinedUntilTheWishIsMet) {
+  const Mesh mesh = shapes::plane(6, 6, 3, 1).mesh();
+  Weights weights{.face = std::vector<double>(mesh.face_count(), 1)};
+  weights.face[3] = 1.5;
+  const WeightedField first = weighted_distance(mesh, weights, at_vertex(mesh, 7), {.tolerance = 0.1});
+  EXPECT_GT(first.max_error_bound, 0.1);
+  EXPECT_EQ(first.refinements, 0);
+  const WeightedField met = weighted_distance(mesh, weights, at_vertex(mesh, 7), {.tolerance = 0.1, .refinements = 4});
+  EXPECT_LE(met.max_error_bound, 0.1);
+  EXPECT_GT(met.refinements, 0);
+  EXPECT_GT(met.points, first.points);
+}
+
+std::string message_of(const Mesh& mesh, const Weights& weights) {
+  try {
+    static_cast<void>(weighted_distance(mesh, weights, at_vertex(mesh, 0)));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(WeightedBounds, RefuseWeightsThatAreNone) {
+  const Mesh mesh = shapes::plane(1, 1).mesh();
+  EXPECT_EQ(message_of(mesh, {.face = {1}}), "1 weights for 2 faces: one per face is needed");
+  EXPECT_EQ(message_of(mesh, {.face = {1, -1}}), "weight -1 of face 1 is not > 0");
+  EXPECT_EQ(message_of(mesh, {.face = {0, 1}}),
+            "weight 0 of face 0 is not > 0: where going costs next to nothing, give a small weight");
+  EXPECT_EQ(message_of(mesh, {.edges = {{{0, 0}, 1, 0}}}), "edge 0 - 0: no edge of the mesh joins these two vertices");
+  EXPECT_EQ(message_of(mesh, {.edges = {{{0, 1}, 0, 0}}}), "edge 0 - 1: the cost along it, 0, is not > 0");
+  EXPECT_EQ(message_of(mesh, {.edges = {{{0, 1}, 1, -2}}}), "edge 0 - 1: the cost to cross it, -2, is not >= 0");
+}
+
+TEST(WeightedBounds, AreGivenUpWhenCancelled) {
+  const Mesh mesh = shapes::noise_terrain(60, 60, 0.3, 5).mesh();
+  CancelToken cancel;
+  WeightedOptions options;
+  options.cancel = &cancel;
+  double most = 0;
+  options.progress = [&](double share) {
+    most = std::max(most, share);
+    cancel.cancel();
+  };
+  Weights weights{.face = std::vector<double>(mesh.face_count(), 1)};
+  weights.face[0] = 2;
+  EXPECT_THROW(static_cast<void>(weighted_distance(mesh, weights, at_vertex(mesh, 0), options)), Error);
+  EXPECT_GT(most, 0);
+  EXPECT_LT(most, 1);
+}
+
+}  // namespace
+}  // namespace brushfire
