@@ -16,9 +16,9 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 """
 
 from brushfire._any import from_any
-from brushfire._core import version as __version__
 from brushfire._cells import Boundary, Centroidal, Discs, Extent, Mean, Medoids, Parcels, k_medoids
 from brushfire._certify import Certificate
+from brushfire._core import version as __version__
 from brushfire._curves import LogMap, Path
 from brushfire._derivatives import DifferentiableDistance, DistanceGradient
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
