@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -49,10 +50,13 @@ double seconds_alone(DistanceSolver& solver, Method method, std::span<const Inde
   DistanceOptions options;
   options.method = method;
   static SparseField field;
+  static std::vector<float> out;
   const double begin = cpu_seconds();
   for (const Index s : sources) {
     const Source source{vertex_point(solver.mesh(), s)};
     solver.distance_sparse({&source, 1}, options, field);
+    out.assign(solver.mesh().vertex_count(), std::numeric_limits<float>::infinity());
+    for (std::size_t k = 0; k < field.vertex.size(); ++k) out[field.vertex[k]] = static_cast<float>(field.distance[k]);
     if (rows == nullptr) continue;
     rows->emplace_back(solver.mesh().vertex_count(), kInfinity);
     for (std::size_t k = 0; k < field.vertex.size(); ++k) rows->back()[field.vertex[k]] = field.distance[k];
@@ -67,12 +71,16 @@ struct Counts {
 
 double seconds_grouped(GroupRunner& runner, std::span<const GroupedRows::Group> groups, std::vector<Row>* rows,
                        Counts& counts) {
+  static std::vector<float> out;
+  const auto scale = static_cast<float>(runner.unit());
   const double begin = cpu_seconds();
   counts = {};
   for (const GroupedRows::Group& g : groups) {
     std::vector<Row> of_group(g.vertices.size());
-    const auto refused = runner.run(g, kInfinity, [&](int lane, std::span<const double> row) {
-      if (rows != nullptr) of_group[static_cast<std::size_t>(lane)].assign(row.begin(), row.end());
+    const auto refused = runner.run(g, kInfinity, [&](int lane, std::span<const float> row) {
+      out.resize(row.size());
+      std::transform(row.begin(), row.end(), out.begin(), [=](float value) { return value * scale; });
+      if (rows != nullptr) of_group[static_cast<std::size_t>(lane)].assign(out.begin(), out.end());
     });
     counts.alone += refused.size();
     counts.turns += static_cast<double>(runner.march().turns());

@@ -32,6 +32,8 @@ from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._regions import Border, Cut, Samples, Voronoi
 from brushfire._sets import distance_matrices
+from brushfire._sources import Curve
+from brushfire._weighted import Costs, Weighted, WeightedPath
 
 __all__ = [
     "At",
@@ -44,6 +46,8 @@ __all__ = [
     "Centroidal",
     "Certificate",
     "Comparison",
+    "Costs",
+    "Curve",
     "Cut",
     "Descent",
     "DifferentiableDistance",
@@ -69,6 +73,8 @@ __all__ = [
     "Solver",
     "VectorHeatSolver",
     "Voronoi",
+    "Weighted",
+    "WeightedPath",
     "__version__",
     "animate",
     "at",

@@ -117,6 +117,19 @@ def check_faces(array: npt.NDArray[Any]) -> None:
         raise BrushfireError(f"face {bad // 3} names vertex {array.flat[bad]}, which cannot exist", "invalid_mesh")
 
 
+def numbers(chosen: Any, count: int, what: str) -> Ints:
+    """Of a mask or of numbers, flat."""
+    array = any_array(chosen, what)
+    if array.dtype == np.bool_:
+        if array.shape != (count,):
+            raise BrushfireError(f"{what}: a mask needs shape ({count},), not {array.shape}")
+        return np.flatnonzero(array).astype(np.int64)
+    numbers = integers(array, what)
+    if numbers.ndim > 1 and numbers.size:
+        raise BrushfireError(f"{what}: shape (k,) is needed, not {numbers.shape}")
+    return numbers.reshape(-1)
+
+
 def offsets(values: npt.ArrayLike, count: int) -> Floats:
     """(count,) float64; one number means the same for all."""
     array = floats(values, "offset")

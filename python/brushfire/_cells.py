@@ -9,12 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, Labels, number, offsets, whole
+from brushfire._arrays import Floats, Labels, number, whole
 from brushfire._curves import OnMesh, Path
-from brushfire._errors import BrushfireError
+from brushfire._errors import BrushfireError, BrushfireIndexError
 from brushfire._options import Options, Tolerance, options, thread_count
 from brushfire._places import Places, Points
 from brushfire._progress import Progress, shown
+from brushfire._sources import Curve, Sources, sources_of
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -170,9 +171,38 @@ class Cells(OnMesh):
         path, gap, _ = _core.project_curve(self._space, _arrays.triples(xyz, "xyz"), bool(closed))
         return self._path(path), gap
 
+    def region(self, *, vertices: npt.ArrayLike | None = None, faces: npt.ArrayLike | None = None) -> Curve:
+        """A region as a source: distances are 0 at all of its vertices and along its border, and outside from there on.
+
+        :param vertices: numbers, or a mask with one bool per vertex (``labels == 3``): these, and the edges and faces
+            between them; or
+        :param faces: numbers, or a mask with one bool per face.
+        :raises BrushfireError: for an empty region.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.distance(mesh.region(vertices=[0, 1])).round(9).tolist()
+        [0.0, 0.0, 4.0, 4.0]
+        >>> mesh.distance(mesh.region(faces=[0])).round(9).tolist()
+        [0.0, 0.0, 0.0, 2.4]
+        """
+        if (vertices is None) == (faces is None):
+            raise BrushfireError("region: one of vertices and faces is needed")
+        if faces is not None:
+            face, weights, starts = _core.region_of_faces(self._mesh, _arrays.numbers(faces, self._mesh.face_count, "faces"))
+        else:
+            inside = np.zeros(self._mesh.vertex_count, dtype=np.uint8)
+            chosen = _arrays.numbers(vertices, self._mesh.vertex_count, "vertices")
+            if chosen.size and (chosen.min() < 0 or chosen.max() >= len(inside)):
+                bad = chosen[(chosen < 0) | (chosen >= len(inside))][0]
+                raise BrushfireIndexError(f"vertices: there is no vertex {bad}, the mesh has {len(inside)}")
+            inside[chosen] = 1
+            face, weights, starts = _core.region_of_vertices(self._mesh, inside)
+        return Curve(Points(face, weights), starts=starts)
+
     def nearest_sources(
         self,
-        sources: Places,
+        sources: Sources,
         count: int,
         *,
         method: str | None = None,
@@ -195,11 +225,11 @@ class Cells(OnMesh):
         >>> distance[3].tolist(), source[3].tolist()
         ([3.0, 4.0], [2, 0])
         """
-        start = self._arrays(sources, "sources")
-        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, radius, bound, precision, threads)
+        start = sources_of(self, sources, offset)
+        chosen = options(method, tolerance, radius, bound, precision, threads)
         with shown(progress, "nearest sources") as report:
             return _core.nearest_sources(
-                self._space, start.index, start.weights, given, whole(count, "count", _MOST), chosen, report
+                self._space, start, whole(count, "count", _MOST), chosen, report
             )
 
     def extent(

@@ -8,12 +8,13 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, number, offsets
+from brushfire._arrays import Floats, number
 from brushfire._curves import OnMesh
 from brushfire._errors import BrushfireError
 from brushfire._options import Tolerance, thread_count, tolerance_of
 from brushfire._places import Places
 from brushfire._progress import Progress, shown
+from brushfire._sources import Sources, sources_of
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ class Certificates(OnMesh):
     def certify(
         self,
         values: npt.ArrayLike,
-        sources: Places,
+        sources: Sources,
         *,
         within: float = 0.0,
         tolerance: Tolerance = 0.0,
@@ -102,14 +103,12 @@ class Certificates(OnMesh):
         array = _arrays.floats(values, "values")
         if array.ndim != 1:
             raise BrushfireError(f"values: shape (k,) is needed, not {array.shape}")
-        start = self._arrays(sources, "sources")
+        start = sources_of(self, sources, offset)
         with shown(progress, "certify") as report:
             found = _core.certify(
                 self._space,
                 array,
-                start.index,
-                start.weights,
-                offsets(offset, len(start.index)),
+                start,
                 tolerance_of(tolerance),
                 number(within, "within"),
                 number(radius, "radius"),

@@ -33,9 +33,32 @@ class Domain:
 
 Space: TypeAlias = Mesh | Domain
 
+_CurveArrays: TypeAlias = tuple[int, _Ints, _Floats | None, _Ints, bool, _Floats | None]
+
+class Sources: ...
+
+def make_sources(
+    mesh: Mesh, index: _Ints, weights: _Floats | None, offsets: _Floats, curves: list[_CurveArrays]
+) -> Sources: ...
+def region_of_vertices(mesh: Mesh, vertices: npt.NDArray[np.uint8]) -> tuple[_Signed, _Floats, _Ints]: ...
+def region_of_faces(mesh: Mesh, faces: _Ints) -> tuple[_Signed, _Floats, _Ints]: ...
+
 class Solver:
     def __init__(self, domain: Space) -> None: ...
     def set_up(self, options: _Options) -> None: ...
+    def solve(
+        self,
+        sources: Sources,
+        target_index: _Ints | None,
+        target_weights: _Floats | None,
+        options: _Options,
+        progress: _Progress,
+    ) -> tuple[_Floats, _Signed, _Floats | None]: ...
+
+class WeightedSolver:
+    def __init__(
+        self, domain: Space, face: _Floats | None, edge_vertices: _Ints, along: _Floats, crossing: _Floats
+    ) -> None: ...
     def solve(
         self,
         index: _Ints,
@@ -43,9 +66,22 @@ class Solver:
         offsets: _Floats,
         target_index: _Ints | None,
         target_weights: _Floats | None,
-        options: _Options,
+        tolerance: float,
+        refinements: int,
+        lower: bool,
+        max_distance: float,
         progress: _Progress,
-    ) -> tuple[_Floats, _Signed, _Floats | None]: ...
+    ) -> tuple[_Floats, _Signed, _Floats | None, float, float]: ...
+    def paths(
+        self,
+        index: _Ints,
+        weights: _Floats | None,
+        offsets: _Floats,
+        target_index: _Ints,
+        target_weights: _Floats | None,
+        tolerance: float,
+        max_distance: float,
+    ) -> tuple[_Signed, list[tuple[PathArrays, float, float, _Signed, _Floats, _Floats, _Floats, _Signed]]]: ...
 
 def laplacian(mesh: Mesh, delaunay: bool) -> tuple[_Signed, _Signed, _Floats, _Floats]: ...
 
@@ -103,14 +139,12 @@ def shorten(domain: Space, index: _Ints, weights: _Floats | None, closed: bool) 
 def length_of(mesh: Mesh, index: _Ints, weights: _Floats | None, closed: bool) -> float: ...
 def paths(
     solver: Solver,
-    index: _Ints,
-    weights: _Floats | None,
-    offsets: _Floats,
+    sources: Sources,
     target_index: _Ints,
     target_weights: _Floats | None,
     max_distance: float,
 ) -> tuple[_Signed, list[PathArrays]]: ...
-def edge_path(solver: Solver, index: _Ints, weights: _Floats | None, offsets: _Floats, target: int) -> PathArrays: ...
+def edge_path(solver: Solver, sources: Sources, target: int) -> PathArrays: ...
 def angle_of(domain: Space, index: _Ints, weights: _Floats | None, direction: _Floats) -> tuple[float, float]: ...
 def trace(
     domain: Space, index: _Ints, weights: _Floats | None, angle: float, direction: _Floats | None, length: float
@@ -118,9 +152,7 @@ def trace(
 def isolines(domain: Space, values: _Floats, levels: _Floats) -> list[tuple[float, int, PathArrays]]: ...
 def curved_isolines(
     solver: Solver,
-    index: _Ints,
-    weights: _Floats | None,
-    offsets: _Floats,
+    sources: Sources,
     options: _Options,
     levels: _Floats | None,
     every: float | None,
@@ -138,9 +170,7 @@ def compare_fields(field: _Floats, reference: _Floats, weights: _Floats | None) 
 def certify(
     domain: Space,
     field: _Floats,
-    index: _Ints,
-    weights: _Floats | None,
-    offsets: _Floats,
+    sources: Sources,
     tolerance: float,
     within: float,
     max_distance: float,
@@ -150,7 +180,7 @@ def certify(
 def finding_names() -> tuple[str, ...]: ...
 def vertex_areas(domain: Space) -> _Floats: ...
 def voronoi(
-    domain: Space, index: _Ints, weights: _Floats | None, offsets: _Floats, options: _Options, progress: _Progress
+    domain: Space, sources: Sources, options: _Options, progress: _Progress
 ) -> tuple[_Floats, _Signed, _Floats, list[tuple[int, int, PathArrays]], _Signed]: ...
 def farthest_points(
     domain: Space, count: int, first: _Ints, options: _Options, progress: _Progress
@@ -248,9 +278,7 @@ def write_matrix(
 def require_dense_memory(rows: int, columns: int, float32: bool, limit: int) -> None: ...
 def nearest_sources(
     domain: Space,
-    index: _Ints,
-    weights: _Floats | None,
-    offsets: _Floats,
+    sources: Sources,
     count: int,
     options: _Options,
     progress: _Progress,

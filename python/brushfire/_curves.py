@@ -10,9 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, Ints, Labels, number, offsets
+from brushfire._arrays import Floats, Ints, Labels, number
 from brushfire._errors import BrushfireError
 from brushfire._places import PlaceArrays, Places, Points
+from brushfire._sources import Sources, sources_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +130,7 @@ class Curves(OnMesh):
         return self._path(_core.path(self._run(), index, weights, bool(closed), bool(tighten), number(radius, "radius")))
 
     def paths(
-        self, sources: Places, targets: Places, *, offset: npt.ArrayLike = 0.0, radius: float = np.inf
+        self, sources: Sources, targets: Places, *, offset: npt.ArrayLike = 0.0, radius: float = np.inf
     ) -> tuple[list[Path], Any]:
         """The shortest path to every target from the source that is nearest to it, all off one exact field.
 
@@ -145,12 +146,10 @@ class Curves(OnMesh):
         >>> [p.length for p in paths], source.tolist()
         ([4.0, 4.0], [0, 1])
         """
-        start, end = self._arrays(sources, "sources"), self._arrays(targets, "targets")
+        start, end = sources_of(self, sources, offset), self._arrays(targets, "targets")
         source, found = _core.paths(
             self._run(),
-            start.index,
-            start.weights,
-            offsets(offset, len(start.index)),
+            start,
             end.index,
             end.weights,
             number(radius, "radius"),
@@ -169,11 +168,10 @@ class Curves(OnMesh):
         >>> path.length, path.positions.tolist()
         (7.0, [[3.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]])
         """
-        start, end = self._arrays(sources, "sources"), self._arrays(target, "target")
+        start, end = sources_of(self, sources, offset), self._arrays(target, "target")
         if end.index.shape != (1,) or end.weights is not None and end.weights.any():
             raise BrushfireError("target: a single vertex is needed")
-        start_offsets = offsets(offset, len(start.index))
-        return self._path(_core.edge_path(self._run(), start.index, start.weights, start_offsets, int(end.index[0])))
+        return self._path(_core.edge_path(self._run(), start, int(end.index[0])))
 
     def shorten(self, path: Path | Points | Sequence[Places], *, closed: bool | None = None) -> Path:
         """A polyline pulled straight like a rubber band: the shortest path that it can be moved into on the surface.

@@ -8,11 +8,12 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, Labels, offsets
+from brushfire._arrays import Floats, Labels
 from brushfire._errors import BrushfireError
 from brushfire._options import Tolerance, options
 from brushfire._places import PlaceArrays, Places
 from brushfire._progress import Progress, shown
+from brushfire._sources import Sources, sources_of
 
 
 class Distances:
@@ -33,7 +34,7 @@ class Distances:
     @overload
     def distance(
         self,
-        sources: Places,
+        sources: Sources,
         *,
         method: str | None = ...,
         tolerance: Tolerance | None = ...,
@@ -50,7 +51,7 @@ class Distances:
     @overload
     def distance(
         self,
-        sources: Places,
+        sources: Sources,
         *,
         method: str | None = ...,
         tolerance: Tolerance | None = ...,
@@ -67,7 +68,7 @@ class Distances:
     @overload
     def distance(
         self,
-        sources: Places,
+        sources: Sources,
         *,
         method: str | None = ...,
         tolerance: Tolerance | None = ...,
@@ -84,7 +85,7 @@ class Distances:
     @overload
     def distance(
         self,
-        sources: Places,
+        sources: Sources,
         *,
         method: str | None = ...,
         tolerance: Tolerance | None = ...,
@@ -100,7 +101,7 @@ class Distances:
     ) -> tuple[Floats, Labels, Floats]: ...
     def distance(
         self,
-        sources: Places,
+        sources: Sources,
         *,
         method: str | None = None,
         tolerance: Tolerance | None = None,
@@ -118,7 +119,9 @@ class Distances:
 
         :param sources: places: a vertex, a :class:`Point`, several of them in whatever holds several (lists, sets,
             generators, arrays of numpy, torch, jax, pandas, ...), a mask with one bool per vertex, :class:`Points`, or
-            :func:`at` positions; at least one. Numbers count from 0, and negative ones do not exist.
+            :func:`at` positions; at least one. Numbers count from 0, and negative ones do not exist. Or whole curves, and
+            lists of curves and places: a :class:`Curve`, and what :meth:`path`, :meth:`isolines`, :meth:`boundaries` and
+            :meth:`region` give.
         :param method: one of :func:`methods`; the library's default if none is given.
         :param tolerance: for method ``"windows"``, which is meant where a tolerance is given: the relative error at every
             vertex is at most this; in [0, 0.1], 0 is exact, and so are those so small that an exact run is quicker. In
@@ -156,15 +159,12 @@ class Distances:
         >>> mesh.distance(0, targets=[2, 1], method="dijkstra").tolist()
         [5.0, 3.0]
         """
-        start = self._arrays(sources, "sources")
+        start = sources_of(self, sources, offset)
         end = None if targets is None else self._arrays(targets, "targets")
-        given = offsets(offset, len(start.index))
         chosen = options(*self._or_defaults(method, tolerance, bound, precision, limit=radius), threads)
         with shown(progress, "distance") as report:
             distance, source, error = self._run().solve(
-                start.index,
-                start.weights,
-                given,
+                start,
                 end.index if end else None,
                 end.weights if end else None,
                 chosen,

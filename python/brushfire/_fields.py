@@ -9,12 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, number, offsets, whole
+from brushfire._arrays import Floats, number, whole
 from brushfire._curves import OnMesh, Path
 from brushfire._errors import BrushfireError
 from brushfire._options import Tolerance, options, tolerance_of
 from brushfire._places import Places
 from brushfire._progress import Progress, shown
+from brushfire._sources import Sources, sources_of
 
 _MOST_LEVELS = 1_000_000
 
@@ -158,7 +159,7 @@ class Fields(OnMesh):
 
     def curved_isolines(
         self,
-        sources: Places,
+        sources: Sources,
         levels: npt.ArrayLike | None = None,
         *,
         every: float | None = None,
@@ -186,15 +187,13 @@ class Fields(OnMesh):
         (True, True)
         """
         _choose_one(levels, every, count)
-        start = self._arrays(sources, "sources")
+        start = sources_of(self, sources, offset)
         if chord_error is None:
             chord_error = 0.01 * float(self._mesh.report()["mean_edge_length"])  # type: ignore[arg-type]
         with shown(progress, "isolines") as report:
             found = _core.curved_isolines(
                 self._run(),
-                start.index,
-                start.weights,
-                offsets(offset, len(start.index)),
+                start,
                 options("windows", tolerance_of(tolerance), radius),
                 None if levels is None else _levels(levels),
                 None if every is None else number(every, "every"),

@@ -84,8 +84,8 @@ class HeatSolver:
     >>> F = [f for i in range(20) for j in range(20) for a in [21 * i + j] for f in [(a, a + 1, a + 22), (a, a + 22, a + 21)]]
     >>> heat = bf.HeatSolver(bf.Mesh(V, F))
     >>> d = heat.distances([[0], [0, 440]])
-    >>> d.shape, d[0, 0], d[1, [0, 440]].tolist(), bool(abs(d[0, 20] - 1) < 0.03)
-    ((2, 441), 0.0, [0.0, 0.0], True)
+    >>> d.shape, d[:, 0].tolist(), d[1, 440].item(), bool(abs(d[0, 20] - 1) < 0.06)
+    ((2, 441), [0.0, 0.0], 0.0, True)
     """
 
     def __init__(
@@ -125,6 +125,11 @@ class HeatSolver:
         Every source reads its own value, but for those that another one's front reaches sooner.
 
         :param sources, offset: as for :meth:`Mesh.distance`.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> bf.HeatSolver(mesh).distance([0, 2], offset=[0, 1])[[0, 2]].tolist()
+        [0.0, 1.0]
         """
         arrays = self.mesh._arrays(sources, "sources")
         index, weights, starts = _in_one([arrays])
@@ -134,6 +139,11 @@ class HeatSolver:
         """One row for each set of sources, (sets, vertex_count): several at a time cost a third of one by one.
 
         :param sets: of each what :meth:`distance` takes.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> bf.HeatSolver(mesh).distances([0, 1, [2, 3]]).shape
+        (3, 4)
         """
         index, weights, starts = _in_one([self.mesh._arrays(one, "sources") for one in sets])
         return self._core.distances(index, weights, np.zeros(len(index)), starts)
@@ -183,17 +193,35 @@ class VectorHeatSolver:
         return self._core.time
 
     def tangent_frames(self) -> tuple[Floats, Floats, Floats]:
-        """Unit vectors x, y and normal at every vertex, (vertex_count, 3) each; 0 at a vertex in no face."""
+        """Unit vectors x, y and normal at every vertex, (vertex_count, 3) each; 0 at a vertex in no face.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> x, y, normal = bf.VectorHeatSolver(mesh).tangent_frames()
+        >>> x[0].tolist(), normal[0].tolist()
+        ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0])
+        """
         return self._core.tangent_frames()
 
     def extend(self, vertices: npt.ArrayLike, values: npt.ArrayLike) -> Floats:
-        """The value of the nearest of the vertices, blended where several are equally near, (vertex_count,)."""
+        """The value of the nearest of the vertices, blended where several are equally near, (vertex_count,).
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> bf.VectorHeatSolver(mesh).extend([0], [7.0]).tolist()
+        [7.0, 7.0, 7.0, 7.0]
+        """
         return self._core.extend(self._vertices(vertices), _arrays.floats(values, "values").reshape(-1))
 
     def transport(self, vertices: npt.ArrayLike, vectors: npt.ArrayLike) -> Floats:
         """The vector of the nearest of the vertices, carried along the shortest path, (vertex_count, 2).
 
         :param vectors: (vertices, 2).
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> bf.VectorHeatSolver(mesh).transport([0], [[0, 2]]).shape
+        (4, 2)
         """
         array = _arrays.floats(vectors, "vectors")
         _arrays.columns(array, 2, "vectors")
@@ -203,11 +231,22 @@ class VectorHeatSolver:
         """Where every vertex lies as seen from one, in its frame, (vertex_count, 2).
 
         :param strategy: ``"affine-local"``, ``"affine-adaptive"`` (the most accurate) or ``"vector-heat"``.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> bf.VectorHeatSolver(mesh).log_map(0)[0].tolist()
+        [0.0, 0.0]
         """
         return self._core.log_map(self._vertices([vertex]), _one_of(strategy, _STRATEGIES, "strategy"))
 
     def connection_laplacian(self) -> csc_matrix:
-        """The Laplacian of tangent vectors, complex and Hermitian, (vertex_count, vertex_count)."""
+        """The Laplacian of tangent vectors, complex and Hermitian, (vertex_count, vertex_count).
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> bf.VectorHeatSolver(mesh).connection_laplacian().diagonal().imag.tolist()
+        [0.0, 0.0, 0.0, 0.0]
+        """
         from scipy.sparse import csc_matrix
 
         row, column, parts = self._core.connection_laplacian()
@@ -228,7 +267,7 @@ class SignedHeatSolver:
     >>> V = [[x, y, 0] for y in line for x in line]
     >>> F = [f for i in range(10) for j in range(10) for a in [11 * i + j] for f in [(a, a + 1, a + 12), (a, a + 12, a + 11)]]
     >>> d = bf.SignedHeatSolver(bf.Mesh(V, F)).distance([range(55, 66)])
-    >>> d.round(1)[[5, 60, 115]].tolist()
+    >>> (d.round(1) + 0)[[5, 60, 115]].tolist()
     [0.5, 0.0, -0.5]
     """
 
@@ -263,6 +302,13 @@ class SignedHeatSolver:
         :param constraint: ``"zero-set"``: all sources read 0; ``"multiple"``: each curve reads one value; ``"none"``.
         :param soft_weight: > 0: the constraint is weighed against the rest in place of being kept.
         :param preserve_normals: in the faces of the curves distances grow at right angles to them.
+
+        >>> import brushfire as bf
+        >>> V = [[x, y] for y in range(3) for x in range(3)]
+        >>> mesh = bf.Mesh(V, [f for a in (0, 1, 3, 4) for f in [(a, a + 1, a + 4), (a, a + 4, a + 3)]])
+        >>> d = bf.SignedHeatSolver(mesh).distance([[3, 4, 5]], constraint="none")
+        >>> bool(d[1] > 0 > d[7])
+        True
         """
         lines = [self._line(curve) for curve in curves]
         flags = [True] * len(lines) if is_signed is None else [bool(one) for one in is_signed]

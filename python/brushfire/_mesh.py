@@ -29,6 +29,7 @@ from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place
 from brushfire._progress import Progress, shown
 from brushfire._regions import Regions
 from brushfire._sets import Pairs
+from brushfire._weighted import WithWeights
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -90,7 +91,9 @@ class MeshReport:
         return "\n".join([head, *self.remarks])
 
 
-class Mesh(Distances, Derivatives, Curves, Fields, Certificates, Regions, Cells, Matrices, Pairs, Pictures, Files):
+class Mesh(
+    Distances, Derivatives, Curves, Fields, Certificates, Regions, Cells, Matrices, Pairs, Pictures, Files, WithWeights
+):
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
     :param vertices: (n, 3) positions, or (n, 2) for a flat mesh. Kept as float64.

@@ -9,12 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, Ints, Labels, offsets, whole
+from brushfire._arrays import Floats, Ints, Labels, whole
 from brushfire._curves import OnMesh, Path
 from brushfire._errors import BrushfireError
 from brushfire._options import Tolerance, options
 from brushfire._places import Places, Points
 from brushfire._progress import Progress, shown
+from brushfire._sources import Sources, sources_of
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -132,7 +133,7 @@ class Regions(OnMesh):
 
     def voronoi(
         self,
-        sources: Places,
+        sources: Sources,
         *,
         method: str | None = None,
         tolerance: Tolerance | None = None,
@@ -154,10 +155,10 @@ class Regions(OnMesh):
         >>> cells.source.tolist(), cells.area.sum().item(), cells.borders[0].sources
         ([0, 1, 1, 0], 4.0, (0, 1))
         """
-        start = self._arrays(sources, "sources")
-        given, chosen = offsets(offset, len(start.index)), options(method, tolerance, radius, bound, precision, threads)
+        start = sources_of(self, sources, offset)
+        chosen = options(method, tolerance, radius, bound, precision, threads)
         with shown(progress, "voronoi") as report:
-            found = _core.voronoi(self._space, start.index, start.weights, given, chosen, report)
+            found = _core.voronoi(self._space, start, chosen, report)
         distance, source, area, borders, dual = found
         return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders], dual)
 
@@ -225,8 +226,8 @@ class Regions(OnMesh):
         if ends.size and (ends.ndim != 2 or ends.shape[1] != 2):
             raise BrushfireError(f"edges: shape (k, 2) is needed, not {ends.shape}")
         return (
-            _numbers(vertices, self._mesh.vertex_count, "vertices"),
-            _numbers(faces, self._mesh.face_count, "faces"),
+            _arrays.numbers(vertices, self._mesh.vertex_count, "vertices"),
+            _arrays.numbers(faces, self._mesh.face_count, "faces"),
             ends.reshape(-1),
         )
 
@@ -236,16 +237,3 @@ class Regions(OnMesh):
 
     def _whole(self) -> Mesh:
         raise NotImplementedError
-
-
-def _numbers(chosen: Any, count: int, what: str) -> Ints:
-    """Of a mask or of numbers, flat."""
-    array = _arrays.any_array(chosen, what)
-    if array.dtype == np.bool_:
-        if array.shape != (count,):
-            raise BrushfireError(f"{what}: a mask needs shape ({count},), not {array.shape}")
-        return np.flatnonzero(array).astype(np.int64)
-    numbers = _arrays.integers(array, what)
-    if numbers.ndim > 1 and numbers.size:
-        raise BrushfireError(f"{what}: shape (k,) is needed, not {numbers.shape}")
-    return numbers.reshape(-1)

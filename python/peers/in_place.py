@@ -2,7 +2,7 @@
 
     python -m pytest -p in_place FILE
 
-libigl is far more than its exact_geodesic: of it only that function is replaced.
+libigl is far more than its geodesics: of it only these are replaced.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ sys.modules["potpourri3d"] = potpourri3d
 sys.modules["pygeodesic"] = pygeodesic
 sys.modules["pygeodesic.geodesic"] = pygeodesic.geodesic
 try:
-    importlib.import_module("igl").exact_geodesic = igl.exact_geodesic
+    original = importlib.import_module("igl")
+    for name in igl.__all__:
+        setattr(original, name, getattr(igl, name))
 except ImportError:
     sys.modules["igl"] = igl

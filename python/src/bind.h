@@ -26,17 +26,20 @@ namespace nb = nanobind;
 
 void bind_errors(nb::module_& m);
 void bind_mesh(nb::module_& m);
+void bind_sources(nb::module_& m);
 void bind_distance(nb::module_& m);
 void bind_matrix(nb::module_& m);
 void bind_curves(nb::module_& m);
 void bind_fields(nb::module_& m);
 void bind_certify(nb::module_& m);
 void bind_cells(nb::module_& m);
+void bind_weighted(nb::module_& m);
 void bind_regions(nb::module_& m);
 void bind_heat(nb::module_& m);
 void bind_figure(nb::module_& m);
 void bind_files(nb::module_& m);
 void bind_derivatives(nb::module_& m);
+void bind_flatten(nb::module_& m);
 
 // Arrays as the Python files hand them over: converted already, C order, exactly these types.
 template <class T>
@@ -75,6 +78,10 @@ std::vector<SurfacePoint> targets_from(const Mesh& mesh, const PlaceArrays& arra
 SurfacePoint single_point_from(const Mesh& mesh, const PlaceArrays& arrays);
 // Throws Error(InvalidArgument) unless there is one offset per source.
 std::vector<Source> sources_from(const Mesh& mesh, const PlaceArrays& places, const Vector<double>& offsets);
+// _core.Sources: the points and curves of one mesh that distances start from.
+struct Sources {
+  std::vector<Source> list;
+};
 
 // (face, weights): int32 [points], float64 [points, 3].
 nb::tuple points_to_numpy(std::span<const SurfacePoint> points);

@@ -33,13 +33,11 @@ MatrixOptions matrix_options(const nb::dict& given, unsigned threads, Computatio
 std::int64_t signed_index(Index v) { return v == kNoIndex ? -1 : std::int64_t{v}; }
 
 // (distance, source), [vertices, k] each.
-nb::tuple nearest(const Domain& domain, const Vector<std::int64_t>& index, const OptionalWeights& weights,
-                  const Vector<double>& offsets, Index count, const nb::dict& given, nb::object progress) {
+nb::tuple nearest(const Domain& domain, const Sources& sources, Index count, const nb::dict& given,
+                  nb::object progress) {
   Computation computation(std::move(progress));
   const DistanceOptions options = options_from(given, computation);
-  NearestSources found = computation.run(false, [&] {
-    return nearest_sources(domain, sources_from(domain.mesh(), {index, weights}, offsets), count, options);
-  });
+  NearestSources found = computation.run(false, [&] { return nearest_sources(domain, sources.list, count, options); });
   const std::size_t rows = domain.mesh().vertex_count(), columns = found.count;
   std::vector<std::int32_t> source(found.source.begin(), found.source.end());
   return nb::make_tuple(to_numpy(std::move(found.distance), {rows, columns}),
@@ -197,8 +195,7 @@ void bind_measure(nb::module_& m, const char* name) {
 }  // namespace
 
 void bind_cells(nb::module_& m) {
-  m.def("nearest_sources", nearest, nb::arg("domain"), nb::arg("index").noconvert(),
-        nb::arg("weights").noconvert().none(), nb::arg("offsets").noconvert(), nb::arg("count"), nb::arg("options"),
+  m.def("nearest_sources", nearest, nb::arg("domain"), nb::arg("sources"), nb::arg("count"), nb::arg("options"),
         nb::arg("progress").none());
   m.def("extent", measure_extent, nb::arg("domain"), nb::arg("tolerance"), nb::arg("most"), nb::arg("threads"),
         nb::arg("progress").none());

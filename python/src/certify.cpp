@@ -6,8 +6,7 @@
 namespace brushfire::python {
 namespace {
 
-nb::dict certificate(const Domain& domain, const Vector<double>& field, const Vector<std::int64_t>& index,
-                     const std::optional<Triples<double>>& weights, const Vector<double>& offsets, double tolerance,
+nb::dict certificate(const Domain& domain, const Vector<double>& field, const Sources& sources, double tolerance,
                      double within, double max_distance, unsigned threads, nb::object progress) {
   Computation computation(std::move(progress));
   CertifyOptions options;
@@ -18,8 +17,7 @@ nb::dict certificate(const Domain& domain, const Vector<double>& field, const Ve
   options.cancel = computation.cancel();
   options.progress = computation.progress();
   Certificate c = computation.run(domain.mesh().face_count() < kBriefFaces, [&] {
-    return certify(domain, {field.data(), field.shape(0)}, sources_from(domain.mesh(), {index, weights}, offsets),
-                   options);
+    return certify(domain, {field.data(), field.shape(0)}, sources.list, options);
   });
   nb::dict d;
   d["proven_wrong"] = c.proven_wrong();
@@ -52,9 +50,9 @@ nb::tuple finding_names() {
 }  // namespace
 
 void bind_certify(nb::module_& m) {
-  m.def("certify", certificate, nb::arg("domain"), nb::arg("field").noconvert(), nb::arg("index").noconvert(),
-        nb::arg("weights").noconvert().none(), nb::arg("offsets").noconvert(), nb::arg("tolerance"), nb::arg("within"),
-        nb::arg("max_distance"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("certify", certificate, nb::arg("domain"), nb::arg("field").noconvert(), nb::arg("sources"),
+        nb::arg("tolerance"), nb::arg("within"), nb::arg("max_distance"), nb::arg("threads"),
+        nb::arg("progress").none());
   m.def("finding_names", finding_names);
 }
 

@@ -60,8 +60,7 @@ double length(const Mesh& mesh, const Vector<std::int64_t>& index, const Optiona
 }
 
 // From the nearest source to every target, off one field: (source, paths).
-nb::tuple paths(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
-                const Vector<double>& offsets, const Vector<std::int64_t>& target_index,
+nb::tuple paths(Solver& solver, const Sources& sources, const Vector<std::int64_t>& target_index,
                 const OptionalWeights& target_weights, double max_distance) {
   const Mesh& mesh = solver.mesh();
   Computation computation{nb::none()};
@@ -70,8 +69,7 @@ nb::tuple paths(Solver& solver, const Vector<std::int64_t>& index, const Optiona
     how.max_distance = max_distance;
     how.cancel = computation.cancel();
     const std::vector<SurfacePoint> targets = targets_from(mesh, {target_index, target_weights});
-    const std::vector<Source> sources = sources_from(mesh, {index, weights}, offsets);
-    return solver.with([&](DistanceSolver& s) { return paths_to(s, sources, targets, how); });
+    return solver.with([&](DistanceSolver& s) { return paths_to(s, sources.list, targets, how); });
   });
   nb::list list;
   std::vector<Index> nearest;
@@ -83,8 +81,7 @@ nb::tuple paths(Solver& solver, const Vector<std::int64_t>& index, const Optiona
 }
 
 // Along edges, from the nearest source's vertex.
-nb::tuple edge_path(Solver& solver, const Vector<std::int64_t>& index, const OptionalWeights& weights,
-                    const Vector<double>& offsets, std::int64_t target) {
+nb::tuple edge_path(Solver& solver, const Sources& sources, std::int64_t target) {
   const Mesh& mesh = solver.mesh();
   if (target < 0 || target >= std::int64_t{mesh.vertex_count()}) {
     throw Error(ErrorCode::IndexOutOfRange, "vertex " + std::to_string(target) + " does not exist: the mesh has " +
@@ -94,9 +91,8 @@ nb::tuple edge_path(Solver& solver, const Vector<std::int64_t>& index, const Opt
   return path_to_numpy(computation.run(false, [&] {
     DistanceOptions options;
     options.cancel = computation.cancel();
-    const std::vector<Source> sources = sources_from(mesh, {index, weights}, offsets);
     const SurfacePoint end = target_point(mesh, static_cast<Index>(target));
-    return edge_paths_to(solver.domain(), sources, std::span(&end, 1), options).front();
+    return edge_paths_to(solver.domain(), sources.list, std::span(&end, 1), options).front();
   }));
 }
 
@@ -176,11 +172,9 @@ void bind_curves(nb::module_& m) {
         nb::arg("closed"));
   m.def("length_of", length, nb::arg("mesh"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("closed"));
-  m.def("paths", paths, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-        nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert(),
+  m.def("paths", paths, nb::arg("solver"), nb::arg("sources"), nb::arg("target_index").noconvert(),
         nb::arg("target_weights").noconvert().none(), nb::arg("max_distance"));
-  m.def("edge_path", edge_path, nb::arg("solver"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-        nb::arg("offsets").noconvert(), nb::arg("target"));
+  m.def("edge_path", edge_path, nb::arg("solver"), nb::arg("sources"), nb::arg("target"));
   m.def("angle_of", angle_at, nb::arg("domain"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
         nb::arg("direction").noconvert());
   m.def("trace", trace, nb::arg("domain"), nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),

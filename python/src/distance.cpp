@@ -9,18 +9,15 @@ namespace {
 
 // (distance, source, error bound): of the targets where there are any, of all vertices otherwise. The bound is None for
 // methods that have none.
-nb::tuple solve(Solver& solver, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
-                const Vector<double>& offsets, const std::optional<Vector<std::int64_t>>& target_index,
+nb::tuple solve(Solver& solver, const Sources& sources, const std::optional<Vector<std::int64_t>>& target_index,
                 const std::optional<Triples<double>>& target_weights, const nb::dict& given, nb::object progress) {
   const Mesh& mesh = solver.mesh();
   Computation computation(std::move(progress));
   DistanceOptions options = options_from(given, computation);
-  std::vector<Source> sources;
   DistanceField field;
   field = computation.run(mesh.face_count() < kBriefFaces, [&] {
-    sources = sources_from(mesh, {index, weights}, offsets);
     if (target_index) options.targets = targets_from(mesh, {*target_index, target_weights});
-    return solver.with([&](DistanceSolver& s) { return s.distance(sources, options); });
+    return solver.with([&](DistanceSolver& s) { return s.distance(sources.list, options); });
   });
   if (target_index) {
     return nb::make_tuple(to_numpy(std::move(field.target_distance)), to_numpy_signed(std::move(field.target_source)),
@@ -80,8 +77,7 @@ void bind_distance(nb::module_& m) {
   nb::class_<Solver>(m, "Solver")
       .def(nb::init<const Domain&>(), nb::arg("domain"))
       .def("set_up", set_up, nb::arg("options"))
-      .def("solve", solve, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-           nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert().none(),
+      .def("solve", solve, nb::arg("sources"), nb::arg("target_index").noconvert().none(),
            nb::arg("target_weights").noconvert().none(), nb::arg("options"), nb::arg("progress").none());
   m.def("method_names", method_names);
   m.attr("default_method") = std::string(name_of(DistanceOptions{}.method));

@@ -31,15 +31,14 @@ nb::list linear(const Domain& domain, const Vector<double>& values, const Vector
 }
 
 // Levels that follow from the field, which is known only here: every `every` units, or `count` of them, or those given.
-nb::list curved(Solver& solver, const Vector<std::int64_t>& index, const std::optional<Triples<double>>& weights,
-                const Vector<double>& offsets, const nb::dict& given, const std::optional<Vector<double>>& levels,
-                std::optional<double> every, Index count, double chord_error, nb::object progress) {
+nb::list curved(Solver& solver, const Sources& sources, const nb::dict& given,
+                const std::optional<Vector<double>>& levels, std::optional<double> every, Index count,
+                double chord_error, nb::object progress) {
   Computation computation(std::move(progress));
   DistanceOptions options = options_from(given, computation);
   options.keep_windows = true;
   return to_list(computation.run(false, [&] {
-    const std::vector<Source> sources = sources_from(solver.mesh(), {index, weights}, offsets);
-    const DistanceField field = solver.with([&](DistanceSolver& s) { return s.distance(sources, options); });
+    const DistanceField field = solver.with([&](DistanceSolver& s) { return s.distance(sources.list, options); });
     if (!field.windows) {
       throw Error(ErrorCode::InvalidArgument, "curved isolines need method exact or windows");
     }
@@ -112,8 +111,7 @@ nb::dict compare(const Vector<double>& field, const Vector<double>& reference,
 
 void bind_fields(nb::module_& m) {
   m.def("isolines", linear, nb::arg("domain"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());
-  m.def("curved_isolines", curved, nb::arg("solver"), nb::arg("index").noconvert(),
-        nb::arg("weights").noconvert().none(), nb::arg("offsets").noconvert(), nb::arg("options"),
+  m.def("curved_isolines", curved, nb::arg("solver"), nb::arg("sources"), nb::arg("options"),
         nb::arg("levels").noconvert().none(), nb::arg("every").none(), nb::arg("count"), nb::arg("chord_error"),
         nb::arg("progress").none());
   m.def(

@@ -29,13 +29,10 @@ std::vector<Index> indices_from(const Vector<std::int64_t>& numbers, const char*
 }
 
 // (distance, source, area, [(source, source, path)], dual).
-nb::tuple voronoi_cells(const Domain& domain, const Vector<std::int64_t>& index,
-                        const std::optional<Triples<double>>& weights, const Vector<double>& offsets,
-                        const nb::dict& given, nb::object progress) {
+nb::tuple voronoi_cells(const Domain& domain, const Sources& sources, const nb::dict& given, nb::object progress) {
   Computation computation(std::move(progress));
   const DistanceOptions options = options_from(given, computation);
-  VoronoiDiagram diagram = computation.run(
-      false, [&] { return voronoi(domain, sources_from(domain.mesh(), {index, weights}, offsets), options); });
+  VoronoiDiagram diagram = computation.run(false, [&] { return voronoi(domain, sources.list, options); });
   nb::list borders;
   for (const VoronoiBorder& b : diagram.borders) {
     borders.append(nb::make_tuple(b.sources[0], b.sources[1], path_to_numpy(b.line)));
@@ -136,8 +133,7 @@ void bind_regions(nb::module_& m) {
   nb::implicitly_convertible<Mesh, Domain>();
   m.def("make_domain", make_domain, nb::arg("mesh"), nb::arg("vertices").noconvert(), nb::arg("faces").noconvert(),
         nb::arg("edge_ends").noconvert());
-  m.def("voronoi", voronoi_cells, nb::arg("domain"), nb::arg("index").noconvert(),
-        nb::arg("weights").noconvert().none(), nb::arg("offsets").noconvert(), nb::arg("options"),
+  m.def("voronoi", voronoi_cells, nb::arg("domain"), nb::arg("sources"), nb::arg("options"),
         nb::arg("progress").none());
   m.def("farthest_points", sample, nb::arg("domain"), nb::arg("count"), nb::arg("first").noconvert(),
         nb::arg("options"), nb::arg("progress").none());

@@ -28,6 +28,8 @@ def modules():
 
 @pytest.mark.parametrize("module", list(modules()), ids=lambda m: m.__name__)
 def test_examples_in_docstrings(module):
+    if "heat" not in bf.methods() and module.__name__.endswith((".igl", "._heat", "potpourri3d._points")):
+        pytest.skip("this build has no Eigen")
     if module.__name__ != "brushfire._core":
         assert doctest.testmod(module).failed == 0
 

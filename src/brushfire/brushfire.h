@@ -35,10 +35,12 @@
 #include <brushfire/queries/centroidal.h>
 #include <brushfire/queries/certify.h>
 #include <brushfire/queries/compare.h>
+#include <brushfire/queries/curve_sources.h>
 #include <brushfire/queries/curved_isolines.h>
 #include <brushfire/queries/distance_gradient.h>
 #include <brushfire/queries/distance_matrix.h>
 #include <brushfire/queries/extent.h>
+#include <brushfire/queries/flatten.h>
 #include <brushfire/queries/gradient.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/karcher_mean.h>

@@ -38,6 +38,7 @@ NOT_IN_PYTHON = {
     "shape": "something to try the program on",
     "completion": "of a shell",
     "manual": "of a shell",
+    "view": "a Mesh shows itself in a notebook",
 }
 
 # "verb --option" or "--option": what it is called in Python instead ("" for nothing), and why.

@@ -79,6 +79,10 @@ TEST(Lanes, TurnIntoBytesAndBack) {
   for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, store_as_bytes());
 }
 
+TEST(Lanes, TurnIntoWordsAndBack) {
+  for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, store_as_words());
+}
+
 TEST(Lanes, AreConvertedAsSingleNumbersAre) {
   for (const Variant variant : kVariants) BRUSHFIRE_ON_WIDE_TARGET(variant, convert_all());
 }

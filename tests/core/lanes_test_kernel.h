@@ -137,6 +137,23 @@ inline void store_as_bytes() {
 }
 
 template <int N>
+void store_words() {
+  using V = Lanes<std::uint32_t, N>;
+  std::uint16_t words[N], to[N + 1]{};
+  for (int k = 0; k < N; ++k) words[k] = static_cast<std::uint16_t>(0x8001u * static_cast<unsigned>(k + 1));
+  to[N] = 77;
+  const V x = load_words<V>(words);
+  expect_lanes(x, "words", [&](int k) { return std::uint32_t{words[k]}; });
+  store_words(to, x);
+  EXPECT_EQ(std::memcmp(words, to, sizeof words), 0);
+  EXPECT_EQ(to[N], 77);
+}
+inline void store_as_words() {
+  store_words<8>();
+  store_words<16>();
+}
+
+template <int N>
 void convert() {
   const std::vector<double> from = awkward_numbers<double>(100 * N);
   for (std::size_t i = 0; i < 100; ++i) {

@@ -15,8 +15,8 @@
 namespace brushfire {
 namespace {
 
-// Where a path begins, at the curve: how far from the curve that is, the curve's offset there, and by how much the path misses the
-// right angle (or what the slope of the offsets makes of it), in radians; 0 at places.
+// Where a path begins, at the curve: how far from the curve that is, the curve's offset there, and by how much the path
+// misses the right angle (or what the slope of the offsets makes of it), in radians; 0 at places.
 struct Ending {
   double away = kInfinity, offset = 0, miss = kInfinity;
 };
@@ -32,9 +32,10 @@ Ending ending(const Mesh& mesh, const CurveSource& curve, const SurfacePath& pat
     const double t = std::clamp(dot(end - a, along), 0.0, s.length), away = norm(end - (a + t * along));
     const double slope = (s.to_offset - s.from_offset) / s.length, way = norm(before - end);
     const bool at_place = std::min(t, s.length - t) < kThere;
-    const double miss = at_place || !(way > kThere)
-                            ? 0
-                            : std::abs(std::asin(std::clamp(dot(before - end, along) / way, -1.0, 1.0)) - std::asin(slope));
+    const double miss =
+        at_place || !(way > kThere)
+            ? 0
+            : std::abs(std::asin(std::clamp(dot(before - end, along) / way, -1.0, 1.0)) - std::asin(slope));
     if (away > kThere || (best.away <= kThere && miss >= best.miss)) continue;
     best = {away, s.from_offset + slope * t, miss};
   }

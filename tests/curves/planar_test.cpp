@@ -2,6 +2,7 @@
 // is triangulated.
 #include <brushfire/mesh/delaunay.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include <string>
 
 #include "curves/random_curves.h"
+#include "support/engine_run.h"
 
 namespace brushfire {
 namespace {
@@ -58,6 +60,26 @@ void expect_exact(int curves, Method method, double tolerance, bool offsets) {
 
 TEST(CurvesInThePlane, AreAsFarAsTheirNearestSegment) { expect_exact(1000, Method::Exact, 0, false); }
 TEST(CurvesInThePlane, WithOffsetsAreTheLeastOfOffsetAndWay) { expect_exact(1000, Method::Exact, 0, true); }
+
+// Where one segment explains everything, merging costs nothing but rounding.
+TEST(CurvesInThePlane, KeepTheToleranceAndItsBound) {
+  for (int seed = 0; seed < 300; ++seed) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    const Mesh mesh = random_triangulation(random);
+    const CurveSource curve = test::random_curve(mesh, 1, random);
+    const auto engine = windows::make_windows(mesh, windows::kPartBits, windows::Merging::Always);
+    for (const double tolerance : {1e-1, 1e-2, 1e-4}) {
+      const DistanceField field = test::run(*engine, mesh, {source_along(curve)}, {.tolerance = tolerance});
+      for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (mesh.corners(v).empty()) continue;
+        const double truth = test::planar_distance(mesh, curve, mesh.positions()[v]);
+        const double d = field.distance[v] * mesh.unit(), bound = field.error_bound[v] * mesh.unit();
+        ASSERT_LE(std::abs(d - truth), bound + kPlaces) << "seed " << seed << ", vertex " << v;
+        ASSERT_LE(bound, tolerance * truth + kPlaces) << "seed " << seed << ", vertex " << v;
+      }
+    }
+  }
+}
 
 }  // namespace
 }  // namespace brushfire

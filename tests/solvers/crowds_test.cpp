@@ -167,6 +167,7 @@ TEST(Crowds, ALegFromTheHubIsFoundByLength) {
   const double straight = 2 / mesh.unit();
   const WindowField::Leg leg = windows::find_leg({mesh,
                                                   std::span(&source, 1),
+                                                  windows::CurveIndex(),
                                                   0,
                                                   value,
                                                   locate(mesh, vertex_point(mesh, 0)),

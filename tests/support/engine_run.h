@@ -12,7 +12,8 @@ inline DistanceField run(detail::Engine& engine, const Mesh& mesh, const std::ve
                          const DistanceOptions& options, std::vector<Index>* touched = nullptr) {
   std::vector<detail::LocatedSource> located;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    located.push_back({locate(mesh, sources[i].point), sources[i].offset / mesh.unit(), static_cast<Index>(i)});
+    located.push_back(detail::located(mesh, sources[i], static_cast<Index>(i)));
+    located.back().offset /= mesh.unit();
   }
   std::vector<PointLocation> targets;
   for (const SurfacePoint& t : options.targets) targets.push_back(locate(mesh, t));

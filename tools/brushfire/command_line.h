@@ -123,6 +123,7 @@ void add_matrix(CommandLine& command_line);
 void add_path(CommandLine& command_line);
 void add_isolines(CommandLine& command_line);
 void add_log_map(CommandLine& command_line);
+void add_flatten(CommandLine& command_line);
 void add_gradient(CommandLine& command_line);
 void add_render(CommandLine& command_line);
 void add_compare(CommandLine& command_line);

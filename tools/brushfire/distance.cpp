@@ -6,6 +6,7 @@
 #include "reached.h"
 #include "sources.h"
 #include "surface.h"
+#include "weighted.h"
 #include "where.h"
 
 #include <brushfire/solvers/distance.h>
@@ -24,14 +25,23 @@ constexpr const char* kExamples = R"(Places (for --source and --target):
   at:1.5,0,-2       the point of the surface nearest to this position
   17@0.5            any of them, with the value 0.5 to start from (sources only)
 
+Curves (for --source):
+  boundary          the boundary of the mesh; boundary:2 is one of the curves that brushfire info lists
+  path:0,at:1,0,2   the shortest path between places
+  chain:3,4,5       along the edges between vertices
+  region:F:LABEL    a region by the labels of file F, of vertices or of faces: 0 inside
+  drawn.obj         the curves of a file (.csv .json .obj .ply .vtp), each a source of its own
+
 Examples:
   brushfire distance bunny.ply --source 0
   brushfire distance bunny.ply --source 0 --source 1200@0.05 -o distance.npy
   brushfire distance bunny.ply --sources landmarks.txt --radius 0.1 -o coloured.ply
   brushfire distance bunny.ply --source 0 --target 5000 --target f:120:.2,.3,.5
   brushfire distance bunny.ply --source 0 --method dijkstra --json
+  brushfire distance part.stl --source boundary -o from-the-rim.ply
   brushfire distance bunny.ply --source 0 --tolerance 1e-4 -o within-0.01-percent.npy
   brushfire distance bunny.ply --source 0 --target 5000 --tolerance fine --bound upper
+  brushfire distance terrain.ply --source 0 --weights friction.npy -o cost.npy
   brushfire distance bunny.ply --source 0 -o - | sort -t, -gk2 | tail -1
 
 The extension of -o decides: .ply (MeshLab; colours, and the distance as vertex quality), .vtk .vtp (ParaView), .obj
@@ -44,6 +54,7 @@ than all. Vertices that cannot be reached, or lie beyond the radius, read inf in
 struct Arguments {
   std::string file, output;
   SharedArguments shared;
+  WeightArguments weights;
   std::vector<std::string> targets;
   bool labels = false;
 };
@@ -156,6 +167,10 @@ void write(const Arguments& arguments, const Run& run, const Surface& surface) {
 int distance_verb(const Arguments& arguments, const Talk& talk) {
   // What can be wrong without the mesh is said before a large file is read.
   check(arguments, talk);
+  if (arguments.weights.given()) {
+    return weighted_distance({arguments.file, arguments.output, arguments.shared, arguments.weights, arguments.targets},
+                             talk);
+  }
   Run run;
   DistanceOptions& options = run.options;
   options = computation(arguments.shared);
@@ -214,6 +229,7 @@ void add_distance(CommandLine& command_line) {
     verb.option("-o,--output", arguments->output, "FILE",
                 ("Write the field: " + extensions_of(fields_written()) + "; - prints CSV").c_str());
     verb.flag("--labels", arguments->labels, "Write the nearest source into .gii too, as other formats have it");
+    add_weights(verb, arguments->weights);
     verb.talks();
     add_shared(verb, arguments->shared,
                {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});

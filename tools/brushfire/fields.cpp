@@ -3,6 +3,8 @@
 
 #include <brushfire/io/write_field.h>
 
+#include <algorithm>
+
 namespace brushfire::tool {
 
 std::vector<double> values_of(const LoadedField& loaded, const std::string& path, std::size_t count,
@@ -17,6 +19,27 @@ std::vector<double> values_of(const LoadedField& loaded, const std::string& path
 std::vector<double> values_on(const Surface& surface, const std::string& path, const std::string& name) {
   const Index count = surface.file().mesh.vertex_count();
   return surface.on_mesh(values_of(read_field(path, name), path, count, "the mesh"), path);
+}
+
+std::vector<double> keys_named(const LoadedField& field, std::string_view labels, const std::string& file,
+                               const std::string& option) {
+  std::vector<double> keys;
+  for (std::size_t begin = 0; begin <= labels.size();) {
+    const std::size_t end = std::min(labels.find(',', begin), labels.size());
+    const std::string_view label = labels.substr(begin, end - begin);
+    const auto named = std::find_if(field.label_names.begin(), field.label_names.end(),
+                                    [&](const LoadedField::Label& l) { return l.name == label; });
+    if (named != field.label_names.end()) {
+      keys.push_back(static_cast<double>(named->key));
+    } else if (const std::optional<double> number = decimal(label)) {
+      keys.push_back(*number);
+    } else {
+      refuse(option + ": " + in_quotes(label) + " is no label of " + file +
+             (field.label_names.empty() ? " (it has no names: give numbers)" : ""));
+    }
+    begin = end + 1;
+  }
+  return keys;
 }
 
 void check_scalar_or_source(const SharedArguments& a) {

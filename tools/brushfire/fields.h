@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace brushfire::tool {
@@ -19,6 +20,11 @@ std::vector<double> values_of(const LoadedField& loaded, const std::string& path
 
 // The values of a file (the array `name`), on the vertices of surface.mesh().
 std::vector<double> values_on(const Surface& surface, const std::string& path, const std::string& name);
+
+// "precentral,7": the keys of these labels of the field, by name or number. Throws Error(InvalidArgument) that begins
+// with `option` for what is neither.
+std::vector<double> keys_named(const LoadedField& field, std::string_view labels, const std::string& file,
+                               const std::string& option);
 
 // What a verb shows: the values of --scalar, or distances. Throws Error(InvalidArgument) where both are asked for, or
 // neither is.

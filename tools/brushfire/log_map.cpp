@@ -109,7 +109,7 @@ std::string json(const Arguments& a, const Surface& surface, const SurfacePoint&
 int log_map_verb(const Arguments& a, const Talk& talk) {
   check(a, talk);
   const std::optional<Vec3> direction = direction_of(a);
-  const std::vector<Where> places = parse_sources(a.shared);
+  const std::vector<Where> places = parse_point_sources(a.shared, "a log map is around one place");
   if (places.size() != 1) {
     refuse("a log map is around one place: " + std::to_string(places.size()) + " were given");
   }

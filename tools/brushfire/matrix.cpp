@@ -62,7 +62,7 @@ std::vector<Where> parse_list(const std::string& text) {
 std::optional<std::vector<Where>> parse_rows(const Arguments& a) {
   if (given(a.shared, {Shared::Source, Shared::Sources})) {
     if (!a.rows.empty()) refuse("--rows and --source both say where the rows start from: give one");
-    return parse_sources(a.shared);
+    return parse_point_sources(a.shared, "rows start from places");
   }
   if (a.rows.empty() || a.rows == "all") return std::nullopt;
   return parse_list(a.rows);

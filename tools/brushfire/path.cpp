@@ -4,6 +4,7 @@
 #include "output.h"
 #include "sources.h"
 #include "surface.h"
+#include "weighted.h"
 
 #include <brushfire/io/write_lines.h>
 #include <brushfire/mesh/reachable.h>
@@ -23,6 +24,7 @@ constexpr const char* kExamples = R"(Examples:
   brushfire path bunny.ply --sources exits.txt --to 12000 --to 300 -o way-out.vtp
   brushfire path bunny.ply --from 0 --via 500 --via 900 --closed --tighten -o loop.vtp
   brushfire path bunny.ply --from 0 --to 12000 --method dijkstra -o edges.csv
+  brushfire path terrain.ply --from 0 --to 900 --weights friction.npy --edge-weights roads.txt --json
 
 The path is exact: its length is the distance to rounding. Of several sources the nearest one is taken, for each --to.
 --via goes through points in the order given, and bends there; --tighten pulls the whole like a rubber band until it is
@@ -34,6 +36,7 @@ struct Arguments {
   std::string file, output;
   SharedArguments shared;
   DrawingArguments drawing;
+  WeightArguments weights;
   std::vector<std::string> to, via;
   bool closed = false, tighten = false;
 };
@@ -46,6 +49,7 @@ struct Found {
 };
 
 Method method_of(const Arguments& a) {
+  if (a.weights.given()) return Method::Exact;
   const Method method = computation(a.shared, Method::Exact).method;
   if (method != Method::Exact && method != Method::Dijkstra) {
     refuse("--method: " + std::string(name_of(method)) + " has no paths; exact and dijkstra have");
@@ -61,6 +65,7 @@ void check(const Arguments& a) {
   if (a.to.empty() && !a.closed) refuse("where to? give --to (or --closed)");
   if (a.closed && !a.to.empty()) refuse("a --closed path ends at --from: no --to");
   if (method_of(a) != Method::Exact && is_tour(a)) refuse("--via, --closed and --tighten need --method exact");
+  if (a.weights.given() && is_tour(a)) refuse("--via, --closed and --tighten are for paths without weights");
 }
 
 std::vector<Found> along_edges(const Domain& domain, const std::vector<Source>& sources,
@@ -69,7 +74,10 @@ std::vector<Found> along_edges(const Domain& domain, const std::vector<Source>& 
     if (p.is_nowhere() || locate(domain.mesh(), p).on == PointLocation::On::Vertex) return;
     refuse("paths along edges (--method dijkstra) run between vertices");
   };
-  for (const Source& s : sources) check_vertex(s.point);
+  for (const Source& s : sources) {
+    if (s.curve) refuse("--method dijkstra: paths along edges start at vertices, not at curves");
+    check_vertex(s.point);
+  }
   for (const SurfacePoint& t : targets) check_vertex(t);
   std::vector<Found> found;
   for (SourcePath& path : edge_paths_to(domain, sources, targets, options)) {
@@ -133,12 +141,7 @@ void write(const Arguments& a, const Mesh& mesh, const std::vector<Found>& all, 
 }
 
 bool is_connected(const Domain& domain, const std::vector<Source>& sources, const SurfacePoint& target) {
-  std::vector<SurfacePoint> points;
-  for (const Source& s : sources) {
-    const std::vector<SurfacePoint> sides = domain.on_open(s.point);
-    points.insert(points.end(), sides.begin(), sides.end());
-  }
-  const std::vector<std::uint8_t> is_reachable = reachable(domain.open(), points);
+  const std::vector<std::uint8_t> is_reachable = reachable(domain.open(), open_places_of(domain, sources));
   const std::vector<SurfacePoint> ends = domain.on_open(target);
   return std::any_of(ends.begin(), ends.end(),
                      [&](const SurfacePoint& p) { return is_reachable[domain.open().faces()[p.face][0]] != 0; });
@@ -147,12 +150,14 @@ bool is_connected(const Domain& domain, const std::vector<Source>& sources, cons
 int path_verb(const Arguments& a, const Talk& talk) {
   check(a);
   const LinesOptions drawing = lines_options(a.output, a.drawing, a.shared);
+  if (a.weights.given()) return weighted_path({a.file, a.output, a.shared, a.weights, a.to}, drawing, talk);
   const DistanceOptions options = computation(a.shared, Method::Exact);
   const std::vector<Where> source_places = parse_sources(a.shared), via = parse_places(a.via, "a waypoint"),
                            to = parse_places(a.to, "the end of a path");
   if (is_tour(a) && (source_places.size() != 1 || to.size() + (a.closed ? 1 : 0) != 1)) {
     refuse("--via, --closed and --tighten are for one --from and one --to");
   }
+  if (is_tour(a) && source_places.front().is_curve()) refuse("--via, --closed and --tighten go from place to place");
   const Surface surface(a.file, a.shared);
   const Mesh& mesh = surface.mesh();
   stop_if_interrupted();
@@ -195,6 +200,7 @@ void add_path(CommandLine& command_line) {
     verb.option("--via", arguments->via, "PLACE", "A point on the way; may be repeated");
     verb.flag("--closed", arguments->closed, "Back to --from in the end");
     verb.flag("--tighten", arguments->tighten, "Pull tight: no bends at --via");
+    add_weights(verb, arguments->weights);
     add_lines_output(verb, arguments->output, arguments->drawing);
     verb.talks();
     add_shared(verb, arguments->shared,

@@ -1,6 +1,8 @@
 // Counts of vertices, and the words for them.
 #include "reached.h"
 
+#include "sources.h"
+
 #include <brushfire/mesh/reachable.h>
 
 #include <algorithm>
@@ -15,12 +17,7 @@ Reached::Reached(const Domain& domain, std::span<const Source> sources, const Di
       has_radius_(options.max_distance < kInfinity),
       domain_(domain) {
   if (!has_radius_ && options.targets.empty()) return;
-  std::vector<SurfacePoint> points;
-  for (const Source& s : sources) {
-    const std::vector<SurfacePoint> sides = domain.on_open(s.point);
-    points.insert(points.end(), sides.begin(), sides.end());
-  }
-  is_reachable_ = reachable(domain.open(), points);
+  is_reachable_ = reachable(domain.open(), open_places_of(domain, sources));
   std::vector<std::uint8_t> on_any_side(domain.mesh().vertex_count(), 0);
   for (Index v = 0; v < is_reachable_.size(); ++v) {
     if (is_reachable_[v]) on_any_side[domain.vertex(v)] = 1;

@@ -173,17 +173,36 @@ void find_paths(const Surface& surface, PlaceFinder& places, const DistanceOptio
   }
 }
 
+// A dot, or a tube along a curve and dots for its pieces that are single places.
+void add_source(const Source& source, Panel& panel) {
+  if (!source.curve) {
+    panel.dots.push_back(position(panel.mesh, source.point));
+    return;
+  }
+  Polyline piece;
+  const auto end_piece = [&] {
+    if (piece.points.size() == 1) panel.dots.push_back(piece.points.front());
+    piece.closed = source.curve->closed;
+    if (piece.points.size() > 1) panel.paths.push_back(piece);
+    piece = {};
+  };
+  for (const SurfacePoint& p : source.curve->places) {
+    p.is_nowhere() ? end_piece() : piece.points.push_back(position(panel.mesh, p));
+  }
+  end_piece();
+}
+
 // Distances from the sources by one method, and what is drawn with them.
 Panel solved_panel(const Arguments& a, const Domain& domain, const Shown& shown, DistanceOptions options,
                    const Talk& talk) {
   Panel panel;
   panel.mesh = domain.mesh();
-  for (const Source& source : shown.sources) panel.dots.push_back(position(panel.mesh, source.point));
+  for (const Source& source : shown.sources) add_source(source, panel);
   options.progress = talk.progress("distance");
   const DistanceField field = distance(domain, shown.sources, options);
   talk.end_progress();
   panel.scalar = field.distance;
-  panel.paths = shown.paths;
+  panel.paths.insert(panel.paths.end(), shown.paths.begin(), shown.paths.end());
   if (a.labels) panel.labels = field.source;
   return panel;
 }

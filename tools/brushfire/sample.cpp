@@ -44,7 +44,7 @@ struct Found {
 std::vector<Index> first_vertices(const Arguments& a, const Surface& surface, PlaceFinder& finder) {
   std::vector<Index> first;
   if (!given(a.shared, {Shared::Source, Shared::Sources})) return first;
-  for (const Source& s : sources_on(surface, finder, parse_sources(a.shared))) {
+  for (const Source& s : sources_on(surface, finder, parse_point_sources(a.shared, "samples are vertices"))) {
     const PointLocation at = locate(surface.mesh(), s.point);
     if (at.on != PointLocation::On::Vertex) refuse("samples are vertices: --source takes vertices here");
     first.push_back(at.vertex);

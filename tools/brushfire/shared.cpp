@@ -41,7 +41,7 @@ const std::vector<Row>& table() {
   static const std::vector<Row> rows{
       {Shared::Source, "--source", "-s",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
-         verb.option(names, a.sources, "PLACE", "Distances start from here; may be repeated");
+         verb.option(names, a.sources, "PLACE", "Distances start from here, a place or a curve; may be repeated");
        },
        [](const SharedArguments& a) { return !a.sources.empty(); }},
       {Shared::Sources, "--sources", "",

@@ -9,6 +9,7 @@ void add_verbs(CommandLine& command_line) {
   add_path(command_line);
   add_isolines(command_line);
   add_log_map(command_line);
+  add_flatten(command_line);
   add_gradient(command_line);
   add_matrix(command_line);
   add_voronoi(command_line);

@@ -65,7 +65,8 @@ std::filesystem::path temporary_page(const std::string& mesh_file) {
 
 int view_verb(const Arguments& a, const Talk& talk) {
   const bool starts_somewhere = given(a.shared, {Shared::Source, Shared::Sources}) != nullptr;
-  const std::vector<Where> places = starts_somewhere ? parse_sources(a.shared) : std::vector<Where>{};
+  const std::vector<Where> places =
+      starts_somewhere ? parse_point_sources(a.shared, "the page starts from places") : std::vector<Where>{};
   check_sources(places);
   const DistanceOptions options = computation(a.shared);
   std::string page = empty_page();

@@ -37,23 +37,7 @@ std::vector<std::uint8_t> open_by_region(const std::string& text, Index count) {
   }
   const std::string file = text.substr(0, colon);
   const LoadedField field = read_field(file);
-  std::vector<double> keys;
-  std::string_view labels = std::string_view(text).substr(colon + 1);
-  for (std::size_t begin = 0; begin <= labels.size();) {
-    const std::size_t end = std::min(labels.find(',', begin), labels.size());
-    const std::string_view label = labels.substr(begin, end - begin);
-    const auto named = std::find_if(field.label_names.begin(), field.label_names.end(),
-                                    [&](const LoadedField::Label& l) { return l.name == label; });
-    if (named != field.label_names.end()) {
-      keys.push_back(static_cast<double>(named->key));
-    } else if (const auto number = decimals(std::string(label)); number && number->size() == 1) {
-      keys.push_back(number->front());
-    } else {
-      refuse("--region: " + in_quotes(std::string(label)) + " is no label of " + file +
-             (field.label_names.empty() ? " (it has no names: give numbers)" : ""));
-    }
-    begin = end + 1;
-  }
+  const std::vector<double> keys = keys_named(field, std::string_view(text).substr(colon + 1), file, "--region");
   std::vector<std::uint8_t> open;
   for (const double value : values_of(field, file, count, "the mesh")) {
     open.push_back(std::find(keys.begin(), keys.end(), value) != keys.end());

@@ -1,6 +1,8 @@
 // Reading of places.
 #include "where.h"
 
+#include "curves.h"
+
 #include <brushfire/core/error.h>
 #include <brushfire/io/byte_stream.h>
 
@@ -14,9 +16,11 @@ namespace brushfire::tool {
 namespace {
 
 [[noreturn]] void refuse(std::string_view text, const char* why) {
-  throw Error(ErrorCode::InvalidArgument,
-              in_quotes(text) + " is no place on a mesh: " + why +
-                  "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2)");
+  throw Error(
+      ErrorCode::InvalidArgument,
+      in_quotes(text) + " is no place on a mesh: " + why +
+          "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2); a source may "
+          "also be a curve (boundary, path:0,250, chain:3,4,5, region:FILE:LABEL, curve.obj)");
 }
 
 // The whole text as a count; one too large for 64 bits reads as the largest: it is out of range either way.
@@ -34,9 +38,15 @@ std::optional<std::array<double, 3>> three_numbers(std::string_view text) {
   return std::array{(*values)[0], (*values)[1], (*values)[2]};
 }
 
+// Up to the last @ that a number follows: file names may have others.
+std::string_view without_offset(std::string_view text) {
+  const std::size_t at = text.rfind('@');
+  return at != std::string_view::npos && decimal(text.substr(at + 1)) ? trimmed(text.substr(0, at)) : text;
+}
+
 // Numbers of vertices and commas, with @ and what follows it.
 bool is_list(std::string_view text) {
-  if (text.starts_with("f:") || text.starts_with("at:")) return false;
+  if (text.starts_with("f:") || text.starts_with("at:") || parse_curve(without_offset(text))) return false;
   return text.find('@') != std::string_view::npos || text.find_first_not_of("0123456789, \t") == std::string_view::npos;
 }
 
@@ -46,6 +56,13 @@ Where parse_where(std::string_view text) {
   Where where;
   where.text = trimmed(text);
   std::string_view place = where.text;
+  if (std::optional<CurvePlace> curve = parse_curve(without_offset(place))) {
+    const std::string_view name = without_offset(place);
+    where.has_offset = name.size() < place.size();
+    if (where.has_offset) where.offset = *decimal(place.substr(place.rfind('@') + 1));
+    where.place = std::move(*curve);
+    return where;
+  }
   if (const std::size_t at = place.find('@'); at != std::string_view::npos) {
     const std::optional<double> offset = decimal(place.substr(at + 1));
     if (!offset) refuse(where.text, "what follows @ is not a number");
@@ -185,6 +202,9 @@ SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap) {
     locate(mesh, point);
     return point;
   }
+  if (where.is_curve()) {
+    throw Error(ErrorCode::InvalidArgument, in_quotes(where.text) + " is a curve, and one place is needed here");
+  }
   return snap(std::get<Vec3>(where.place));
 }
 
@@ -192,13 +212,17 @@ SurfacePoint PlaceFinder::target(const Where& where) {
   return resolve(where, mesh_, [&](Vec3 position) {
     if (!finder_) finder_.emplace(mesh_);
     const NearestPoint nearest = (*finder_)(position);
-    if (within_ && nearest.distance > *within_) {
-      throw Error(ErrorCode::InvalidArgument, in_quotes(where.text) + " is " + readable(nearest.distance) +
-                                                  " from the surface, farther than --snap-within " + exact(*within_));
-    }
-    if (known_.insert(where.text).second) snapped_.push_back({where.text, nearest.distance});
+    moved(where, nearest.distance);
     return nearest.point;
   });
+}
+
+void PlaceFinder::moved(const Where& where, double distance) {
+  if (within_ && distance > *within_) {
+    throw Error(ErrorCode::InvalidArgument, in_quotes(where.text) + " is " + readable(distance) +
+                                                " from the surface, farther than --snap-within " + exact(*within_));
+  }
+  if (known_.insert(where.text).second) snapped_.push_back({where.text, distance});
 }
 
 SurfacePoint PlaceFinder::source(const Where& where) {
@@ -223,7 +247,9 @@ void PlaceFinder::tell(const Talk& talk) const {
   if (farthest == nullptr) return;
   const std::string off =
       readable(farthest->distance) + " from the surface (the mesh is " + readable(size) + " across)";
-  talk.say(moved == 1 ? "'" + farthest->where + "' is " + off + ": its nearest point was taken"
+  const bool is_curve = parse_curve(without_offset(farthest->where)).has_value();
+  talk.say(moved == 1 ? "'" + farthest->where + "' is " + (is_curve ? "up to " : "") + off + ": its nearest " +
+                            (is_curve ? "points were taken" : "point was taken")
                       : std::to_string(moved) + " positions are off the surface, the farthest, '" + farthest->where +
                             "', " + off + ": their nearest points were taken");
 }

@@ -5,6 +5,8 @@
 //   f:120:.2,.3,.5     in face 120, with these weights of its three corners (they sum to one)
 //   at:1.5,0,-2        the point of the surface nearest to this position
 //   17@0.5             any of them, with the value 0.5 to start from (sources only)
+//
+// and, for sources, the names of whole curves: see curves.h.
 #pragma once
 
 #include "command_line.h"
@@ -37,11 +39,20 @@ struct FacePlace {
   std::array<double, 3> weights{};
 };
 
+// A whole curve: what kind of, and the rest of its name.
+struct CurvePlace {
+  enum class Kind : std::uint8_t { Boundary, Path, Chain, Region, File };
+  Kind kind = Kind::Boundary;
+  std::string detail;
+};
+
 struct Where {
-  std::variant<VertexPlace, FacePlace, Vec3> place;
+  std::variant<VertexPlace, FacePlace, Vec3, CurvePlace> place;
   double offset = 0;
   bool has_offset = false;
   std::string text;  // as it was written
+
+  bool is_curve() const { return std::holds_alternative<CurvePlace>(place); }
 };
 
 // One place. Throws Error(InvalidArgument) that quotes the text and says what was expected.
@@ -59,8 +70,8 @@ std::vector<Where> read_where_file(const std::string& path);
 using Snap = std::function<SurfacePoint(Vec3)>;
 
 // Where it is on this mesh. `snap` finds the nearest surface point of a position. Throws Error(IndexOutOfRange) for a
-// vertex or face that the mesh has not, and whatever locate() throws. A vertex in no face is nowhere (see
-// SurfacePoint): a target that nothing reaches, which no distance starts from.
+// vertex or face that the mesh has not, Error(InvalidArgument) for a curve, and whatever locate() throws. A vertex in
+// no face is nowhere (see SurfacePoint): a target that nothing reaches, which no distance starts from.
 SurfacePoint resolve(const Where& where, const Mesh& mesh, const Snap& snap);
 
 // Finds places on a mesh, and remembers how far positions were from it: what lies kilometres off is not moved to the
@@ -73,6 +84,9 @@ class PlaceFinder {
   // Throw as resolve() does, and Error(InvalidArgument) for a position that is farther than `within` from the surface.
   SurfacePoint target(const Where& where);
   SurfacePoint source(const Where& where);  // also for a vertex in no face
+
+  // A curve that was put onto the surface, from so far away at most. Throws as target() does.
+  void moved(const Where& curve, double gap);
 
   // How many positions were moved by more than the rounding of coordinates, and the farthest: one line, or nothing.
   void tell(const Talk& talk) const;

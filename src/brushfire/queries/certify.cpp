@@ -76,7 +76,7 @@ Known known_at(const DistanceField& run, Index v, std::span<const Source> source
   const double d = run.distance[v];
   if (d == kInfinity) return {kInfinity, kInfinity, 0};
   const double bound = run.error_bound[v];
-  const double offset = run.source[v] < sources.size() ? sources[run.source[v]].offset : least_offset;
+  const double offset = run.source[v] < sources.size() ? brushfire::least_offset(sources[run.source[v]]) : least_offset;
   if (bound == 0) return {d, d, offset};
   return {std::max(std::nextafter(d - bound, -kInfinity), least_offset), std::nextafter(d + bound, kInfinity), offset};
 }
@@ -129,7 +129,7 @@ Certificate certify(const Domain& domain, std::span<const double> field, std::sp
   check(domain.mesh(), field, options);
   const DistanceField truth = run(domain, sources, options);
   double least_offset = kInfinity;
-  for (const Source& s : sources) least_offset = std::min(least_offset, s.offset);
+  for (const Source& s : sources) least_offset = std::min(least_offset, brushfire::least_offset(s));
   Certificate c;
   c.lower.reserve(field.size());
   c.upper.reserve(field.size());

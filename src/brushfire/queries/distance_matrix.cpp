@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <type_traits>
@@ -126,24 +127,51 @@ std::vector<std::size_t> Rows::numbers_by_place() const {
   return numbers;
 }
 
-void Rows::fill(const SparseField& field, std::span<double> values) const {
-  std::fill(values.begin(), values.end(), kInfinity);
-  if (all_columns_) {
-    for (std::size_t k = 0; k < field.vertex.size(); ++k) values[field.vertex[k]] = field.distance[k];
-  } else {
-    for (std::size_t t = 0; t < target_column_.size(); ++t) values[target_column_[t]] = field.target_distance[t];
-  }
+template <>
+std::vector<double>& Rows::Worker::values() {
+  return doubles;
+}
+template <>
+std::vector<float>& Rows::Worker::values() {
+  return floats;
 }
 
-void Rows::run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense& take) {
-  if (can_group()) return run_grouped(numbers, progress, take);
-  run_sparse(numbers, 1, progress, [&](unsigned worker, std::size_t k, const SparseField& field) {
-    std::vector<double>& values = workers_[worker].values;
-    values.resize(column_count_);
-    fill(field, values);
-    take(worker, numbers[k], values);
-  });
+template <class T>
+void Rows::compute_dense_row(unsigned worker, std::size_t i, const TakeDense<T>& take) {
+  Worker& w = workers_[worker];
+  compute_row(w, i);
+  std::vector<T>& values = w.values<T>();
+  values.assign(column_count_, std::numeric_limits<T>::infinity());
+  if (all_columns_) {
+    for (std::size_t k = 0; k < w.field.vertex.size(); ++k) {
+      values[w.field.vertex[k]] = static_cast<T>(w.field.distance[k]);
+    }
+  } else {
+    for (std::size_t t = 0; t < target_column_.size(); ++t) {
+      values[target_column_[t]] = static_cast<T>(w.field.target_distance[t]);
+    }
+  }
+  take(worker, i, values);
 }
+
+template <class T>
+void Rows::run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take) {
+  if (can_group()) return run_grouped<T>(numbers, progress, take);
+  const CancelScope listen(options_.cancel);
+  std::atomic<std::size_t> done{0};
+  const auto body = [&](unsigned worker, std::size_t k) {
+    stop_if_cancelled();
+    compute_dense_row<T>(worker, numbers[k], take);
+    const std::size_t finished = done.fetch_add(1, std::memory_order_relaxed) + 1;
+    if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(numbers.size()));
+  };
+  team_.run(numbers.size(), body, current_cancel_token());
+}
+
+template void Rows::run_dense<float>(std::span<const std::size_t>, const Progress&, const TakeDense<float>&);
+template void Rows::run_dense<double>(std::span<const std::size_t>, const Progress&, const TakeDense<double>&);
+template void Rows::compute_dense_row<float>(unsigned, std::size_t, const TakeDense<float>&);
+template void Rows::compute_dense_row<double>(unsigned, std::size_t, const TakeDense<double>&);
 
 }  // namespace detail
 
@@ -160,10 +188,9 @@ std::string size_text(std::size_t rows, std::size_t columns, ValueType type) {
 template <class T>
 void compute(detail::Rows& rows, std::span<T> result, const Progress& progress) {
   const std::size_t columns = rows.columns();
-  rows.run_dense(
-      detail::numbers_below(rows.count()), progress, [&](unsigned, std::size_t i, std::span<const double> values) {
-        std::transform(values.begin(), values.end(), result.begin() + static_cast<std::ptrdiff_t>(i * columns),
-                       [](double d) { return static_cast<T>(d); });
+  rows.run_dense<T>(
+      detail::numbers_below(rows.count()), progress, [&](unsigned, std::size_t i, std::span<const T> values) {
+        std::copy(values.begin(), values.end(), result.begin() + static_cast<std::ptrdiff_t>(i * columns));
       });
 }
 

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace brushfire::detail {
@@ -20,6 +23,23 @@ Index vertex_at(const Mesh& mesh, const SurfacePoint& point) {
 // By whom a row is wanted: its vertex, its position in the list of numbers.
 using Wish = std::pair<Index, std::size_t>;
 
+// As distance() has it: in the mesh's units, nothing beyond the radius.
+template <class T>
+T in_units(float value, double unit, double max_distance) {
+  const double d = static_cast<double>(value) * unit;
+  return d > max_distance ? std::numeric_limits<T>::infinity() : static_cast<T>(d);
+}
+template <class T>
+void in_units(std::span<const float> from, double unit, double max_distance, std::vector<T>& to) {
+  const auto scale = static_cast<float>(unit);  // a power of two
+  if (std::is_same_v<T, float> && std::isnormal(scale) && max_distance == kInfinity) {
+    std::transform(from.begin(), from.end(), to.begin(), [=](float value) { return static_cast<T>(value * scale); });
+  } else {
+    std::transform(from.begin(), from.end(), to.begin(),
+                   [=](float value) { return in_units<T>(value, unit, max_distance); });
+  }
+}
+
 }  // namespace
 
 Rows::Worker::Worker() = default;
@@ -34,7 +54,8 @@ bool Rows::can_group() const {
                      [&](const SurfacePoint& p) { return vertex_at(mesh_, p) != kNoIndex; });
 }
 
-void Rows::run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense& take) {
+template <class T>
+void Rows::run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take) {
   const CancelScope listen(options_.cancel);
   std::vector<Wish> wishes;
   std::vector<std::size_t> alone;
@@ -71,29 +92,26 @@ void Rows::run_grouped(std::span<const std::size_t> numbers, const Progress& pro
     const std::size_t finished = done.fetch_add(rows_done, std::memory_order_relaxed) + rows_done;
     if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(numbers.size()));
   };
-  const auto run_alone = [&](unsigned worker, std::size_t i) {
-    Worker& w = workers_[worker];
-    compute_row(w, i);
-    w.values.resize(column_count_);
-    fill(w.field, w.values);
-    take(worker, i, w.values);
-  };
   const auto run_group = [&](unsigned worker, const carried_source::GroupedRows::Group& group) {
     Worker& w = workers_[worker];
     if (!w.groups) w.groups = std::make_unique<carried_source::GroupRunner>(rows);
-    const auto take_lane = [&](int lane, std::span<const double> distances) {
-      const auto wishes_here = wanted(group.vertices[static_cast<std::size_t>(lane)]);
-      std::span<const double> values = distances;
-      if (!all_columns_ && !wishes_here.empty()) {
-        w.values.assign(column_count_, kInfinity);
-        for (std::size_t t = 0; t < columns.size(); ++t) w.values[target_column_[t]] = distances[columns[t]];
-        values = w.values;
+    const auto of_lane = [&](int lane) { return wanted(group.vertices[static_cast<std::size_t>(lane)]); };
+    const auto take_lane = [&](int lane, std::span<const float> distances) {
+      if (of_lane(lane).empty()) return;
+      std::vector<T>& values = w.values<T>();
+      if (all_columns_) {
+        values.resize(column_count_);
+        in_units(distances, w.groups->unit(), options_.max_distance, values);
+      } else {
+        values.assign(column_count_, std::numeric_limits<T>::infinity());
+        for (std::size_t t = 0; t < columns.size(); ++t) {
+          values[target_column_[t]] = in_units<T>(distances[columns[t]], w.groups->unit(), options_.max_distance);
+        }
       }
-      for (const auto& [v, i] : wishes_here) take(worker, i, values);
+      for (const auto& [v, i] : of_lane(lane)) take(worker, i, values);
     };
-    const std::vector<int> refused = w.groups->run(group, options_.max_distance, take_lane);
-    for (const int lane : refused) {
-      for (const auto& [v, i] : wanted(group.vertices[static_cast<std::size_t>(lane)])) run_alone(worker, i);
+    for (const int lane : w.groups->run(group, options_.max_distance, take_lane)) {
+      for (const auto& [v, i] : of_lane(lane)) compute_dense_row<T>(worker, i, take);
     }
     std::size_t count = 0;
     for (const Index v : group.vertices) count += wanted(v).size();
@@ -102,11 +120,14 @@ void Rows::run_grouped(std::span<const std::size_t> numbers, const Progress& pro
   const auto body = [&](unsigned worker, std::size_t index) {
     stop_if_cancelled();
     if (index < rows.groups().size()) return run_group(worker, rows.groups()[index]);
-    run_alone(worker, alone[index - rows.groups().size()]);
+    compute_dense_row<T>(worker, alone[index - rows.groups().size()], take);
     tell(worker, 1);
   };
   team_.run(rows.groups().size() + alone.size(), body, current_cancel_token());
   for (Worker& w : workers_) w.groups.reset();
 }
+
+template void Rows::run_grouped<float>(std::span<const std::size_t>, const Progress&, const TakeDense<float>&);
+template void Rows::run_grouped<double>(std::span<const std::size_t>, const Progress&, const TakeDense<double>&);
 
 }  // namespace brushfire::detail

@@ -42,6 +42,24 @@ bool is_same_place(const Stop& a, const Stop& b) {
   return a.on == Stop::On::Edge && a.edge == b.edge && a.at == b.at;
 }
 
+// Legs along one edge are one leg.
+void join_roads(Strip& strip) {
+  Strip joined;
+  joined.stops.push_back(strip.stops.front());
+  for (std::size_t k = 0; k < strip.legs.size(); ++k) {
+    const Stop& last = joined.stops.back();
+    const bool goes_on = !joined.legs.empty() && joined.legs.back().face == kNoIndex &&
+                         joined.legs.back().edge == strip.legs[k].edge && last.slides() && last.toll == 0;
+    if (goes_on) {
+      joined.stops.back() = strip.stops[k + 1];
+    } else {
+      joined.legs.push_back(strip.legs[k]);
+      joined.stops.push_back(strip.stops[k + 1]);
+    }
+  }
+  strip = std::move(joined);
+}
+
 // Stops at vertices are those vertices, and no two after one another are the same.
 void tidy(const WeightedMesh& mesh, Strip& strip) {
   for (Stop& stop : strip.stops) snap(mesh, stop);
@@ -59,6 +77,7 @@ void tidy(const WeightedMesh& mesh, Strip& strip) {
     tidied.stops.push_back(strip.stops[k]);
   }
   strip = std::move(tidied);
+  join_roads(strip);
 }
 
 // A stop on an edge that is cheaper than both faces beside it may become two, with a leg along the edge between them.
@@ -213,6 +232,7 @@ std::optional<std::size_t> hop(const WeightedMesh& mesh, Strip& strip, Index v, 
 
 double make_locally_shortest(const WeightedMesh& mesh, Strip& strip) {
   if (strip.legs.empty()) return cost_of(mesh, strip);
+  join_roads(strip);
   add_roads(mesh, strip);
   straighten(mesh, strip);
   tidy(mesh, strip);

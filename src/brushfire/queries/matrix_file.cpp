@@ -8,6 +8,7 @@
 #include <brushfire/queries/detail/rows.h>
 #include <brushfire/queries/distance_matrix.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <fstream>
@@ -89,11 +90,18 @@ std::string npy_header(std::size_t rows, std::size_t columns, ValueType type) {
   return header + text;
 }
 
-template <class Float, class Bits>
-void append_little_endian(std::span<const double> values, std::vector<char>& bytes) {
-  for (const double d : values) {
-    Bits bits = std::bit_cast<Bits>(static_cast<Float>(d));
-    for (std::size_t k = 0; k < sizeof bits; ++k, bits >>= 8) bytes.push_back(static_cast<char>(bits & 0xff));
+// The bytes of a row.
+template <class T>
+void as_little_endian(std::span<const T> values, std::vector<char>& bytes) {
+  bytes.resize(values.size_bytes());
+  if constexpr (std::endian::native == std::endian::little) {
+    if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  } else {
+    auto to = bytes.begin();
+    for (const T& value : values) {
+      const char* const from = reinterpret_cast<const char*>(&value);
+      to = std::reverse_copy(from, from + sizeof value, to);
+    }
   }
 }
 
@@ -194,6 +202,15 @@ class MatrixFile {
   std::ofstream rows_;
 };
 
+template <class T>
+void write_rows(detail::Rows& all, const Progress& progress, MatrixFile& file) {
+  all.run_dense<T>(file.missing(), progress, [&](unsigned, std::size_t i, std::span<const T> values) {
+    std::vector<char> bytes;
+    as_little_endian(values, bytes);
+    file.write(i, bytes);
+  });
+}
+
 }  // namespace
 
 void write_distance_matrix(const std::filesystem::path& path, const Domain& domain, Places rows, Places columns,
@@ -203,17 +220,11 @@ void write_distance_matrix(const std::filesystem::path& path, const Domain& doma
   MatrixFile file(path, npy_header(all.count(), all.columns(), type), all.count(),
                   all.columns() * (is_float ? sizeof(float) : sizeof(double)),
                   fingerprint_of(domain, rows, columns, type, options.distance));
-  all.run_dense(file.missing(), options.distance.progress,
-                [&](unsigned, std::size_t i, std::span<const double> values) {
-                  std::vector<char> bytes;
-                  bytes.reserve(values.size() * sizeof(double));
-                  if (is_float) {
-                    append_little_endian<float, std::uint32_t>(values, bytes);
-                  } else {
-                    append_little_endian<double, std::uint64_t>(values, bytes);
-                  }
-                  file.write(i, bytes);
-                });
+  if (is_float) {
+    write_rows<float>(all, options.distance.progress, file);
+  } else {
+    write_rows<double>(all, options.distance.progress, file);
+  }
   file.finish();
 }
 

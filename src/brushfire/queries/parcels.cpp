@@ -162,15 +162,15 @@ void over_pairs(const Domain& domain, const Parcels& parcels, bool mean, const M
   detail::Rows rows(domain, std::span<const Place>(places), std::nullopt, options);
   // One line of n numbers per vertex, so that what is added up does not depend on who came first.
   std::vector<double> line(places.size() * n);
-  rows.run_dense(detail::numbers_below(rows.count()), options.distance.progress,
-                 [&](unsigned, std::size_t i, std::span<const double> values) {
-                   double* of_row = line.data() + i * n;
-                   for (Index v = 0; v < values.size(); ++v) {
-                     const Index p = parcels.of_vertex[v];
-                     if (p == kNoIndex) continue;
-                     of_row[p] = mean ? of_row[p] + values[v] : std::max(of_row[p], values[v]);
-                   }
-                 });
+  rows.run_dense<double>(detail::numbers_below(rows.count()), options.distance.progress,
+                         [&](unsigned, std::size_t i, std::span<const double> values) {
+                           double* of_row = line.data() + i * n;
+                           for (Index v = 0; v < values.size(); ++v) {
+                             const Index p = parcels.of_vertex[v];
+                             if (p == kNoIndex) continue;
+                             of_row[p] = mean ? of_row[p] + values[v] : std::max(of_row[p], values[v]);
+                           }
+                         });
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (std::size_t b = 0; b < n; ++b) {
       double& to = result.distance[parcel[i] * n + b];

@@ -187,7 +187,10 @@ std::vector<SourcePath> edge_paths_to(const Domain& domain, std::span<const Sour
     if (p.is_nowhere() || locate(domain.mesh(), p).on == On::Vertex) return;
     throw Error(ErrorCode::InvalidArgument, "paths along edges run between vertices");
   };
-  for (const Source& s : sources) check_vertex(s.point);
+  for (const Source& s : sources) {
+    if (s.curve) throw Error(ErrorCode::InvalidArgument, "paths along edges begin at vertices, not on curves");
+    check_vertex(s.point);
+  }
   for (const SurfacePoint& t : targets) check_vertex(t);
   DistanceOptions options = how;
   options.method = Method::Dijkstra;

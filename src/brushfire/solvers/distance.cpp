@@ -6,6 +6,7 @@
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/carried_source/detail/engine.h>
+#include <brushfire/solvers/detail/curve_feet.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/offsets.h>
@@ -66,41 +67,13 @@ void assign(std::vector<T>& array, std::size_t size, T value) {
 
 using detail::Offsets;
 
-// As engines see it: in mesh.unit(), offsets from the least one on.
-std::shared_ptr<const LocatedCurve> for_engines(const Mesh& mesh, LocatedCurve curve) {
-  const double unit = mesh.unit(), least = curve.least_offset;
-  for (CurvePlace& p : curve.places) p.offset = (p.offset - least) / unit;
-  for (CurveSegment& s : curve.segments) {
-    s.from_offset = (s.from_offset - least) / unit;
-    s.to_offset = (s.to_offset - least) / unit;
-    s.length /= unit;
-  }
-  curve.least_offset = 0;
-  return std::make_shared<const LocatedCurve>(std::move(curve));
-}
-
-// With the offset in the mesh's units.
-detail::LocatedSource located(const Mesh& mesh, const Source& source, Index label) {
-  if (!source.curve) return {locate(mesh, source.point), source.offset, label};
-  LocatedCurve curve;
-  try {
-    curve = locate(mesh, *source.curve);
-  } catch (const Error& e) {
-    throw Error(e.code(), "source " + std::to_string(label) + ": " + e.what());
-  }
-  const double offset = source.offset + curve.least_offset;
-  return {curve.places.front().at, offset, label, for_engines(mesh, std::move(curve))};
-}
-
-// Curves are for methods that have true segments as sources.
-void check_curves(Method method, std::span<const Source> sources) {
-  if (engine_of(method) == Method::Windows) return;
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    if (!sources[i].curve) continue;
-    throw Error(ErrorCode::InvalidArgument, "source " + std::to_string(i) + " is a curve, and " +
-                                                std::string(name_of(method)) +
-                                                " starts at points: use the method windows or exact");
-  }
+// The others start at points of the curve, and have one value for each front to start with.
+void check_slopes(Method method, std::span<const detail::LocatedSource> sources) {
+  if (engine_of(method) == Method::Windows || method == Method::Dijkstra || !detail::any_slope(sources)) return;
+  throw Error(ErrorCode::InvalidArgument,
+              "offsets that change along a curve are for the methods windows, exact and "
+              "dijkstra, not for " +
+                  std::string(name_of(method)));
 }
 
 void locate_sources(const Mesh& mesh, std::span<const Source> sources, std::vector<detail::LocatedSource>& all,
@@ -113,7 +86,7 @@ void locate_sources(const Mesh& mesh, std::span<const Source> sources, std::vect
       throw Error(ErrorCode::InvalidArgument,
                   "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
     }
-    all.push_back(located(mesh, sources[i], static_cast<Index>(i)));
+    all.push_back(detail::located(mesh, sources[i], static_cast<Index>(i)));
     if (!std::isfinite(all.back().offset)) {
       throw Error(ErrorCode::InvalidArgument, "the offsets of source " + std::to_string(i) + " add up to no number");
     }
@@ -263,6 +236,14 @@ Source source_along(CurveSource curve, double offset) {
   return {{}, offset, std::make_shared<const CurveSource>(std::move(curve))};
 }
 
+double least_offset(const Source& source) {
+  double least = kInfinity;
+  for (std::size_t i = 0; source.curve && i < source.curve->offsets.size(); ++i) {
+    if (!source.curve->places[i].is_nowhere()) least = std::min(least, source.curve->offsets[i]);
+  }
+  return source.offset + (least < kInfinity ? least : 0);
+}
+
 struct DistanceSolver::Workspace {
   explicit Workspace(Domain given) : domain(std::move(given)), mesh(domain.open()) {}
 
@@ -272,12 +253,13 @@ struct DistanceSolver::Workspace {
   DistanceField scratch;                       // of distance_sparse(): +inf and kNoIndex everywhere between calls
   std::vector<Index> touched;                  // what a run has changed in it
   std::vector<detail::LocatedSource> sources;  // of the run
-  detail::Offsets offsets;                     // of these
-  std::vector<PointLocation> targets;          // those that are somewhere
+  std::vector<detail::LocatedSource> points;  // in place of these, where there are curves that the method does not take
+  detail::Offsets offsets;                    // of these
+  std::vector<PointLocation> targets;         // those that are somewhere
 
   detail::Engine& engine(Method method);
   detail::Problem problem(const DistanceOptions& options, std::vector<Index>* list) const {
-    return {sources,
+    return {points.empty() ? sources : points,
             targets,
             offsets.radius(options.max_distance, mesh.unit()),
             &options,
@@ -286,6 +268,9 @@ struct DistanceSolver::Workspace {
             current_cancel_token()};
   }
   void clean(bool everything);
+
+  void locate_all(std::span<const Source> from, const DistanceOptions& options);
+  void read_curves(DistanceField& field) const;
 
   // On the open mesh.
   void run(std::span<const Source> from, const DistanceOptions& options, DistanceField& field);
@@ -296,6 +281,31 @@ detail::Engine& DistanceSolver::Workspace::engine(Method method) {
   std::unique_ptr<detail::Engine>& engine = engines[engine_of(method)];
   if (!engine) engine = make_engine(mesh, engine_of(method));
   return *engine;
+}
+
+void DistanceSolver::Workspace::locate_all(std::span<const Source> from, const DistanceOptions& options) {
+  locate_sources(mesh, from, sources, offsets);
+  locate_targets(mesh, options, targets);
+  points.clear();
+  if (!detail::any_curve(sources) || engine_of(options.method) == Method::Windows) return;
+  if (options.method == Method::Heat) {
+    throw Error(ErrorCode::InvalidArgument, "heat starts at points: curves are for windows, exact and the marching "
+                                            "methods");
+  }
+  check_slopes(options.method, sources);
+  points = sources;
+  detail::replace_curves_by_feet(mesh, points);
+}
+
+// Targets beside curves that were run as points, straight.
+void DistanceSolver::Workspace::read_curves(DistanceField& field) const {
+  if (points.empty()) return;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const detail::CurveValue value = detail::straight_from_curves(mesh, sources, targets[i]);
+    if (std::pair(value.distance, value.label) >= std::pair(field.target_distance[i], field.target_source[i])) continue;
+    field.target_distance[i] = value.distance;
+    field.target_source[i] = value.label;
+  }
 }
 
 void DistanceSolver::Workspace::clean(bool everything) {
@@ -340,10 +350,8 @@ void DistanceSolver::Workspace::run(std::span<const Source> from, const Distance
                                     DistanceField& field) {
   const CancelScope listen(options.cancel);
   check(options);
-  check_curves(options.method, from);
   detail::Engine& chosen = engine(options.method);  // first: what it derives of the mesh is not found twice
-  locate_sources(mesh, from, sources, offsets);
-  locate_targets(mesh, options, targets);
+  locate_all(from, options);
   field.windows.reset();
   field.error_bound.clear();
   field.max_error_bound = kInfinity;
@@ -354,6 +362,7 @@ void DistanceSolver::Workspace::run(std::span<const Source> from, const Distance
   field.target_distance.assign(targets.size(), kInfinity);
   field.target_source.assign(targets.size(), kNoIndex);
   chosen.solve(problem(options, nullptr), field);
+  read_curves(field);
   finish(mesh, targets, offsets, options, field);
 }
 
@@ -369,9 +378,7 @@ void DistanceSolver::Workspace::run_sparse(std::span<const Source> from, const D
                                            SparseField& field) {
   const CancelScope listen(options.cancel);
   check(options);
-  check_curves(options.method, from);
-  locate_sources(mesh, from, sources, offsets);
-  locate_targets(mesh, options, targets);
+  locate_all(from, options);
   detail::Engine& chosen = engine(options.method);
   const bool listed = chosen.lists_touched();
 
@@ -386,6 +393,7 @@ void DistanceSolver::Workspace::run_sparse(std::span<const Source> from, const D
     clean(!listed);
     throw;
   }
+  read_curves(scratch);
   if (!listed) touched.resize(mesh.vertex_count());  // any of them
   collect(mesh.unit(), targets, offsets, options, scratch, touched, field);
   clean(!listed);

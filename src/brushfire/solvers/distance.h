@@ -60,6 +60,8 @@ struct Source {
   std::shared_ptr<const CurveSource> curve = nullptr;
 };
 Source source_along(CurveSource curve, double offset = 0);
+// The least value that the front starts with anywhere on the source.
+double least_offset(const Source& source);
 
 inline constexpr double kMaxTolerance = 0.1;
 

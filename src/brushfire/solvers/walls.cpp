@@ -64,7 +64,8 @@ WalledRun::WalledRun(const Domain& domain, std::span<const Source> sources, cons
     : domain_(domain), options_(options) {
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (sources[i].curve) {
-      sources_.push_back({{}, sources[i].offset, open_part_of(domain, *sources[i].curve, i)});
+      sources_.push_back(
+          {{}, sources[i].offset, domain.has_walls() ? open_part_of(domain, *sources[i].curve, i) : sources[i].curve});
       origin_.push_back(static_cast<Index>(i));
       continue;
     }

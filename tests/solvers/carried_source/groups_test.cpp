@@ -25,8 +25,12 @@ using RowsByVertex = std::map<Index, std::vector<double>>;
 
 RowsByVertex rows_of(GroupRunner& runner, const GroupedRows::Group& group, double radius = kInfinity) {
   RowsByVertex rows;
-  runner.run(group, radius, [&](int lane, std::span<const double> row) {
-    rows[group.vertices[static_cast<std::size_t>(lane)]].assign(row.begin(), row.end());
+  runner.run(group, radius, [&](int lane, std::span<const float> row) {
+    std::vector<double>& to = rows[group.vertices[static_cast<std::size_t>(lane)]];
+    for (const float value : row) {
+      const double d = static_cast<double>(value) * runner.unit();
+      to.push_back(d > radius ? kInfinity : d);
+    }
   });
   return rows;
 }
@@ -124,7 +128,7 @@ TEST(GroupMarch, ThatIsGivenUpLeavesNoHole) {
       const std::vector<int> alone =
           runner.run(rows.groups()[g], kInfinity, [&](int lane, std::span<const double> row) {
             EXPECT_EQ(missing.erase(lane), 1u);
-            for (const double d : row) ASSERT_TRUE(std::isfinite(d));
+            for (const float d : row) ASSERT_TRUE(std::isfinite(d));
           });
       EXPECT_EQ(std::set<int>(alone.begin(), alone.end()), missing);
       refused += alone.size();

@@ -75,7 +75,7 @@ def vertex_areas(V: npt.ArrayLike, F: npt.ArrayLike) -> Floats:
     """A third of the areas of the faces around, (vertices,)."""
     vertices, faces = _mesh_arrays(V, F)
     thirds = np.repeat(face_areas(vertices, faces) / 3, 3)
-    return np.bincount(faces.ravel(), thirds, minlength=len(vertices))
+    return np.bincount(faces.ravel(), thirds, minlength=len(vertices)).astype(np.float64)
 
 
 def edges(V: npt.ArrayLike, F: Any) -> npt.NDArray[np.int64]:

@@ -86,7 +86,7 @@ class GeodesicTracer:
     """Straight on from a vertex or a point of a face, as far as the direction is long: (points, 3) positions.
 
     Directions are projected onto the tangent plane, of a vertex that of the mean of its faces' normals by their angles.
-    ``max_iterations``: the path ends after so many pieces.
+    ``max_iterations``: so many pieces follow the first one at most.
 
     >>> import brushfire.compat.potpourri3d as pp3d
     >>> tracer = pp3d.GeodesicTracer([[0, 0, 0], [3, 0, 0], [3, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]])
@@ -130,7 +130,7 @@ class GeodesicTracer:
         if length == 0:
             return self._mesh.position([start])
         path, _ = self._mesh.trace(start, along, length)
-        return path.positions if most is None else path.positions[: most + 1]
+        return path.positions if most is None else path.positions[: most + 2]
 
 
 class MeshMarchingTrianglesSolver:

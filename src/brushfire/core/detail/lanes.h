@@ -32,6 +32,7 @@
 // | converted<T>(v), mask_cast<T>(mask) | to other numbers, rounded; to the mask for those |
 // | store_packed(to, set, v) | the lanes of a set of bits, one after the other; writes N places |
 // | load_bytes<V>(from), store_bytes(to, v) | whole numbers as bytes |
+// | load_words<V>(from), store_words(to, v) | whole numbers as words of 16 bits |
 #pragma once
 
 #include <brushfire/core/detail/inline.h>

@@ -233,6 +233,7 @@ BRUSHFIRE_INLINE Mask<kBytes, N> without(Mask<kBytes, N> a, Mask<kBytes, N> b) {
   return ~a & b;
 }
 BRUSHFIRE_INLINE bool without(bool a, bool b) { return !a && b; }
+BRUSHFIRE_INLINE bool any(bool mask) { return mask; }
 
 // The lanes with these numbers, counted over both from kFirst on.
 template <int kFirst, class T, int N, int... kLane>

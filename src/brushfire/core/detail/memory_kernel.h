@@ -120,6 +120,24 @@ BRUSHFIRE_INLINE void store_bytes(std::uint8_t* to, Lanes<std::uint32_t, N> a) {
   for (int k = 0; k < N; ++k) to[k] = static_cast<std::uint8_t>(item[k]);
 }
 
+// Whole numbers as words of 16 bits.
+template <class V>
+BRUSHFIRE_INLINE V load_words(const std::uint16_t* from) {
+  if constexpr (kFits<std::uint32_t, V::kCount>) {
+    return V(words_in<V::kCount>(from));
+  } else {
+    return {load_words<typename V::Half>(from), load_words<typename V::Half>(from + V::kCount / 2)};
+  }
+}
+template <int N>
+BRUSHFIRE_INLINE void store_words(std::uint16_t* to, Lanes<std::uint32_t, N> a) {
+  if constexpr (kFits<std::uint32_t, N>) {
+    words_out(to, a.v);
+  } else {
+    store_words(to, a.low), store_words(to + N / 2, a.high);
+  }
+}
+
 #ifdef BRUSHFIRE_TARGET_IS_AVX2
 
 // What intrinsics take and give.

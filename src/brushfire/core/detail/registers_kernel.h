@@ -90,6 +90,17 @@ BRUSHFIRE_INLINE Register<To, kCountOf<R>> converted_of(R a) {
   return result;
 #endif
 }
+// Whole numbers from words of 16 bits, and to them.
+template <int N>
+BRUSHFIRE_INLINE Register<std::uint32_t, N> words_in(const std::uint16_t* from) {
+  Register<std::uint32_t, N> result{};
+  for (int k = 0; k < N; ++k) result[k] = from[k];
+  return result;
+}
+template <class R>
+BRUSHFIRE_INLINE void words_out(std::uint16_t* to, R a) {
+  for (int k = 0; k < kCountOf<R>; ++k) to[k] = static_cast<std::uint16_t>(a[k]);
+}
 // The lanes with these numbers, counted over two registers.
 template <int... kLane, class R>
 BRUSHFIRE_INLINE Register<NumberOf<R>, static_cast<int>(sizeof...(kLane))> shuffled(R a, R b) {
@@ -172,6 +183,16 @@ template <>  // which GCC does in four steps
 BRUSHFIRE_INLINE WideMask4 converted_of<std::int64_t, Mask4>(Mask4 a) {
   return same_bits<WideMask4>(Register<long long, 4>(_mm256_cvtepi32_epi64(same_bits<Register<long long, 2>>(a))));
 }
+template <>
+BRUSHFIRE_INLINE Register<std::uint32_t, 8> words_in<8>(const std::uint16_t* from) {
+  const __m128i words = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+  return same_bits<Register<std::uint32_t, 8>>(Register<long long, 4>(_mm256_cvtepu16_epi32(words)));
+}
+BRUSHFIRE_INLINE void words_out(std::uint16_t* to, Register<std::uint32_t, 8> a) {
+  const auto both = same_bits<Register<long long, 4>>(a);
+  const __m128i words = _mm_packus_epi32(_mm256_castsi256_si128(both), _mm256_extracti128_si256(both, 1));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(to), words);
+}
 template <class R>  // whole numbers
 BRUSHFIRE_INLINE R selected(Mask8 m, R yes, R no) {
   return same_bits<R>(selected(m, same_bits<Float8>(yes), same_bits<Float8>(no)));
@@ -213,6 +234,14 @@ BRUSHFIRE_INLINE __mmask16 equal_of(Words16 a, Words16 b) { return mask_of(a == 
 BRUSHFIRE_INLINE __mmask16 equal_of(Mask16 a, Mask16 b) { return mask_of(a == b); }
 BRUSHFIRE_INLINE __mmask16 share_bits_of(Words16 a, Words16 b) {
   return _mm512_test_epi32_mask(integers512(a), integers512(b));
+}
+template <>
+BRUSHFIRE_INLINE Words16 words_in<16>(const std::uint16_t* from) {
+  const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+  return same_bits<Words16>(_mm512_maskz_cvtepu16_epi32(kAll16, words));
+}
+BRUSHFIRE_INLINE void words_out(std::uint16_t* to, Words16 a) {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_maskz_cvtepi32_epi16(kAll16, integers512(a)));
 }
 BRUSHFIRE_INLINE std::uint32_t bits_of(__mmask16 m) { return m; }
 template <class R>

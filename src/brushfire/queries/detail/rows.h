@@ -31,9 +31,12 @@ class Rows {
   void run_sparse(std::span<const std::size_t> numbers, std::size_t block, const Progress& progress,
                   const TakeSparse& take);
 
-  // The same as a row of columns() values, +inf where nothing was reached; i: the row's number.
-  using TakeDense = std::function<void(unsigned worker, std::size_t i, std::span<const double> values)>;
-  void run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense& take);
+  // The same as a row of columns() values, +inf where nothing was reached; i: the row's number. T is float or double;
+  // floats are rounded doubles.
+  template <class T>
+  using TakeDense = std::function<void(unsigned worker, std::size_t i, std::span<const T> values)>;
+  template <class T>
+  void run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take);
 
   // The numbers of all rows: those near each other on the surface one after the other where there are many, so that
   // short rows find in the cache what they need.
@@ -48,15 +51,21 @@ class Rows {
     std::unique_ptr<DistanceSolver> solver;               // made for its first row
     std::unique_ptr<carried_source::GroupRunner> groups;  // made for its first group
     SparseField field;
-    std::vector<double> values;
+    std::vector<double> doubles;
+    std::vector<float> floats;
+    // A row of them.
+    template <class T>
+    std::vector<T>& values();
   };
 
   std::optional<SurfacePoint> place(std::size_t i) const;
   void compute_row(Worker& worker, std::size_t i);
-  void fill(const SparseField& field, std::span<double> values) const;
+  template <class T>
+  void compute_dense_row(unsigned worker, std::size_t i, const TakeDense<T>& take);
   // Whether rows of neighbouring vertices are to be run together: for methods that can, where all columns are vertices.
   bool can_group() const;
-  void run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense& take);
+  template <class T>
+  void run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take);
 
   Domain domain_;
   Mesh mesh_;  // the whole

@@ -22,6 +22,10 @@ struct LocatedSource {
   std::shared_ptr<const LocatedCurve> curve = nullptr;
 };
 
+// A source of the caller's, with its offset (of a curve: the least) still in the mesh's units: see Offsets. Throws what
+// locate() throws for points and for curves.
+LocatedSource located(const Mesh& mesh, const Source& source, Index label);
+
 inline bool any_curve(std::span<const LocatedSource> sources) {
   return std::any_of(sources.begin(), sources.end(), [](const LocatedSource& s) { return s.curve != nullptr; });
 }

@@ -133,7 +133,8 @@ void SignedHeatSolver::State::add(const Segment& s, std::vector<Complex>& x) con
   }
 }
 
-// Away from a point without a direction: at the neighbours of the vertices around it.
+// Away from a point without a direction: at the neighbours of the vertices around it, with the weights of the Laplacian,
+// so that on a flat place they sum to 0.
 void SignedHeatSolver::State::add_outward(const PointLocation& p, double weight, std::vector<Complex>& x) const {
   for (int k = 0; k < 3; ++k) {
     if (!(p.weights[k] > 0)) continue;
@@ -144,7 +145,7 @@ void SignedHeatSolver::State::add_outward(const PointLocation& p, double weight,
         const Index other = out ? flat.tail[Mesh::next(h)] : flat.tail[h];
         const Complex back =
             out ? heat::direction_back(flat, system.spaces(), h) : heat::direction(flat, system.spaces(), h);
-        x[other] -= 0.5 * weight * p.weights[k] * back;
+        x[other] -= weight * p.weights[k] * heat::half_cotangent(flat, h) * flat.length[h] * back;
       }
     }
   }

@@ -166,10 +166,12 @@ FlatTriangle lay_flat(const Triangulation& t, std::size_t face) {
 }
 
 double half_cotangent(const Triangulation& t, Index h) {
-  const std::size_t face = h / 3;
+  return half_cotangent(t, h, lay_flat(t, h / 3).double_area());
+}
+
+double half_cotangent(const Triangulation& t, Index h, double double_area) {
   const double a = t.length[h], b = t.length[Mesh::next(h)], c = t.length[Mesh::previous(h)];
-  const double area = lay_flat(t, face).double_area();
-  return area > 0 ? (b * b + c * c - a * a) / (4 * area) : 0;
+  return double_area > 0 ? (b * b + c * c - a * a) / (4 * double_area) : 0;
 }
 
 }  // namespace brushfire::heat

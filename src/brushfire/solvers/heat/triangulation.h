@@ -57,6 +57,8 @@ FlatTriangle lay_flat(const Triangulation& t, std::size_t face);
 
 // Of the edge of halfedge h, its own triangle's share: the cotangent of the angle opposite, halved.
 double half_cotangent(const Triangulation& t, Index h);
+// The same where twice the area of the triangle is known.
+double half_cotangent(const Triangulation& t, Index h, double double_area);
 
 // The mean over all edges.
 double mean_edge_length(const Triangulation& t);

@@ -154,13 +154,14 @@ std::vector<Complex> VectorHeatSolver::State::polar(Index source) {
   const heat::Triangulation& t = system.triangulation();
   const Complex axis = 1;
   const std::vector<Complex> parallel = carried({&source, 1}, {&axis, 1});
-  // Outwards from the source, at each neighbour as strong as heat comes there.
+  // Outwards from the source. With these weights, edge vectors around a flat vertex sum to 0: what does not cancel would
+  // outlast the rest on its way.
   std::vector<Index> neighbours;
   std::vector<Complex> outward;
   for (Index h = 0; h < t.tail.size(); ++h) {
     const Index a = t.tail[h], b = t.tail[Mesh::next(h)];
     if (a == b || (a != source && b != source)) continue;
-    const double weight = std::max(heat::half_cotangent(t, h), 0.0);
+    const double weight = heat::half_cotangent(t, h) * t.length[h];
     neighbours.push_back(a == source ? b : a);
     outward.push_back(
         -weight * (a == source ? heat::direction_back(t, system.spaces(), h) : heat::direction(t, system.spaces(), h)));

@@ -66,6 +66,10 @@ double least_offset(std::span<const Source> sources) {
       throw Error(ErrorCode::InvalidArgument,
                   "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
     }
+    if (sources[i].curve) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "source " + std::to_string(i) + " is a curve: weighted distances start at points");
+    }
     least = std::min(least, sources[i].offset);
   }
   return least;
@@ -126,7 +130,7 @@ void WeightedSolver::Workspace::locate(std::span<const Source> sources, const We
     }
     for (const SurfacePoint& p : sides) {
       run.sources.push_back(
-          {brushfire::locate(mesh->mesh(), p), (sources[i].offset - run.base) / unit, static_cast<Index>(i)});
+          {brushfire::locate(mesh->mesh(), p), (sources[i].offset - run.base) / unit, static_cast<Index>(i), nullptr});
     }
   }
   for (const SurfacePoint& t : options.targets) {

@@ -14,7 +14,7 @@
 namespace brushfire::carried_source {
 namespace {
 
-constexpr std::size_t kRecordAhead = 8, kEndsAhead = 3, kRecordLines = 8, kCacheLine = 64;
+constexpr std::size_t kOffsetAhead = 16, kRecordAhead = 8, kEndsAhead = 3, kRecordLines = 8, kCacheLine = 64;
 constexpr Index kUsualSides = 6;
 
 BRUSHFIRE_INLINE BucketQueue::Bucket group_bucket(float bucket) {
@@ -36,14 +36,14 @@ GroupMarch::GroupMarch(const Records<float>& records, Variant variant, int most_
   GroupState& s = state_;
   s.most_turns = most_turns;
   s.fronts.resize(records.vertex_count);
-  s.vertices.resize(records.vertex_count);
   for (Index v = 0; v < records.vertex_count; ++v) {
-    s.vertices[v].around = records.around[v];
     GroupFront& f = s.fronts[v];
+    f.own = {};
+    f.own.around = records.around[v];
     std::fill_n(f.value, kGroupLanes, GroupState::kUnreached);
     std::fill_n(f.sigma, kGroupLanes, GroupState::kUnreached);
     std::fill_n(f.x, kGroupLanes, 0.0f), std::fill_n(f.y, kGroupLanes, 0.0f);
-    std::fill_n(f.sector, kGroupLanes, 1u);
+    std::fill_n(f.sector, kGroupLanes, SectorSet{1});
   }
   // One more than there can be: the last one is written and not counted.
   s.ahead.resize(records.most_sides + 1), s.alongs.resize(records.most_sides + 1);
@@ -59,9 +59,9 @@ void GroupMarch::reset() {
   // Also of the vertices that fell, but that a run which was given up did not come to.
   const auto forget = [&s](Index v) {
     std::fill_n(s.fronts[v].value, kGroupLanes, GroupState::kUnreached);
-    const Around<float> around = s.vertices[v].around;
-    s.vertices[v] = {};
-    s.vertices[v].around = around;
+    const Around<float> around = s.fronts[v].own.around;
+    s.fronts[v].own = {};
+    s.fronts[v].own.around = around;
   };
   for (const Index v : s.touched) forget(v);
   for (const Index v : s.fallen) forget(v);
@@ -76,7 +76,7 @@ void GroupMarch::begin_at(int lane, Index vertex) {
   GroupFront& f = s.fronts[vertex];
   f.value[lane] = f.sigma[lane] = f.x[lane] = f.y[lane] = 0;
   f.sector[lane] = 1;
-  GroupVertex& own = s.vertices[vertex];
+  GroupVertex& own = s.fronts[vertex].own;
   own.fresh |= 1u << lane;
   s.fallen.push_if(!own.listed, vertex);
   own.listed = true;

@@ -11,7 +11,8 @@ struct FrontLanes {
   Sectors sector;
 };
 BRUSHFIRE_INLINE FrontLanes front_lanes(const GroupFront& f) {
-  return {load<Values>(f.value), load<Values>(f.sigma), load<Values>(f.x), load<Values>(f.y), load<Sectors>(f.sector)};
+  return {load<Values>(f.value), load<Values>(f.sigma), load<Values>(f.x), load<Values>(f.y),
+          load_words<Sectors>(f.sector)};
 }
 
 // At odd vertices, where every lane may look through another lens.
@@ -47,8 +48,8 @@ BRUSHFIRE_INLINE void accept(GroupState& s, Index v, const Offer<Values>& o, Ind
   store(f.sigma, select(set, o.sigma, old_sigma));
   store(f.x, select(set, o.x, load<Values>(f.x)));
   store(f.y, select(set, o.y, load<Values>(f.y)));
-  store(f.sector, select(set, Sectors(1u << sector), load<Sectors>(f.sector)));
-  s.vertices[v].fresh |= bits(set);
+  store_words(f.sector, select(set, Sectors(1u << sector), load_words<Sectors>(f.sector)));
+  s.fronts[v].own.fresh |= bits(set);
 }
 
 struct GroupTurn {
@@ -69,7 +70,7 @@ BRUSHFIRE_INLINE void offer(GroupState& s, const Records<float>& records, const 
   const SectorSet dark_here = at.dark ? at.dark[support].here[hand] : SectorSet{0};
   const SectorSet dark_there = at.dark ? at.dark[support].end[there] : SectorSet{0};
   SourceAt<Values> a = see(at.front, side_turn(by.c, by.s, hand, at.around), by.turned[hand], dark_here, by.length);
-  SourceAt<Values> b = see(other, side_turn(by.end_c, by.end_s, there, s.vertices[end].around), by.end_turned[there],
+  SourceAt<Values> b = see(other, side_turn(by.end_c, by.end_s, there, s.fronts[end].own.around), by.end_turned[there],
                            dark_there, by.length);
   if (at.lenses) [[unlikely]] {
     const LensNumbers& lenses = at.lenses[support];
@@ -79,7 +80,7 @@ BRUSHFIRE_INLINE void offer(GroupState& s, const Records<float>& records, const 
     if (lenses.end[there] != kNoIndex) b = see_through(records.lenses[lenses.end[there]], s.fronts[end], by.length);
   }
   b.x = Values(by.length) - b.x;
-  const OfferFrame<float> f = offer_frame(by, to, u, at.around, s.vertices[target].around);
+  const OfferFrame<float> f = offer_frame(by, to, u, at.around, s.fronts[target].own.around);
   const Offer<Values> o = offer_over<Values>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, b);
   const Values c(f.turn_c), sine(f.turn_s), oy = Values(f.sign) * o.y;
   accept(s, target, {o.value, o.sigma, o.x * c - oy * sine, o.x * sine + oy * c}, u.sector());
@@ -95,7 +96,7 @@ BRUSHFIRE_INLINE void offer_along(GroupState& s, const GroupTurn& at, Index k) {
 
 // Lists are made without branches: which sides lead ahead and which ends are closed cannot be foreseen.
 BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v) {
-  GroupVertex& own = s.vertices[v];
+  GroupVertex& own = s.fronts[v].own;
   own.fresh = 0;
   ++own.turns, ++s.turns;
   const Record<float> record = records[v];
@@ -115,7 +116,7 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
     const SideEnd<float>& e = at.ends[k];
     s.ahead[ahead] = k;
     ahead += any(now + Values(e.need) - Values(e.bulge) * later < load<Values>(s.fronts[e.end].value)) ? 1u : 0u;
-    s.closed[k] = s.vertices[e.end].fresh == 0 ? 1 : 0;
+    s.closed[k] = s.fronts[e.end].own.fresh == 0 ? 1 : 0;
   }
   for (Index i = 0; i < ahead; ++i) {
     const Index k = s.ahead[i], before = offers, end = at.ends[k].end;
@@ -125,8 +126,8 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
     }
     s.alongs[alongs] = k;
     alongs += offers == before ? 1u : 0u;
-    s.fallen.push_if(!s.vertices[end].listed, end);
-    s.vertices[end].listed = true;
+    s.fallen.push_if(!s.fronts[end].own.listed, end);
+    s.fronts[end].own.listed = true;
   }
   for (Index i = 0; i < offers; ++i) {
     const auto [k, update] = s.offers[i];
@@ -147,7 +148,7 @@ BRUSHFIRE_INLINE float key_of(const GroupFront& f) {
 BRUSHFIRE_INLINE void sort_in(GroupState& s) {
   s.next.clear();
   for (const Index v : s.fallen) {
-    GroupVertex& own = s.vertices[v];
+    GroupVertex& own = s.fronts[v].own;
     own.listed = false;
     if ((own.fresh & GroupVertex::kLanes) == 0) continue;
     s.exhausted |= own.turns >= s.most_turns;
@@ -171,7 +172,6 @@ BRUSHFIRE_INLINE void sort_in(GroupState& s) {
 BRUSHFIRE_INLINE void prefetch_front(const GroupState& s, Index v) {
   const auto* const at = reinterpret_cast<const std::byte*>(&s.fronts[v]);
   for (std::size_t line = 0; line < sizeof(GroupFront); line += kCacheLine) prefetch(at + line);
-  prefetch(&s.vertices[v]);
 }
 
 // What begin_at() began, or the bucket at the cursor, with what falls into it meanwhile, in passes.
@@ -180,11 +180,12 @@ inline void work_group(GroupState& s, const Records<float>& records) {
   if (s.pass.empty()) {
     s.pass.assign(s.queue.current().begin(), s.queue.current().end());
     s.queue.clear_current();
-    for (const Index v : s.pass) s.vertices[v].waits_in = GroupVertex::kNowhere;
+    for (const Index v : s.pass) s.fronts[v].own.waits_in = GroupVertex::kNowhere;
   }
   for (; !s.pass.empty() && !s.exhausted; sort_in(s)) {
     for (std::size_t i = 0; i < s.pass.size(); ++i) {
       // Written here: compilers take a function that only asks ahead for one that does nothing.
+      if (i + kOffsetAhead < s.pass.size()) prefetch(&records.offset[s.pass[i + kOffsetAhead]]);
       if (i + kRecordAhead < s.pass.size()) {
         const Index v = s.pass[i + kRecordAhead];
         const std::byte* const at = records.base() + records.offset[v];
@@ -196,7 +197,7 @@ inline void work_group(GroupState& s, const Records<float>& records) {
         const Index sides = std::min(kUsualSides, record.head().sides);
         for (Index k = 0; k < sides; ++k) prefetch_front(s, record.ends()[k].end);
       }
-      if ((s.vertices[s.pass[i]].fresh & GroupVertex::kLanes) != 0) turn(s, records, s.pass[i]);
+      if ((s.fronts[s.pass[i]].own.fresh & GroupVertex::kLanes) != 0) turn(s, records, s.pass[i]);
     }
   }
 }

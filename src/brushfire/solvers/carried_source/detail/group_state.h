@@ -14,13 +14,8 @@ namespace brushfire::carried_source {
 
 inline constexpr int kGroupLanes = 16;
 
-// The fronts of all sources at a vertex. Where a lane has no value, +inf, the rest of it means nothing.
-struct alignas(64) GroupFront {
-  float value[kGroupLanes], sigma[kGroupLanes], x[kGroupLanes], y[kGroupLanes];
-  std::uint32_t sector[kGroupLanes];  // a bit, of a SectorSet
-};
-
-struct alignas(32) GroupVertex {
+// What lanes share at a vertex.
+struct GroupVertex {
   static constexpr std::uint32_t kLanes = (1u << kGroupLanes) - 1, kNew = kLanes + 1;
   static constexpr BucketQueue::Bucket kNowhere = BucketQueue::kNever;
 
@@ -32,11 +27,19 @@ struct alignas(32) GroupVertex {
   Around<float> around;  // of the vertex; stays
 };
 
+// The fronts of all sources at a vertex, in five cache lines. Where a lane has no value, +inf, the rest of it means
+// nothing.
+struct alignas(64) GroupFront {
+  float value[kGroupLanes], sigma[kGroupLanes], x[kGroupLanes], y[kGroupLanes];
+  std::uint16_t sector[kGroupLanes];  // a bit, of a SectorSet
+  GroupVertex own;
+};
+static_assert(sizeof(GroupFront) == 5 * 64);
+
 struct GroupState {
   static constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
   UninitializedArray<GroupFront> fronts;  // [vertex_count]
-  std::vector<GroupVertex> vertices;      // [vertex_count]
   BucketQueue queue;
   Pile touched, fallen;  // fallen: may have fallen in this pass
   std::vector<Index> pass;

@@ -51,7 +51,7 @@ GroupedRows::GroupedRows(const Domain& domain, std::span<const Index> asked)
 }
 
 GroupRunner::GroupRunner(const GroupedRows& rows, Variant variant, int most_turns)
-    : rows_(rows), march_(rows.records_, variant, most_turns), row_(rows.place_.size()) {}
+    : rows_(rows), march_(rows.records_, variant, most_turns) {}
 
 std::vector<int> GroupRunner::run(const GroupedRows::Group& group, double max_distance, const Take& take) {
   std::vector<int> alone;
@@ -66,12 +66,8 @@ std::vector<int> GroupRunner::run(const GroupedRows::Group& group, double max_di
       open.emplace_back(begin, middle), open.emplace_back(middle, end);
     } else {
       for (int lane = begin; lane < end; ++lane) {
-        const float* const values = values_.data() + static_cast<std::size_t>(lane) * row_.size();
-        for (std::size_t v = 0; v < row_.size(); ++v) {
-          const double d = static_cast<double>(values[v]) * rows_.unit_;
-          row_[v] = d > max_distance ? kInfinity : d;
-        }
-        take(lane, row_);
+        const std::size_t n = rows_.place_.size();
+        take(lane, std::span(values_).subspan(static_cast<std::size_t>(lane) * n, n));
       }
     }
   }
@@ -93,7 +89,7 @@ bool GroupRunner::run_lanes(const GroupedRows::Group& group, int begin, int end,
 // From the lanes of each vertex to the vertices of each lane.
 void GroupRunner::transpose() {
   constexpr std::size_t kTile = 16, kAhead = 16;
-  const std::size_t n = row_.size();
+  const std::size_t n = rows_.place_.size();
   values_.resize(kGroupLanes * n);
   float tile[kTile][kGroupLanes];
   for (std::size_t begin = 0; begin < n; begin += kTile) {

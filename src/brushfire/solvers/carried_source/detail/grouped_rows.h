@@ -49,13 +49,14 @@ class GroupRunner {
   explicit GroupRunner(const GroupedRows& rows, Variant variant = Variant::Best,
                        int most_turns = GroupMarch::kMostTurns);
 
-  // A lane's distances to all vertices of domain.mesh(), in the mesh's units; +inf beyond max_distance. Valid during
-  // the call.
-  using Take = std::function<void(int lane, std::span<const double> distances)>;
-  // Hands out all lanes, in any order, but those that it returns: they are to be run alone. Where a vertex uses up its
-  // turns that is known in time, and the group is run by halves; a lane by itself is none. Throws Error(Cancelled).
+  // A lane's distances to all vertices of domain.mesh(), in unit()s of the mesh. Valid during the call.
+  using Take = std::function<void(int lane, std::span<const float> distances)>;
+  // Hands out all lanes, whose values up to max_distance (in the mesh's units; those beyond may be there, too) are
+  // right, in any order, but those that it returns: they are to be run alone. Where a vertex uses up its turns that is
+  // known in time, and the group is run by halves; a lane by itself is none. Throws Error(Cancelled).
   std::vector<int> run(const GroupedRows::Group& group, double max_distance, const Take& take);
 
+  double unit() const { return rows_.unit_; }
   const GroupMarch& march() const { return march_; }
 
  private:
@@ -65,7 +66,6 @@ class GroupRunner {
   const GroupedRows& rows_;
   GroupMarch march_;
   std::vector<float> values_;  // [kGroupLanes][vertices of domain.mesh()], in units of the open mesh
-  std::vector<double> row_;
 };
 
 }  // namespace brushfire::carried_source

@@ -70,22 +70,26 @@ BRUSHFIRE_INLINE Offer<V> offer_over(NumberIn<V> length, NumberIn<V> to_x, Numbe
   const auto fan = both & (noise < miss_a) & (noise < miss_b) & (zero < u) & (zero < w);
   // The one that c is lit by: the only one that sees it; of both, the lesser value or the greater.
   const auto first_seen = without(seen_b, seen_a) | (both & ((value_a < value_b) ^ (zero < sum)));
-  const V inverse = one / select(fan, sum, one), m = select(first_seen, u, w);
-  const V through = select(first_seen, value_a, value_b) + select(fan, m * m * inverse, zero);
-  const V part = select(fan, u * inverse, select(first_seen, zero, one));
+  V through = select(first_seen, value_a, value_b), part = select(first_seen, zero, one);
+  V radius = select(first_seen, far_a, far_b), shorter = one;
+  if (any(fan)) {
+    const V inverse = one / select(fan, sum, one), m = select(first_seen, u, w);
+    through = through + select(fan, m * m * inverse, zero);
+    part = select(fan, u * inverse, part);
+    // A front that opens is rounder than its sources are far.
+    const V bend = (miss_a + miss_b) * V(T(0.5) / (length * length));
+    shorter = one / select(fan, lesser(radius * bend + one, V(T(3))), one);
+    const V fx = part * (b.x - a.x) - ax, fy = part * (b.y - a.y) - deep_a;
+    radius = select(fan, square_root(fx * fx + fy * fy), radius);
+  }
   const V edge = at_v + V(along);
   constexpr T kNever = std::numeric_limits<T>::infinity();
   // The way through v, whose source is nearer, does not win by rounding.
   const auto over = (seen_a | seen_b) & (through < V(kTie<T>) * edge) & (at_v < V(kNever)) & (at_b < V(kNever));
-  V dx = select(over, part * (b.x - a.x) - ax, zero - x);
-  V dy = select(over, part * (b.y - a.y) - deep_a, zero - y);
-  // A front that opens is rounder than its sources are far.
-  const V bend = (miss_a + miss_b) * V(T(0.5) / (length * length));
-  const V rounder = lesser(select(first_seen, far_a, far_b) * bend + one, V(T(3)));
-  const V shorter = one / select(fan & over, rounder, one);
-  dx = dx * shorter, dy = dy * shorter;
+  V dx = select(over, (part * (b.x - a.x) - ax) * shorter, zero - x);
+  V dy = select(over, (part * (b.y - a.y) - deep_a) * shorter, zero - y);
   const V value = select(over, through, edge);
-  return {value, value - square_root(dx * dx + dy * dy), dx, dy};
+  return {value, select(over, through - radius * shorter, at_v), dx, dy};
 }
 
 }  // namespace brushfire::carried_source::BRUSHFIRE_TARGET

@@ -16,10 +16,39 @@ constexpr double kMergeRounding = 16 * kEpsilon;
 // no proof hangs on it).
 constexpr double kExpectedLoss = 0.68;
 
-}  // namespace
+// Two fronts that are lines, as one: the chord of their values. It is nowhere above the lesser (M1) where a is at least
+// as steep as it is, and b at most; what it loses is most at the joint (M3).
+bool merge_parallel(const Window& a, Window& b, const Joint& joint, Real start, const MergeBudget& budget) {
+  const Real left = a.b0, right = b.b1, fa = a.d0, fb = b.d1, length = right - left;
+  const Real slope = (fb - fa) / length, lesser = std::min(joint.a, joint.b);
+  const Real steep = (1 - slope) * (1 + slope);
+  if (!(steep > 0)) return false;
+  const Real rounding = kMergeRounding * (lesser + right);
+  const auto chord = [&](Real x) { return fa + slope * (x - left); };
+  if (a.d1 - chord(a.b1) < -rounding || b.d0 - chord(b.b0) < -rounding) return false;
+  const Real loss_a = std::max(Real{0}, joint.a - chord(joint.at));
+  const Real loss_b = std::max(Real{0}, joint.b - chord(std::max(joint.at, b.b0)));
+  const Real slack = std::max(a.slack, b.slack), room = budget.share * (std::min(fa, fb) - start) - slack;
+  const Real paid = std::max(a.slack + loss_a, b.slack + loss_b) + rounding;
+  if (paid - slack > budget.pace * room || paid > budget.share * (std::min(fa, fb) - start)) return false;
+  const Real expected =
+      ((joint.at - left) * static_cast<Real>(a.lift) + (right - joint.at) * static_cast<Real>(b.lift)) / length +
+      kExpectedLoss * std::min(loss_a, loss_b);
+  b.b0 = left;
+  b.d0 = fa;
+  b.source = {-slope, -sqrt(steep)};
+  b.sigma = fa - slope * left;
+  b.slack = paid;
+  b.lift = static_cast<float>(expected);
+  b.pseudo_source = a.pseudo_source;
+  b.trail = kNoIndex;
+  return true;
+}
 
-bool merge_into(const Window& a, Window& b, const Joint& joint, Real start, const MergeBudget& budget) {
-  if (a.kind != WindowKind::Circular || b.kind != WindowKind::Circular) return false;
+// Into a circular one. Compiled once for the usual case, in which both are circular.
+template <bool kCircular>
+[[gnu::always_inline]] inline bool merge_circular(const Window& a, Window& b, const Joint& joint, Real start,
+                                                  const MergeBudget& budget) {
   const Real left = a.b0, right = b.b1, length = right - left;
   const Real fa = a.d0, fb = b.d1, rise = fb - fa;
   const Real slack = std::max(a.slack, b.slack);
@@ -36,11 +65,17 @@ bool merge_into(const Window& a, Window& b, const Joint& joint, Real start, cons
   // must not start out steeper: sigma >= that of the member tangent there. The same on the right. Beyond these, the
   // smaller of both sigmas: smaller ones still cost less but compound from merge to merge; a radius of twice the
   // distance is the most.
-  Real sigma = std::max(std::min(a.sigma, b.sigma), -std::max(fa, fb));
-  const Real ra = fa - a.sigma, rb = fb - b.sigma;
-  // With slope a.run / ra at the left end, the rise beyond the tangent's, times ra; steep / (2 * over) follows.
-  const Real over_a = rise * ra - length * (left - a.source.x);
-  const Real over_b = length * (right - b.source.x) - rise * rb;
+  const auto radius = [](const Window& w, Real end_value) {  // what a linear one has is infinite
+    return kCircular || w.kind == WindowKind::Circular ? end_value - w.sigma : Real{1};
+  };
+  const auto run = [](const Window& w, Real end) {  // slope at the end, times the radius
+    return kCircular || w.kind == WindowKind::Circular ? end - w.source.x : -w.source.x;
+  };
+  Real sigma = kCircular ? std::max(std::min(a.sigma, b.sigma), -std::max(fa, fb)) : -std::max(fa, fb);
+  const Real ra = radius(a, fa), rb = radius(b, fb);
+  // With slope run / ra at the left end, the rise beyond the tangent's, times ra; steep / (2 * over) follows.
+  const Real over_a = rise * ra - length * run(a, left);
+  const Real over_b = length * run(b, right) - rise * rb;
   if (over_a > 0) sigma = std::max(sigma, fa - 0.5 * steep * ra / over_a);
   if (over_b > 0) sigma = std::max(sigma, fb - 0.5 * steep * rb / over_b);
 
@@ -89,9 +124,26 @@ bool merge_into(const Window& a, Window& b, const Joint& joint, Real start, cons
   b.sigma = sigma;
   b.slack = paid;
   b.lift = static_cast<float>(expected);
+  b.kind = WindowKind::Circular;
   b.pseudo_source = a.pseudo_source;
   b.trail = kNoIndex;
   return true;
+}
+
+[[gnu::noinline]] bool merge_with_parallel(const Window& a, Window& b, const Joint& joint, Real start,
+                                           const MergeBudget& budget) {
+  const bool both = a.kind == WindowKind::Linear && b.kind == WindowKind::Linear;
+  if (both && merge_parallel(a, b, joint, start, budget)) return true;
+  return merge_circular<false>(a, b, joint, start, budget);
+}
+
+}  // namespace
+
+bool merge_into(const Window& a, Window& b, const Joint& joint, Real start, const MergeBudget& budget) {
+  if (a.kind == WindowKind::Linear || b.kind == WindowKind::Linear) {
+    return merge_with_parallel(a, b, joint, start, budget);
+  }
+  return merge_circular<true>(a, b, joint, start, budget);
 }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -31,7 +31,8 @@ struct Joint {
 // value <= distance <= value + slack at every vertex. The neighbours meet at the joint, with a gap of a sliver at most,
 // or overlap there, a being the lesser at a.b0 and b at b.b1; where exactly they cross need not be known. `start`: the
 // value at the source (its offset): lengths of paths are counted from there. The merged window takes b's place; false,
-// and nothing is changed, where that is impossible or too dear.
+// and nothing is changed, where that is impossible or too dear. Two linear windows become the linear one through their
+// outer ends where that is not above them; else, and of different kinds, a circular one.
 bool merge_into(const Window& a, Window& b, const Joint& joint, Real start, const MergeBudget& budget);
 
 // The same for neighbours that have been trimmed.

@@ -52,7 +52,7 @@ class Sweep {
   enum class Step { Again, Keep, Done, Envelope };  // compare b again, append b, b is gone, give up
 
   Step after(const Window& a, Window& b) {
-    if (b.b0 - a.b1 > 2 * kSliver * (b.d0 - b.sigma) || !merge_(a, b, {a.b1, a.d1, b.d0})) return Step::Keep;
+    if (b.b0 - a.b1 > 2 * kSliver * sliver_scale(b) || !merge_(a, b, {a.b1, a.d1, b.d0})) return Step::Keep;
     --count_;
     return Step::Again;
   }

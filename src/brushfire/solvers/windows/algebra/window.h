@@ -121,9 +121,9 @@ inline bool is_on_edge(const Window& w) {
 // A window narrower than this share of its distance from the virtual source is dropped: what it alone lights is
 // reached past its neighbour's end with a detour of at most twice its width.
 inline constexpr double kSliver = 1e-14 * kFiner;
-[[gnu::always_inline]] inline bool is_sliver(const Window& w) {
-  const Real scale = w.kind == WindowKind::Circular ? w.d0 - w.sigma : w.b1;
-  return !(w.b1 - w.b0 > kSliver * scale);
+[[gnu::always_inline]] inline Real sliver_scale(const Window& w) {
+  return w.kind == WindowKind::Circular ? w.d0 - w.sigma : w.b1;
 }
+[[gnu::always_inline]] inline bool is_sliver(const Window& w) { return !(w.b1 - w.b0 > kSliver * sliver_scale(w)); }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

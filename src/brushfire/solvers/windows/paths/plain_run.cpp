@@ -9,9 +9,7 @@
 namespace brushfire::windows {
 namespace {
 
-PointRecord record_of(const PlainRun::Record& r) {
-  return {r.value, r.label, ray_of(r.ray)};
-}
+PointRecord record_of(const PlainRun::Record& r) { return {r.value, r.label, ray_of(r.ray)}; }
 
 }  // namespace
 

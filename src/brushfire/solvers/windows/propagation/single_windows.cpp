@@ -41,7 +41,7 @@ std::size_t merge_neighbours(const PartState& part, std::span<Window> w) {
   std::size_t last = 0;
   for (std::size_t i = 1; i < w.size(); ++i) {
     w[++last] = w[i];
-    while (last > 0 && w[last].b0 - w[last - 1].b1 <= 2 * kSliver * (w[last].d0 - w[last].sigma) &&
+    while (last > 0 && w[last].b0 - w[last - 1].b1 <= 2 * kSliver * sliver_scale(w[last]) &&
            merge_pair(part, w[last - 1], w[last], {w[last - 1].b1, w[last - 1].d1, w[last].d0})) {
       w[last - 1] = w[last];
       --last;

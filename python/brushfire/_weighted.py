@@ -1,0 +1,235 @@
+"""Weighted surfaces: what it costs to go, and the cheapest paths."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from brushfire import _core
+from brushfire._arrays import Floats, Labels, floats, number, offsets
+from brushfire._curves import OnMesh, Path
+from brushfire._errors import BrushfireError
+from brushfire._places import Places
+from brushfire._progress import Progress, shown
+
+_TOLERANCE = 0.01
+
+
+@dataclass(frozen=True)
+class Costs:
+    """What :meth:`Weighted.costs` found, (vertex_count,) or (targets,).
+
+    ``upper``: what a real path costs, +inf where there is none. ``lower``: no path costs less, proven; None where no bounds
+    were asked for. ``source``: the position in ``sources`` of where that path begins, -1 where there is none.
+    ``max_error_bound``, ``mean_error_bound``: the greatest and mean (upper - lower) / lower.
+    """
+
+    upper: Floats
+    lower: Floats | None
+    source: Labels
+    max_error_bound: float
+    mean_error_bound: float
+
+
+@dataclass(frozen=True)
+class WeightedPath:
+    """A cheapest path: ``path``, a :class:`Path`; its ``cost``, +inf where there is none; ``lower``: no path costs less.
+
+    ``face``, ``leg_length``, ``weight``, ``toll`` (legs,): from each point to the next, in which face, how long, at what
+    cost per unit of length, and what fences are paid for where it begins. ``edge`` (legs, 2): the vertices of the edge that
+    the leg goes along, -1 where it goes through a face.
+    """
+
+    path: Path
+    cost: float
+    lower: float
+    face: Labels
+    leg_length: Floats
+    weight: Floats
+    toll: Floats
+    edge: Labels
+
+    @property
+    def length(self) -> float:
+        return self.path.length
+
+    @property
+    def positions(self) -> Floats:
+        return self.path.positions
+
+    def __repr__(self) -> str:
+        return f"WeightedPath({len(self.path.points)} points, cost {self.cost:.6g}, length {self.length:.6g})"
+
+
+def _edges(edge_weights: Any) -> tuple[npt.NDArray[np.int64], Floats, Floats]:
+    """Vertices, cost along, cost to cross: from rows of three or four numbers."""
+    table = floats([] if edge_weights is None else edge_weights, "edge_weights")
+    if table.size == 0:
+        return np.zeros(0, np.int64), np.zeros(0), np.zeros(0)
+    if table.ndim != 2 or table.shape[1] not in (3, 4):
+        raise BrushfireError(
+            "edge_weights: rows of two vertices, the cost along the edge (inf: as in its faces) and, if wanted, the cost "
+            f"to cross it are needed, not an array of shape {table.shape}"
+        )
+    ends = table[:, :2]
+    if not (np.isfinite(ends).all() and (ends == np.floor(ends)).all()):
+        raise BrushfireError("edge_weights: the first two columns are numbers of vertices")
+    crossing = table[:, 3] if table.shape[1] == 4 else np.zeros(len(table))
+    vertices = np.ascontiguousarray(ends.astype(np.int64).ravel())
+    return vertices, np.ascontiguousarray(table[:, 2]), np.ascontiguousarray(crossing)
+
+
+class Weighted:
+    """A mesh and what it costs to cross its faces and edges; made by :meth:`Mesh.weighted`."""
+
+    def __init__(self, mesh: OnMesh, weights: npt.ArrayLike | None, edge_weights: npt.ArrayLike | None) -> None:
+        face = None if weights is None else floats(weights, "weights")
+        if face is not None and face.ndim != 1:
+            raise BrushfireError(f"weights: one per face is needed, not an array of shape {face.shape}")
+        self._on = mesh
+        self._solver = _core.WeightedSolver(mesh._space, face, *_edges(edge_weights))
+
+    def distance(
+        self,
+        sources: Places,
+        *,
+        tolerance: float = _TOLERANCE,
+        offset: npt.ArrayLike = 0.0,
+        radius: float = np.inf,
+        targets: Places | None = None,
+        progress: Progress = None,
+    ) -> Floats:
+        """What the cheapest path from the nearest of the sources costs: upper bounds, without lower ones in a fraction of
+        the time of :meth:`costs`. Arguments as there; float64 (vertex_count,) or (targets,), +inf where there is no path.
+        """
+        return self._solve(sources, tolerance, 0, False, offset, radius, targets, progress).upper
+
+    def costs(
+        self,
+        sources: Places,
+        *,
+        tolerance: float = _TOLERANCE,
+        refine: bool = False,
+        offset: npt.ArrayLike = 0.0,
+        radius: float = np.inf,
+        targets: Places | None = None,
+        progress: Progress = None,
+    ) -> Costs:
+        """What the cheapest path from the nearest of the sources costs, between proven bounds.
+
+        :param sources, offset, radius, targets, progress: as for :meth:`Mesh.distance`.
+        :param tolerance: how far apart the bounds may be, relatively; in [1e-5, 1]. A wish: ``max_error_bound`` says what
+            was reached.
+        :param refine: where the wish is not met everywhere, run again more finely, four times at most.
+        :return: :class:`Costs`.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> costs = mesh.weighted([1, 2]).costs(1)
+        >>> bool((costs.lower <= costs.upper).all()), costs.max_error_bound < 0.02
+        (True, True)
+        """
+        return self._solve(sources, tolerance, 4 if refine else 0, True, offset, radius, targets, progress)
+
+    def _solve(
+        self,
+        sources: Places,
+        tolerance: float,
+        refinements: int,
+        lower: bool,
+        offset: npt.ArrayLike,
+        radius: float,
+        targets: Places | None,
+        progress: Progress,
+    ) -> Costs:
+        start = self._on._arrays(sources, "sources")
+        end = None if targets is None else self._on._arrays(targets, "targets")
+        with shown(progress, "distance") as report:
+            upper, source, below, most, mean = self._solver.solve(
+                start.index,
+                start.weights,
+                offsets(offset, len(start.index)),
+                end.index if end else None,
+                end.weights if end else None,
+                number(tolerance, "tolerance"),
+                refinements,
+                lower,
+                number(radius, "radius"),
+                report,
+            )
+        return Costs(upper, below, source, most, mean)
+
+    def path(
+        self, source: Places, target: Places, *, tolerance: float = _TOLERANCE, radius: float = np.inf
+    ) -> WeightedPath:
+        """The cheapest path from one place to another: see :meth:`paths`.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> path = mesh.weighted([1, 3]).path(1, 3)
+        >>> round(path.cost, 6), path.weight.tolist(), path.face.tolist()
+        (9.895461, [1.0, 3.0], [0, 1])
+        """
+        found, _ = self.paths(source, target, tolerance=tolerance, radius=radius)
+        if len(found) != 1:
+            raise BrushfireError("target: a single place is needed; paths() takes several")
+        return found[0]
+
+    def paths(
+        self,
+        sources: Places,
+        targets: Places,
+        *,
+        offset: npt.ArrayLike = 0.0,
+        tolerance: float = _TOLERANCE,
+        radius: float = np.inf,
+    ) -> tuple[list[WeightedPath], Labels]:
+        """The cheapest path to every target from the source that is nearest to it. They are locally shortest: where they
+        cross edges they obey Snell's law to rounding.
+
+        :return: one :class:`WeightedPath` per target, and the position in ``sources`` of each one's source, -1: none.
+        """
+        start, end = self._on._arrays(sources, "sources"), self._on._arrays(targets, "targets")
+        source, found = self._solver.paths(
+            start.index,
+            start.weights,
+            offsets(offset, len(start.index)),
+            end.index,
+            end.weights,
+            number(tolerance, "tolerance"),
+            number(radius, "radius"),
+        )
+        return [self._weighted_path(*p) for p in found], source
+
+    def _weighted_path(self, path: _core.PathArrays, cost: float, lower: float, *legs: Any) -> WeightedPath:
+        face, length, weight, toll, edge = legs
+        return WeightedPath(self._on._path(path), cost, lower, face, length, weight, toll, edge.reshape(-1, 2))
+
+
+class WithWeights(OnMesh):
+    """The weights of a Mesh."""
+
+    def weighted(
+        self, weights: npt.ArrayLike | None = None, edge_weights: npt.ArrayLike | Iterable[Any] | None = None
+    ) -> Weighted:
+        """This mesh, with what it costs to cross its faces and edges.
+
+        :param weights: per unit of length in each face, > 0; inf is a wall. None: 1 everywhere.
+        :param edge_weights: rows of two vertices, the cost along the edge that joins them (inf: as in its faces) and, if
+            wanted, the cost to cross it (inf: a wall).
+        :return: :class:`Weighted`, whose ``costs()``, ``distance()``, ``path()`` and ``paths()`` are those of the weights.
+        :raises BrushfireError: for weights that are not > 0, as many as faces; for edges that do not exist.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.weighted(edge_weights=[[0, 2, 0.5]]).distance(0, targets=2).tolist()
+        [2.5]
+        >>> road = mesh.weighted(edge_weights=[[0, 2, 0.5]]).path(0, 2)
+        >>> road.cost, road.edge.tolist()
+        (2.5, [[2, 0]])
+        """
+        return Weighted(self, weights, edge_weights)

@@ -1,0 +1,140 @@
+// _core.WeightedSolver: costs and cheapest paths where not all places are equally easy to cross.
+#include "bind.h"
+#include "interrupt.h"
+
+#include <brushfire/core/error.h>
+#include <brushfire/queries/weighted_path.h>
+
+#include <mutex>
+
+namespace brushfire::python {
+namespace {
+
+using OptionalWeights = std::optional<Triples<double>>;
+
+Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& face,
+                     const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
+                     const Vector<double>& crossing) {
+  Weights weights;
+  if (face) weights.face.assign(face->data(), face->data() + face->shape(0));
+  const std::int64_t count = domain.mesh().vertex_count();
+  for (std::size_t k = 0; k < along.shape(0); ++k) {
+    EdgeCost& edge = weights.edges.emplace_back();
+    for (const std::size_t end : {0U, 1U}) {
+      const std::int64_t v = edge_vertices.data()[2 * k + end];
+      if (v < 0 || v >= count) {
+        throw Error(ErrorCode::IndexOutOfRange, "edge_weights: vertex " + std::to_string(v) + " of edge " +
+                                                    std::to_string(k) + " does not exist: the mesh has " +
+                                                    std::to_string(count) + " vertices");
+      }
+      edge.vertices[end] = static_cast<Index>(v);
+    }
+    edge.along = along.data()[k];
+    edge.crossing = crossing.data()[k];
+  }
+  return weights;
+}
+
+// Calls from several threads wait for each other.
+class Weighted {
+ public:
+  Weighted(const Domain& domain, const std::optional<Vector<double>>& face, const Vector<std::int64_t>& edge_vertices,
+           const Vector<double>& along, const Vector<double>& crossing)
+      : solver_(domain, weights_from(domain, face, edge_vertices, along, crossing)) {}
+
+  const Mesh& mesh() const { return solver_.domain().mesh(); }
+
+  template <class Use>
+  auto with(Use&& use) {
+    const std::lock_guard lock(mutex_);
+    return use(solver_);
+  }
+
+ private:
+  WeightedSolver solver_;
+  std::mutex mutex_;
+};
+
+// (distance, source, lower bounds or None, greatest and mean relative error bound): of the targets where there are any.
+nb::tuple solve(Weighted& weighted, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+                const Vector<double>& offsets, const std::optional<Vector<std::int64_t>>& target_index,
+                const OptionalWeights& target_weights, double tolerance, unsigned refinements, bool lower,
+                double max_distance, nb::object progress) {
+  Computation computation(std::move(progress));
+  WeightedOptions options;
+  options.tolerance = tolerance;
+  options.refinements = refinements;
+  options.lower = lower;
+  options.max_distance = max_distance;
+  options.cancel = computation.cancel();
+  options.progress = computation.progress();
+  WeightedField field = computation.run(false, [&] {
+    const std::vector<Source> sources = sources_from(weighted.mesh(), {index, weights}, offsets);
+    if (target_index) options.targets = targets_from(weighted.mesh(), {*target_index, target_weights});
+    return weighted.with([&](WeightedSolver& s) { return s.distance(sources, options); });
+  });
+  std::vector<double>& values = target_index ? field.target_distance : field.distance;
+  std::vector<double>& below = target_index ? field.target_lower : field.lower;
+  nb::object lower_bounds = nb::none();
+  if (lower) lower_bounds = nb::cast(to_numpy(std::move(below)));
+  return nb::make_tuple(to_numpy(std::move(values)),
+                        to_numpy_signed(std::move(target_index ? field.target_source : field.source)), lower_bounds,
+                        field.max_error_bound, field.mean_error_bound);
+}
+
+// (path, cost, lower, legs: face, length, weight, toll, edge [legs, 2]).
+nb::tuple path_arrays(const WeightedPath& path) {
+  std::vector<Index> face, along;
+  std::vector<double> length, weight, toll;
+  for (const WeightedLeg& leg : path.legs) {
+    face.push_back(leg.face);
+    along.insert(along.end(), leg.along.begin(), leg.along.end());
+    length.push_back(leg.length);
+    weight.push_back(leg.weight);
+    toll.push_back(leg.toll);
+  }
+  return nb::make_tuple(path_to_numpy(path), path.cost, path.lower, to_numpy_signed(std::move(face)),
+                        to_numpy(std::move(length)), to_numpy(std::move(weight)), to_numpy(std::move(toll)),
+                        to_numpy_signed(std::move(along)));
+}
+
+nb::tuple paths(Weighted& weighted, const Vector<std::int64_t>& index, const OptionalWeights& weights,
+                const Vector<double>& offsets, const Vector<std::int64_t>& target_index,
+                const OptionalWeights& target_weights, double tolerance, double max_distance) {
+  Computation computation{nb::none()};
+  const std::vector<WeightedPath> found = computation.run(false, [&] {
+    WeightedOptions options;
+    options.tolerance = tolerance;
+    options.max_distance = max_distance;
+    options.cancel = computation.cancel();
+    const std::vector<SurfacePoint> targets = targets_from(weighted.mesh(), {target_index, target_weights});
+    const std::vector<Source> sources = sources_from(weighted.mesh(), {index, weights}, offsets);
+    return weighted.with([&](WeightedSolver& s) { return weighted_paths(s, sources, targets, options); });
+  });
+  nb::list list;
+  std::vector<Index> nearest;
+  for (const WeightedPath& p : found) {
+    list.append(path_arrays(p));
+    nearest.push_back(p.source);
+  }
+  return nb::make_tuple(to_numpy_signed(std::move(nearest)), list);
+}
+
+}  // namespace
+
+void bind_weighted(nb::module_& m) {
+  nb::class_<Weighted>(m, "WeightedSolver")
+      .def(nb::init<const Domain&, const std::optional<Vector<double>>&, const Vector<std::int64_t>&,
+                    const Vector<double>&, const Vector<double>&>(),
+           nb::arg("domain"), nb::arg("face").noconvert().none(), nb::arg("edge_vertices").noconvert(),
+           nb::arg("along").noconvert(), nb::arg("crossing").noconvert())
+      .def("solve", solve, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+           nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert().none(),
+           nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("refinements"), nb::arg("lower"),
+           nb::arg("max_distance"), nb::arg("progress").none())
+      .def("paths", paths, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
+           nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert(),
+           nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("max_distance"));
+}
+
+}  // namespace brushfire::python

@@ -1,0 +1,123 @@
+// --weights and --edge-weights as a black box.
+#include "in_folder.h"
+#include "program.h"
+
+#include <brushfire/io/npy.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace brushfire::test {
+namespace {
+
+// [0, 4] x [0, 2] in unit squares: vertex y * 5 + x; faces 8 y + 2 x and the next one. x > 2 costs three times as much.
+class WeightFiles : public InFolder {
+ protected:
+  void SetUp() override {
+    std::string off = "OFF\n15 16 0\n", weights = "# one per face\n";
+    for (int y = 0; y < 3; ++y) {
+      for (int x = 0; x < 5; ++x) off += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+    }
+    for (int y = 0; y < 2; ++y) {
+      for (int x = 0; x < 4; ++x) {
+        const int v = y * 5 + x;
+        off += "3 " + std::to_string(v) + " " + std::to_string(v + 1) + " " + std::to_string(v + 6) + "\n";
+        off += "3 " + std::to_string(v) + " " + std::to_string(v + 6) + " " + std::to_string(v + 5) + "\n";
+        weights += x < 2 ? "1 1\n" : "3 3\n";
+      }
+    }
+    write("m.off", off);
+    write("w.txt", weights);
+    write("fence.txt", "# from, to, along, across\n2 7 inf 5\n7 12 inf 5\n");
+    write("road.txt", "5 6 0.5\n6 7 0.5\n7 8 0.5\n8 9 0.5\n");
+  }
+  static double number(const Ended& ended) {
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return std::strtod(ended.out.c_str(), nullptr);
+  }
+};
+
+TEST_F(WeightFiles, DistancesAndPathsPayForFacesFencesAndRoads) {
+  const std::string mesh = path("m.off"), w = path("w.txt");
+  EXPECT_NEAR(number(run_program({"distance", mesh, "-s", "5", "-t", "9", "--weights", w})), 8, 1e-12);
+  EXPECT_NEAR(number(run_program({"path", mesh, "--from", "5", "--to", "9", "--weights", w})), 8, 1e-12);
+  EXPECT_NEAR(number(run_program(
+                  {"path", mesh, "--from", "5", "--to", "9", "--weights", w, "--edge-weights", path("fence.txt")})),
+              13, 1e-12);
+  EXPECT_NEAR(number(run_program({"path", mesh, "--from", "5", "--to", "9", "--edge-weights", path("road.txt")})), 2,
+              1e-12);
+  const double low = number(run_program({"distance", mesh, "-s", "5", "-t", "9", "--weights", w, "--bound", "lower"}));
+  EXPECT_LE(low, 8 + 1e-12);
+  EXPECT_GT(low, 7.8);
+}
+
+TEST_F(WeightFiles, AreArraysToo) {
+  std::vector<double> weights(16, 1);
+  weights[15] = 2;
+  write_npy(path("w.npy"), weights);
+  write_npy(path("e.npy"), std::vector<double>{5, 6, 0.5, 0, 6, 7, 0.5, 0}, std::vector<std::size_t>{2, 4});
+  const Ended ended = run_program({"distance", path("m.off"), "-s", "5", "--weights", path("w.npy"), "--edge-weights",
+                                   path("e.npy"), "-o", path("d.npy")});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NEAR(read_npy(path("d.npy")).values[7], 1, 1e-12);
+}
+
+TEST_F(WeightFiles, JsonTellsEveryLeg) {
+  const Ended ended = run_program({"path", path("m.off"), "--from", "5", "--to", "9", "--weights", path("w.txt"),
+                                   "--edge-weights", path("fence.txt"), "--json"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto json = nlohmann::json::parse(ended.out);
+  const auto& found = json.at("paths").at(0);
+  double cost = 0, length = 0, tolls = 0;
+  for (const auto& leg : found.at("legs")) {
+    EXPECT_NEAR(leg.at("cost").get<double>(),
+                leg.at("length").get<double>() * leg.at("weight").get<double>() + leg.at("toll").get<double>(), 1e-12);
+    cost += leg.at("cost").get<double>();
+    length += leg.at("length").get<double>();
+    tolls += leg.at("toll").get<double>();
+    EXPECT_LT(leg.at("face").get<int>(), 16);
+  }
+  EXPECT_NEAR(cost, 13, 1e-12);
+  EXPECT_NEAR(length, 4, 1e-12);
+  EXPECT_NEAR(tolls, 5, 1e-12);
+  EXPECT_NEAR(json.at("cost").get<double>(), 13, 1e-12);
+  EXPECT_LE(found.at("lower").get<double>(), 13 + 1e-12);
+  EXPECT_EQ(json.at("method"), "steiner");
+}
+
+TEST_F(WeightFiles, ThatDoNotFitAreRefusedWithTheReason) {
+  const auto refused = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"path", path("m.off"), "--from", "5", "--to", "9"});
+    const Ended ended = run_program(more);
+    EXPECT_EQ(ended.code, 2);
+    return ended.err;
+  };
+  write("few.txt", "1 2 3\n");
+  EXPECT_NE(refused({"--weights", path("few.txt")}).find("3 values, but the mesh has 16 faces"), std::string::npos);
+  write("pairs.txt", "5 6\n");
+  EXPECT_NE(refused({"--edge-weights", path("pairs.txt")}).find("not 2 numbers"), std::string::npos);
+  write("none.txt", "0 14 1\n");
+  EXPECT_NE(refused({"--edge-weights", path("none.txt")}).find("no edge of the mesh joins"), std::string::npos);
+  write("far.txt", "0 99 1\n");
+  EXPECT_NE(refused({"--edge-weights", path("far.txt")}).find("there is no vertex 99"), std::string::npos);
+  EXPECT_NE(refused({"--weights", path("w.txt"), "--via", "3"}).find("without weights"), std::string::npos);
+  EXPECT_NE(refused({"--weights", path("w.txt"), "--method", "exact"}).find("there is one method"), std::string::npos);
+}
+
+TEST_F(WeightFiles, WallsOfWeightsAreNotPassed) {
+  std::string walls;
+  for (int f = 0; f < 16; ++f) walls += f % 8 / 2 == 2 ? "inf\n" : "1\n";
+  write("walls.txt", walls);
+  const Ended ended = run_program({"path", path("m.off"), "--from", "5", "--to", "9", "--weights", path("walls.txt")});
+  EXPECT_EQ(ended.code, 4);
+  EXPECT_EQ(ended.out, "inf\n");
+}
+
+}  // namespace
+}  // namespace brushfire::test
