@@ -16,16 +16,16 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 """
 
 from brushfire._any import from_any
-from brushfire._core import version as __version__
 from brushfire._cells import Boundary, Centroidal, Discs, Extent, Mean, Medoids, Parcels, k_medoids
 from brushfire._certify import Certificate
+from brushfire._core import version as __version__
 from brushfire._curves import LogMap, Path
 from brushfire._derivatives import DifferentiableDistance, DistanceGradient
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
-from brushfire._flatten import Distortion, Flattening, decal, distortion, flatten
 from brushfire._heat import HeatSolver, SignedHeatSolver, VectorHeatSolver, laplacian
+from brushfire._flatten import Distortion, Flattening, decal, distortion, flatten
 from brushfire._io import FileInfo, read
 from brushfire._lines import read_lines
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
@@ -36,6 +36,7 @@ from brushfire._reeb import ReebGraph, reeb_graph
 from brushfire._regions import Border, Cut, Samples, Voronoi
 from brushfire._sets import distance_matrices
 from brushfire._sources import Curve
+from brushfire._terrain import Terrain, terrain
 from brushfire._weighted import Costs, Weighted, WeightedPath
 
 __all__ = [
@@ -60,8 +61,8 @@ __all__ = [
     "Errors",
     "Extent",
     "FileInfo",
-    "Flattening",
     "HeatSolver",
+    "Flattening",
     "Isoline",
     "LogMap",
     "Mean",
@@ -78,6 +79,7 @@ __all__ = [
     "Samples",
     "SignedHeatSolver",
     "Solver",
+    "Terrain",
     "VectorHeatSolver",
     "Voronoi",
     "Weighted",
@@ -100,6 +102,7 @@ __all__ = [
     "reeb_graph",
     "render",
     "render_svg",
+    "terrain",
     "write",
 ]
 
