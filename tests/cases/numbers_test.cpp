@@ -157,7 +157,7 @@ TEST(NumberCases, AFiniteOffsetOfAnySizeIsAddedByEveryMethod) {
           const Source source{vertex_point(mesh, 0), offset};
           const DistanceField field = distance(mesh, std::span(&source, 1), options);
           EXPECT_EQ(field.distance[0], offset) << name_of(method) << " " << size;
-          const double error = method == Method::Heat ? 0.1 : 1e-6;  // on one face it approximates nothing
+          const double error = method == Method::Heat ? 0.4 : 1e-6;  // on one face it approximates nothing
           EXPECT_NEAR(field.distance[1], offset + size, error * size + kRounding * std::abs(offset))
               << name_of(method) << ", size " << size << ", offset " << offset;
           EXPECT_EQ(field.reached, 3u);
