@@ -125,11 +125,10 @@ TEST(GroupMarch, ThatIsGivenUpLeavesNoHole) {
     for (std::size_t g = 0; g < 20; ++g) {
       std::set<int> missing;
       for (int lane = 0; lane < static_cast<int>(rows.groups()[g].vertices.size()); ++lane) missing.insert(lane);
-      const std::vector<int> alone =
-          runner.run(rows.groups()[g], kInfinity, [&](int lane, std::span<const double> row) {
-            EXPECT_EQ(missing.erase(lane), 1u);
-            for (const float d : row) ASSERT_TRUE(std::isfinite(d));
-          });
+      const std::vector<int> alone = runner.run(rows.groups()[g], kInfinity, [&](int lane, std::span<const float> row) {
+        EXPECT_EQ(missing.erase(lane), 1u);
+        for (const float d : row) ASSERT_TRUE(std::isfinite(d));
+      });
       EXPECT_EQ(std::set<int>(alone.begin(), alone.end()), missing);
       refused += alone.size();
       by_halves += !alone.empty() && alone.size() < rows.groups()[g].vertices.size() ? 1 : 0;
