@@ -37,6 +37,7 @@
 #include <brushfire/queries/centroidal.h>
 #include <brushfire/queries/certify.h>
 #include <brushfire/queries/compare.h>
+#include <brushfire/queries/curve_sides.h>
 #include <brushfire/queries/curve_sources.h>
 #include <brushfire/queries/curved_isolines.h>
 #include <brushfire/queries/distance_gradient.h>

@@ -123,6 +123,10 @@ void WeightedSolver::Workspace::locate(std::span<const Source> sources, const We
   run.given.assign(sources.begin(), sources.end());
   const double unit = mesh->mesh().unit();
   for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (sources[i].curve) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "source " + std::to_string(i) + " is a curve: weighted distances start at points");
+    }
     const std::vector<SurfacePoint> sides = mesh->on_open(sources[i].point);
     if (sides.empty()) {
       throw Error(ErrorCode::InvalidArgument,
