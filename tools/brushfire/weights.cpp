@@ -102,9 +102,9 @@ std::vector<EdgeCost> edge_costs(const std::string& file, const Surface& surface
 void add_weights(Verb& verb, WeightArguments& arguments) {
   verb.option("--weights", arguments.faces_file, "FIELD",
               "What a unit of length costs in each face, > 0; inf: a wall. One number per face: .npy, text");
-  verb.option(
-      "--edge-weights", arguments.edges_file, "FILE",
-      "Edges with costs: two vertices, cost along (inf: as in the faces), cost to cross; .npy or one to a line");
+  verb.option("--edge-weights", arguments.edges_file, "FILE",
+              "Edges with costs: two vertices, cost along (inf: as in the faces), cost to cross;\n"
+              ".npy or one to a line");
 }
 
 Weights weights_of(const WeightArguments& arguments, const Surface& surface) {
