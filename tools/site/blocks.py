@@ -306,7 +306,8 @@ def run_page(page: str, blocks: list[Block], scan: Path, environment: dict[str, 
 def run_all(everything: dict[str, list[Block]]) -> int:
     """Returns how many failed."""
     search = f"{PROGRAM.parent}:{Path(sys.executable).parent}:{os.environ['PATH']}"
-    environment = {**os.environ, "PATH": search, "LC_ALL": "C.UTF-8"}
+    os.environ["PATH"] = search  # for the scripts of files/, too
+    environment = {**os.environ, "LC_ALL": "C.UTF-8"}
     cpp = {page: [b for b in blocks if b.language == "c++" and b.reason is None] for page, blocks in everything.items()}
     cpp = {page: blocks for page, blocks in cpp.items() if blocks}
     with tempfile.TemporaryDirectory(prefix="brushfire-docs-") as home:

@@ -1,5 +1,8 @@
 """The files that the README's commands speak of, beside scan.ply."""
 
+import runpy
+from pathlib import Path
+
 import numpy as np
 from files.cortex import write_cortex
 
@@ -13,3 +16,4 @@ with open("landmarks.txt", "w") as file:
     file.write("0\n300\n600@0.05  # starts later\n")
 with open("seam.txt", "w") as file:
     file.writelines(f"{a} {b}\n" for a, b, _ in np.array(mesh.faces)[:5])
+runpy.run_path(str(Path(__file__).with_name("docs-weights.py")))
