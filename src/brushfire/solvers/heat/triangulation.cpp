@@ -142,7 +142,9 @@ double mean_edge_length(const Triangulation& t) {
 
 void mollify(Triangulation& t, double share) {
   const double mean = mean_edge_length(t);
-  const double least = mean > 0 ? share * mean : 1;  // all points at one place: any triangle will do
+  // All points at one place: triangles so small that nothing is far, whose fourth powers (of areas) still have numbers.
+  constexpr double kNowhere = 1e-60;
+  const double least = mean > 0 ? share * mean : kNowhere;
   double add = 0;
   for (std::size_t f = 0; f < t.face_count(); ++f) {
     const double* l = &t.length[3 * f];
