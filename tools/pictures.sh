@@ -24,4 +24,14 @@ $brushfire render "$scan" --source 0 --mask "$temporary/mask.txt" --isolines 30 
 $brushfire sample "$scan" --count 200 --lloyd --quiet >"$temporary/sites.txt"
 $brushfire render "$scan" --sources "$temporary/sites.txt" --labels --no-bar "${view[@]}" --size 480x420 \
   -o docs/images/cells.png
+# Weights (docs/weights.md): a terrain whose middle costs four times as much.
+$brushfire shape terrain --vertices 40000 -o "$temporary/terrain.obj" --quiet
+awk '/^v / { x[++n] = $2; y[n] = $3 }
+  /^f / { split($2, a, "/"); split($3, b, "/"); split($4, c, "/")
+    u = (x[a[1]] + x[b[1]] + x[c[1]]) / 3 - 0.5; v = (y[a[1]] + y[b[1]] + y[c[1]]) / 3 - 0.5
+    print u * u + v * v < 0.04 ? 4 : 1 }' "$temporary/terrain.obj" >"$temporary/weights.txt"
+$brushfire distance "$temporary/terrain.obj" --source 0 --weights "$temporary/weights.txt" --bound upper --quiet \
+  -o "$temporary/cost.npy"
+$brushfire render "$temporary/terrain.obj" --scalar "$temporary/cost.npy" --isolines 30 --bar-title cost --azimuth 250 \
+  --elevation 50 --size 640x480 -o docs/images/weights.png
 ls -l docs/images/bunny.png docs/images/error.png docs/images/brushfire.webp

@@ -189,7 +189,9 @@ class Cells(OnMesh):
         if (vertices is None) == (faces is None):
             raise BrushfireError("region: one of vertices and faces is needed")
         if faces is not None:
-            face, weights, starts = _core.region_of_faces(self._mesh, _arrays.numbers(faces, self._mesh.face_count, "faces"))
+            face, weights, starts = _core.region_of_faces(
+                self._mesh, _arrays.numbers(faces, self._mesh.face_count, "faces")
+            )
         else:
             inside = np.zeros(self._mesh.vertex_count, dtype=np.uint8)
             chosen = _arrays.numbers(vertices, self._mesh.vertex_count, "vertices")
@@ -228,9 +230,7 @@ class Cells(OnMesh):
         start = sources_of(self, sources, offset)
         chosen = options(method, tolerance, radius, bound, precision, threads)
         with shown(progress, "nearest sources") as report:
-            return _core.nearest_sources(
-                self._space, start, whole(count, "count", _MOST), chosen, report
-            )
+            return _core.nearest_sources(self._space, start, whole(count, "count", _MOST), chosen, report)
 
     def extent(
         self, *, within: float = 1e-9, most_runs: int = 0, threads: int = 1, progress: Progress = None
@@ -336,9 +336,7 @@ class Cells(OnMesh):
             )
         return Discs(*found)
 
-    def karcher_mean(
-        self, places: Places, weights: npt.ArrayLike | None = None, *, tolerance: float = 1e-6
-    ) -> Mean:
+    def karcher_mean(self, places: Places, weights: npt.ArrayLike | None = None, *, tolerance: float = 1e-6) -> Mean:
         """The point with the least weighted sum of squared distances from the places: their mean on the surface.
 
         :param places: vertices or points.

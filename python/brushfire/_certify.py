@@ -12,7 +12,6 @@ from brushfire._arrays import Floats, number
 from brushfire._curves import OnMesh
 from brushfire._errors import BrushfireError
 from brushfire._options import Tolerance, thread_count, tolerance_of
-from brushfire._places import Places
 from brushfire._progress import Progress, shown
 from brushfire._sources import Sources, sources_of
 

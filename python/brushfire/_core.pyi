@@ -57,7 +57,16 @@ class Solver:
 
 class WeightedSolver:
     def __init__(
-        self, domain: Space, face: _Floats | None, edge_vertices: _Ints, along: _Floats, crossing: _Floats
+        self,
+        domain: Space,
+        face: _Floats | None,
+        edge_vertices: _Ints,
+        along: _Floats,
+        crossing: _Floats,
+        slope: str,
+        slopes: _Floats | None,
+        paces: _Floats | None,
+        steepest: float,
     ) -> None: ...
     def solve(
         self,
@@ -69,6 +78,7 @@ class WeightedSolver:
         tolerance: float,
         refinements: int,
         lower: bool,
+        towards: bool,
         max_distance: float,
         progress: _Progress,
     ) -> tuple[_Floats, _Signed, _Floats | None, float, float]: ...
@@ -80,6 +90,7 @@ class WeightedSolver:
         target_index: _Ints,
         target_weights: _Floats | None,
         tolerance: float,
+        towards: bool,
         max_distance: float,
     ) -> tuple[_Signed, list[tuple[PathArrays, float, float, _Signed, _Floats, _Floats, _Floats, _Signed]]]: ...
 
@@ -116,6 +127,13 @@ class SignedHeatSolver(_Heat):
         soft_weight: float,
         preserve_normals: bool,
     ) -> _Floats: ...
+
+def isochrones(mesh: Mesh, values: _Floats, levels: _Floats) -> str: ...
+
+class Terrain:
+    mesh: Mesh
+    def __init__(self, heights: _Floats, columns: int, rows: int, placement: _Floats, no_data: float) -> None: ...
+    def below(self, xy: _Floats) -> tuple[_Signed, _Floats]: ...
 
 class CutMesh:
     mesh: Mesh
@@ -354,3 +372,11 @@ def traced_field(
     options: _Options,
     progress: _Progress,
 ) -> tuple[_Floats, _Signed, TracedField]: ...
+
+def flatten(
+    domain: Space, landmarks: int, cut: bool, options: _Options, progress: _Progress
+) -> tuple[Mesh, _Signed, _Signed, _Signed, _Floats, dict[str, float]]: ...
+def distortion(mesh: Mesh, uv: _Floats) -> dict[str, float]: ...
+def in_unit_square(uv: _Floats) -> _Floats: ...
+def write_texture(path: str, mesh: Mesh, uv: _Floats) -> None: ...
+def cut_to_disc(mesh: Mesh, base: int) -> list[tuple[int, int]]: ...

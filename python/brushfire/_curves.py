@@ -127,7 +127,9 @@ class Curves(OnMesh):
         (7.0, 5.0)
         """
         index, weights = self._joined(places, "places")
-        return self._path(_core.path(self._run(), index, weights, bool(closed), bool(tighten), number(radius, "radius")))
+        return self._path(
+            _core.path(self._run(), index, weights, bool(closed), bool(tighten), number(radius, "radius"))
+        )
 
     def paths(
         self, sources: Sources, targets: Places, *, offset: npt.ArrayLike = 0.0, radius: float = np.inf

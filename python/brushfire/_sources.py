@@ -52,7 +52,8 @@ class Curve:
     starts: npt.ArrayLike = (0,)
 
     def __repr__(self) -> str:
-        count = 1 if is_one(self.places) else len(self.places) if hasattr(self.places, "__len__") else "some"
+        places: Any = self.places
+        count = 1 if is_one(places) else len(places) if hasattr(places, "__len__") else "some"
         pieces = np.size(self.starts)
         return f"Curve({count} places{f' in {pieces} pieces' if pieces > 1 else ''}{', closed' if self.closed else ''})"
 

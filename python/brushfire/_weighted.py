@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +18,8 @@ from brushfire._places import Places
 from brushfire._progress import Progress, shown
 
 _TOLERANCE = 0.01
+
+Slope: TypeAlias = "str | tuple[npt.ArrayLike, npt.ArrayLike]"
 
 
 @dataclass(frozen=True)
@@ -83,15 +86,26 @@ def _edges(edge_weights: Any) -> tuple[npt.NDArray[np.int64], Floats, Floats]:
     return vertices, np.ascontiguousarray(table[:, 2]), np.ascontiguousarray(crossing)
 
 
+def _pace(slope: Slope | None) -> tuple[str, Floats | None, Floats | None]:
+    """A name, or slopes and paces."""
+    if slope is None or isinstance(slope, str):
+        return slope or "", None, None
+    if len(slope) != 2:
+        raise BrushfireError("slope: a name, or slopes and the paces there, two arrays, are needed")
+    return "", floats(slope[0], "slopes").ravel(), floats(slope[1], "paces").ravel()
+
+
 class Weighted:
     """A mesh and what it costs to cross its faces and edges; made by :meth:`Mesh.weighted`."""
 
-    def __init__(self, mesh: OnMesh, weights: npt.ArrayLike | None, edge_weights: npt.ArrayLike | None) -> None:
+    def __init__(self, mesh: OnMesh, weights: Any, edge_weights: Any, slope: Slope | None, steepest: float) -> None:
         face = None if weights is None else floats(weights, "weights")
         if face is not None and face.ndim != 1:
             raise BrushfireError(f"weights: one per face is needed, not an array of shape {face.shape}")
         self._on = mesh
-        self._solver = _core.WeightedSolver(mesh._space, face, *_edges(edge_weights))
+        self._solver = _core.WeightedSolver(
+            mesh._space, face, *_edges(edge_weights), *_pace(slope), number(steepest, "steepest")
+        )
 
     def distance(
         self,
@@ -101,12 +115,13 @@ class Weighted:
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         targets: Places | None = None,
+        towards: bool = False,
         progress: Progress = None,
     ) -> Floats:
         """What the cheapest path from the nearest of the sources costs: upper bounds, without lower ones in a fraction of
         the time of :meth:`costs`. Arguments as there; float64 (vertex_count,) or (targets,), +inf where there is no path.
         """
-        return self._solve(sources, tolerance, 0, False, offset, radius, targets, progress).upper
+        return self._solve(sources, tolerance, 0, False, towards, offset, radius, targets, progress).upper
 
     def costs(
         self,
@@ -117,6 +132,7 @@ class Weighted:
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         targets: Places | None = None,
+        towards: bool = False,
         progress: Progress = None,
     ) -> Costs:
         """What the cheapest path from the nearest of the sources costs, between proven bounds.
@@ -124,6 +140,7 @@ class Weighted:
         :param sources, offset, radius, targets, progress: as for :meth:`Mesh.distance`.
         :param tolerance: how far apart the bounds may be, relatively; in [1e-5, 1]. A wish: ``max_error_bound`` says what
             was reached.
+        :param towards: with a slope: what it costs to get to the sources, and not from them.
         :param refine: where the wish is not met everywhere, run again more finely, four times at most.
         :return: :class:`Costs`.
 
@@ -133,7 +150,7 @@ class Weighted:
         >>> bool((costs.lower <= costs.upper).all()), costs.max_error_bound < 0.02
         (True, True)
         """
-        return self._solve(sources, tolerance, 4 if refine else 0, True, offset, radius, targets, progress)
+        return self._solve(sources, tolerance, 4 if refine else 0, True, towards, offset, radius, targets, progress)
 
     def _solve(
         self,
@@ -141,6 +158,7 @@ class Weighted:
         tolerance: float,
         refinements: int,
         lower: bool,
+        towards: bool,
         offset: npt.ArrayLike,
         radius: float,
         targets: Places | None,
@@ -158,13 +176,20 @@ class Weighted:
                 number(tolerance, "tolerance"),
                 refinements,
                 lower,
+                bool(towards),
                 number(radius, "radius"),
                 report,
             )
         return Costs(upper, below, source, most, mean)
 
     def path(
-        self, source: Places, target: Places, *, tolerance: float = _TOLERANCE, radius: float = np.inf
+        self,
+        source: Places,
+        target: Places,
+        *,
+        tolerance: float = _TOLERANCE,
+        towards: bool = False,
+        radius: float = np.inf,
     ) -> WeightedPath:
         """The cheapest path from one place to another: see :meth:`paths`.
 
@@ -174,7 +199,7 @@ class Weighted:
         >>> round(path.cost, 6), path.weight.tolist(), path.face.tolist()
         (9.895461, [1.0, 3.0], [0, 1])
         """
-        found, _ = self.paths(source, target, tolerance=tolerance, radius=radius)
+        found, _ = self.paths(source, target, tolerance=tolerance, towards=towards, radius=radius)
         if len(found) != 1:
             raise BrushfireError("target: a single place is needed; paths() takes several")
         return found[0]
@@ -186,6 +211,7 @@ class Weighted:
         *,
         offset: npt.ArrayLike = 0.0,
         tolerance: float = _TOLERANCE,
+        towards: bool = False,
         radius: float = np.inf,
     ) -> tuple[list[WeightedPath], Labels]:
         """The cheapest path to every target from the source that is nearest to it. They are locally shortest: where they
@@ -201,6 +227,7 @@ class Weighted:
             end.index,
             end.weights,
             number(tolerance, "tolerance"),
+            bool(towards),
             number(radius, "radius"),
         )
         return [self._weighted_path(*p) for p in found], source
@@ -214,13 +241,22 @@ class WithWeights(OnMesh):
     """The weights of a Mesh."""
 
     def weighted(
-        self, weights: npt.ArrayLike | None = None, edge_weights: npt.ArrayLike | Iterable[Any] | None = None
+        self,
+        weights: npt.ArrayLike | None = None,
+        edge_weights: npt.ArrayLike | Iterable[Any] | None = None,
+        *,
+        slope: Slope | None = None,
+        steepest: float = np.inf,
     ) -> Weighted:
         """This mesh, with what it costs to cross its faces and edges.
 
         :param weights: per unit of length in each face, > 0; inf is a wall. None: 1 everywhere.
         :param edge_weights: rows of two vertices, the cost along the edge that joins them (inf: as in its faces) and, if
             wanted, the cost to cross it (inf: a wall).
+        :param slope: what slopes cost, up and down (z is up): ``"tobler"`` and ``"naismith"`` in seconds per metre on the
+            map, ``"energy"`` in J/kg per metre, or two arrays, slopes and the paces there, linear between; times the weights.
+            Upper bounds only, then.
+        :param steepest: with a slope: no step is steeper than this; steeper ground can still be traversed.
         :return: :class:`Weighted`, whose ``costs()``, ``distance()``, ``path()`` and ``paths()`` are those of the weights.
         :raises BrushfireError: for weights that are not > 0, as many as faces; for edges that do not exist.
 
@@ -232,4 +268,21 @@ class WithWeights(OnMesh):
         >>> road.cost, road.edge.tolist()
         (2.5, [[2, 0]])
         """
-        return Weighted(self, weights, edge_weights)
+        return Weighted(self, weights, edge_weights, slope, steepest)
+
+    def isochrones(self, values: npt.ArrayLike, levels: npt.ArrayLike) -> dict[str, Any]:
+        """Where the values are below each level, as polygons on the map: a GeoJSON FeatureCollection of MultiPolygons.
+
+        :param values: one per vertex, +inf where there is none, (vertex_count,): what it takes to get there.
+        :param levels: (k,); each one's polygons have it as their property ``level``.
+        :return: what ``json.dump`` writes; in the mesh's x and y. For terrain: no two faces over one another.
+
+        >>> import brushfire as bf
+        >>> ground = bf.terrain([[0, 0], [0, 0]])
+        >>> region = ground.mesh.isochrones([0, 1, 0, 1], [0.5])["features"][0]
+        >>> region["properties"], region["geometry"]["type"]
+        ({'level': 0.5}, 'MultiPolygon')
+        """
+        field = floats(values, "values").ravel()
+        found: dict[str, Any] = json.loads(_core.isochrones(self._mesh, field, np.atleast_1d(floats(levels, "levels"))))
+        return found

@@ -1,6 +1,6 @@
 """docs/python-objects.md anew: every object that the tests of from_any() know, of the libraries that are installed.
 
-    python python/peers/from_any_table.py > docs/python-objects.md
+python python/peers/from_any_table.py > docs/python-objects.md
 """
 
 from __future__ import annotations
@@ -68,7 +68,9 @@ def taken() -> list[str]:
             rows.append(row(name, library, message, "" if library == "not installed" else "NO"))
             continue
         same = np.allclose(mesh.vertices, cases.V, atol=1e-7) and np.array_equal(mesh.faces, cases.F)
-        rows.append(row(name, library, f"{mesh.vertex_count} vertices, {mesh.face_count} faces", "yes" if same else "NO"))
+        rows.append(
+            row(name, library, f"{mesh.vertex_count} vertices, {mesh.face_count} faces", "yes" if same else "NO")
+        )
     return rows
 
 

@@ -56,11 +56,9 @@ Result<double> unit_square(const Vector<double>& uv) {
 
 void write_texture(const std::string& path, const Mesh& mesh, const Vector<double>& uv) {
   const nb::gil_scoped_release release;
-  write_columns(path, mesh,
-                {.names = {"u", "v"},
-                 .values = {uv.data(), uv.shape(0)},
-                 .kind = Columns::Kind::Texture,
-                 .name = "flattening"});
+  write_columns(
+      path, mesh,
+      {.names = {"u", "v"}, .values = {uv.data(), uv.shape(0)}, .kind = Columns::Kind::Texture, .name = "flattening"});
 }
 
 nb::list disc_cuts(const Mesh& mesh, std::int64_t base) {

@@ -3,14 +3,37 @@
 #include "interrupt.h"
 
 #include <brushfire/core/error.h>
+#include <brushfire/mesh/terrain.h>
+#include <brushfire/queries/isochrones.h>
 #include <brushfire/queries/weighted_path.h>
 
 #include <mutex>
+#include <new>
 
 namespace brushfire::python {
 namespace {
 
 using OptionalWeights = std::optional<Triples<double>>;
+
+// A name, or slopes and the paces there; up to the steepest.
+std::optional<SlopePace> pace_from(const std::string& name, const std::optional<Vector<double>>& slopes,
+                                   const std::optional<Vector<double>>& paces, double steepest) {
+  std::optional<SlopePace> pace;
+  if (slopes && paces) {
+    pace = SlopePace::table({slopes->data(), slopes->shape(0)}, {paces->data(), paces->shape(0)});
+  } else if (name == "tobler") {
+    pace = SlopePace::tobler();
+  } else if (name == "naismith") {
+    pace = SlopePace::naismith();
+  } else if (name == "energy") {
+    pace = SlopePace::energy();
+  } else if (!name.empty()) {
+    throw Error(ErrorCode::InvalidArgument,
+                "unknown slope '" + name + "': it is tobler, naismith, energy, or (slopes, paces)");
+  }
+  if (pace && steepest < kInfinity) pace = pace->up_to(steepest);
+  return pace;
+}
 
 Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& face,
                      const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
@@ -39,8 +62,10 @@ Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& 
 class Weighted {
  public:
   Weighted(const Domain& domain, const std::optional<Vector<double>>& face, const Vector<std::int64_t>& edge_vertices,
-           const Vector<double>& along, const Vector<double>& crossing)
-      : solver_(domain, weights_from(domain, face, edge_vertices, along, crossing)) {}
+           const Vector<double>& along, const Vector<double>& crossing, const std::string& slope,
+           const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces, double steepest)
+      : solver_(domain, with_pace(weights_from(domain, face, edge_vertices, along, crossing),
+                                  pace_from(slope, slopes, paces, steepest))) {}
 
   const Mesh& mesh() const { return solver_.domain().mesh(); }
 
@@ -51,6 +76,11 @@ class Weighted {
   }
 
  private:
+  static Weights with_pace(Weights weights, std::optional<SlopePace> pace) {
+    weights.pace = std::move(pace);
+    return weights;
+  }
+
   WeightedSolver solver_;
   std::mutex mutex_;
 };
@@ -58,13 +88,14 @@ class Weighted {
 // (distance, source, lower bounds or None, greatest and mean relative error bound): of the targets where there are any.
 nb::tuple solve(Weighted& weighted, const Vector<std::int64_t>& index, const OptionalWeights& weights,
                 const Vector<double>& offsets, const std::optional<Vector<std::int64_t>>& target_index,
-                const OptionalWeights& target_weights, double tolerance, unsigned refinements, bool lower,
+                const OptionalWeights& target_weights, double tolerance, unsigned refinements, bool lower, bool towards,
                 double max_distance, nb::object progress) {
   Computation computation(std::move(progress));
   WeightedOptions options;
   options.tolerance = tolerance;
   options.refinements = refinements;
   options.lower = lower;
+  options.towards = towards;
   options.max_distance = max_distance;
   options.cancel = computation.cancel();
   options.progress = computation.progress();
@@ -76,7 +107,7 @@ nb::tuple solve(Weighted& weighted, const Vector<std::int64_t>& index, const Opt
   std::vector<double>& values = target_index ? field.target_distance : field.distance;
   std::vector<double>& below = target_index ? field.target_lower : field.lower;
   nb::object lower_bounds = nb::none();
-  if (lower) lower_bounds = nb::cast(to_numpy(std::move(below)));
+  if (!below.empty()) lower_bounds = nb::cast(to_numpy(std::move(below)));
   return nb::make_tuple(to_numpy(std::move(values)),
                         to_numpy_signed(std::move(target_index ? field.target_source : field.source)), lower_bounds,
                         field.max_error_bound, field.mean_error_bound);
@@ -100,11 +131,12 @@ nb::tuple path_arrays(const WeightedPath& path) {
 
 nb::tuple paths(Weighted& weighted, const Vector<std::int64_t>& index, const OptionalWeights& weights,
                 const Vector<double>& offsets, const Vector<std::int64_t>& target_index,
-                const OptionalWeights& target_weights, double tolerance, double max_distance) {
+                const OptionalWeights& target_weights, double tolerance, bool towards, double max_distance) {
   Computation computation{nb::none()};
   const std::vector<WeightedPath> found = computation.run(false, [&] {
     WeightedOptions options;
     options.tolerance = tolerance;
+    options.towards = towards;
     options.max_distance = max_distance;
     options.cancel = computation.cancel();
     const std::vector<SurfacePoint> targets = targets_from(weighted.mesh(), {target_index, target_weights});
@@ -120,21 +152,50 @@ nb::tuple paths(Weighted& weighted, const Vector<std::int64_t>& index, const Opt
   return nb::make_tuple(to_numpy_signed(std::move(nearest)), list);
 }
 
+// placement: origin, to the right, down; x and y each.
+void make_terrain(Terrain* place, const Vector<double>& heights, Index columns, Index rows,
+                  const Vector<double>& placement, double no_data) {
+  const double* p = placement.data();
+  new (place)
+      Terrain({heights.data(), heights.shape(0)}, columns, rows, {{p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}}, no_data);
+}
+
+// (face, weights); face -1 where there is no ground. x and y alternate.
+nb::tuple below(const Terrain& terrain, const Vector<double>& xy) {
+  std::vector<SurfacePoint> points;
+  for (std::size_t i = 0; i + 1 < xy.shape(0); i += 2) points.push_back(terrain.below(xy.data()[i], xy.data()[i + 1]));
+  return points_to_numpy(points);
+}
+
+std::string isochrones(const Mesh& mesh, const Vector<double>& values, const Vector<double>& levels) {
+  const nb::gil_scoped_release release;
+  return isochrones_as_geojson(mesh, {values.data(), values.shape(0)}, {levels.data(), levels.shape(0)});
+}
+
 }  // namespace
 
 void bind_weighted(nb::module_& m) {
   nb::class_<Weighted>(m, "WeightedSolver")
       .def(nb::init<const Domain&, const std::optional<Vector<double>>&, const Vector<std::int64_t>&,
-                    const Vector<double>&, const Vector<double>&>(),
+                    const Vector<double>&, const Vector<double>&, const std::string&,
+                    const std::optional<Vector<double>>&, const std::optional<Vector<double>>&, double>(),
            nb::arg("domain"), nb::arg("face").noconvert().none(), nb::arg("edge_vertices").noconvert(),
-           nb::arg("along").noconvert(), nb::arg("crossing").noconvert())
+           nb::arg("along").noconvert(), nb::arg("crossing").noconvert(), nb::arg("slope"),
+           nb::arg("slopes").noconvert().none(), nb::arg("paces").noconvert().none(), nb::arg("steepest"))
       .def("solve", solve, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
            nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert().none(),
            nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("refinements"), nb::arg("lower"),
-           nb::arg("max_distance"), nb::arg("progress").none())
+           nb::arg("towards"), nb::arg("max_distance"), nb::arg("progress").none())
       .def("paths", paths, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
            nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert(),
-           nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("max_distance"));
+           nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("towards"),
+           nb::arg("max_distance"));
+  m.def("isochrones", isochrones, nb::arg("mesh"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());
+  nb::class_<Terrain>(m, "Terrain")
+      .def("__init__", make_terrain, nb::arg("heights").noconvert(), nb::arg("columns"), nb::arg("rows"),
+           nb::arg("placement").noconvert(), nb::arg("no_data"))
+      .def_prop_ro("mesh", [](const Terrain& t) { return t.mesh(); })
+      .def("below", below, nb::arg("xy").noconvert());
 }
 
 }  // namespace brushfire::python

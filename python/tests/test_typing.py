@@ -38,6 +38,9 @@ def test_every_public_function_and_method_has_an_example():
     plain = {
         "MeshReport",
         "FileInfo",
+        "Flattening",
+        "Patches",
+        "ReebGraph",
         "Path",
         "LogMap",
         "At",
@@ -47,6 +50,7 @@ def test_every_public_function_and_method_has_an_example():
         "Descent",
         "DifferentiableDistance",
         "DistanceGradient",
+        "Distortion",
         "Errors",
         "Isoline",
         "Panel",

@@ -20,8 +20,10 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/mesh/subdivide.h>
 #include <brushfire/mesh/surface_point.h>
+#include <brushfire/mesh/terrain.h>
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/steiner/slope_pace.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
 #include <brushfire/solvers/steiner/weights.h>
 #include <brushfire/solvers/heat.h>
@@ -35,6 +37,7 @@
 #include <brushfire/queries/centroidal.h>
 #include <brushfire/queries/certify.h>
 #include <brushfire/queries/compare.h>
+#include <brushfire/queries/curve_sides.h>
 #include <brushfire/queries/curve_sources.h>
 #include <brushfire/queries/curved_isolines.h>
 #include <brushfire/queries/distance_gradient.h>
@@ -42,6 +45,7 @@
 #include <brushfire/queries/extent.h>
 #include <brushfire/queries/flatten.h>
 #include <brushfire/queries/gradient.h>
+#include <brushfire/queries/isochrones.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/karcher_mean.h>
 #include <brushfire/queries/log_coordinates.h>
@@ -63,6 +67,7 @@
 #include <brushfire/io/formats.h>
 #include <brushfire/io/npy.h>
 #include <brushfire/io/read_field.h>
+#include <brushfire/io/read_grid.h>
 #include <brushfire/io/read_lines.h>
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/io/unfinished.h>

@@ -3,6 +3,7 @@
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/window_field.h>
 
 #include <gtest/gtest.h>
 
@@ -156,7 +157,7 @@ TEST(NumberCases, AFiniteOffsetOfAnySizeIsAddedByEveryMethod) {
           const Source source{vertex_point(mesh, 0), offset};
           const DistanceField field = distance(mesh, std::span(&source, 1), options);
           EXPECT_EQ(field.distance[0], offset) << name_of(method) << " " << size;
-          const double error = method == Method::Heat ? 0.1 : 1e-6;  // on one face it approximates nothing
+          const double error = method == Method::Heat ? 0.4 : 1e-6;  // on one face it approximates nothing
           EXPECT_NEAR(field.distance[1], offset + size, error * size + kRounding * std::abs(offset))
               << name_of(method) << ", size " << size << ", offset " << offset;
           EXPECT_EQ(field.reached, 3u);
@@ -222,8 +223,8 @@ TEST(NumberCases, OffsetsOnAMeshWithoutSizeAreNoTies) {
   Shape shape = shapes::plane(3, 3, 1, 1);
   for (Vec3& p : shape.positions) p = {3, 0, 0};
   const Mesh mesh = shape.mesh();
-  const std::vector<Source> sources{{{9, {0, 0.25, 0.75}}, -38512.5}, {{15, {0.25, 0.5, 0.25}}, -330313.75},
-                                    {vertex_point(mesh, 2), 129603}};
+  const std::vector<Source> sources{
+      {{9, {0, 0.25, 0.75}}, -38512.5}, {{15, {0.25, 0.5, 0.25}}, -330313.75}, {vertex_point(mesh, 2), 129603}};
   for (const Method method : all_methods()) {
     const DistanceField field = field_of(mesh, sources, method);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -236,10 +237,10 @@ TEST(NumberCases, OffsetsOnAMeshWithoutSizeAreNoTies) {
   options.keep_windows = true;
   const DistanceField field = distance(mesh, sources, options);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const SurfacePath path = path_to(*field.windows, vertex_point(mesh, v));
-    EXPECT_EQ(path.length, 0) << v;
-    ASSERT_FALSE(path.points.empty()) << v;
-    EXPECT_EQ(path.points.front().face, 15u) << v;
+    EXPECT_EQ(path_to(*field.windows, vertex_point(mesh, v)).length, 0) << v;
+    WindowField::Leg leg = field.windows->last_leg(v);
+    while (leg.vertex != kNoIndex) leg = field.windows->last_leg(leg.vertex);
+    EXPECT_EQ(leg.source, 1u) << v;
   }
 }
 

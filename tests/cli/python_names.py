@@ -15,8 +15,8 @@ from pathlib import Path
 # What does the same as a verb, and what is done for every verb by functions that read, place, block and write.
 FUNCTIONS = {
     "info": [],
-    "distance": ["distance"],
-    "path": ["paths"],
+    "distance": ["distance", "weighted"],
+    "path": ["paths", "weighted"],
     "isolines": ["isolines", "curved_isolines", "distance"],
     "log-map": ["log_map"],
     "gradient": ["gradient", "distance"],
@@ -30,6 +30,7 @@ FUNCTIONS = {
     "parcels": ["parcels"],
     "smooth": ["smooth"],
     "convert": ["read_lines"],
+    "view": ["page"],
 }
 FOR_EVERY_VERB = {"read": {"weld"}, "at": {"snap_within"}, "walled": {"mask", "faces", "edges"},
                   "write": {"unit", "view", "outline"}}  # fmt: skip
@@ -38,7 +39,7 @@ NOT_IN_PYTHON = {
     "shape": "something to try the program on",
     "completion": "of a shell",
     "manual": "of a shell",
-    "view": "a Mesh shows itself in a notebook",
+    "flatten": "not yet",
 }
 
 # "verb --option" or "--option": what it is called in Python instead ("" for nothing), and why.
@@ -132,6 +133,8 @@ def differences(program: str, package: Package) -> list[str]:
     for verb in verbs:
         missing.discard(verb)
         if verb in NOT_IN_PYTHON:
+            if verb.replace("-", "_") in package.arguments:
+                found.append(f"{verb}: Python has {verb}() now")
             continue
         if verb not in FUNCTIONS:
             found.append(f"{verb}: which functions of Python do this?")

@@ -119,5 +119,37 @@ TEST_F(WeightFiles, WallsOfWeightsAreNotPassed) {
   EXPECT_EQ(ended.out, "inf\n");
 }
 
+TEST_F(WeightFiles, GridsBecomeTerrainThatIsWalkedInSecondsAndDrawnAsIsochrones) {
+  std::string grid = "ncols 21\nnrows 11\nxllcorner 995\nyllcorner 1995\ncellsize 10\nNODATA_value -1\n";
+  for (int y = 0; y < 11; ++y) {
+    for (int x = 0; x < 21; ++x) grid += x == 20 && y == 10 ? "-1 " : std::to_string(2 * x) + " ";
+    grid += "\n";
+  }
+  write("dem.asc", grid);
+  const Ended made = run_program({"terrain", path("dem.asc"), "-o", path("t.ply"), "--json"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(nlohmann::json::parse(made.out).at("faces"), 2 * 20 * 10 - 1);
+  // Slope 0.2: up at 6 exp(-3.5 * 0.25) km/h, down at 6 exp(-3.5 * 0.15).
+  const auto seconds = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"distance", path("t.ply"), "-s", "105", "-t", "125", "--slope", "tobler"});
+    return number(run_program(more));
+  };
+  const double up = seconds({}), down = seconds({"--towards"});
+  EXPECT_NEAR(up, 200 * 0.6 * std::exp(3.5 * 0.25), 0.03 * up);
+  EXPECT_NEAR(down, 200 * 0.6 * std::exp(3.5 * 0.15), 0.03 * down);
+  write("slopes.txt", "-1 2\n1 2\n");
+  EXPECT_NEAR(
+      number(run_program({"path", path("t.ply"), "--from", "105", "--to", "125", "--slope", path("slopes.txt")})), 400,
+      1e-6);
+  ASSERT_EQ(run_program({"distance", path("t.ply"), "-s", "105", "--slope", "tobler", "-o", path("s.npy")}).code, 0);
+  const Ended drawn = run_program({"isochrones", path("t.ply"), path("s.npy"), "--levels", "60,120"});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  const auto json = nlohmann::json::parse(drawn.out);
+  EXPECT_EQ(json.at("features").size(), 2);
+  EXPECT_EQ(json.at("features").at(0).at("geometry").at("coordinates").size(), 1);
+  EXPECT_EQ(run_program({"distance", path("t.ply"), "-s", "5", "--steepest", "1", "--weights", path("w.txt")}).code, 2);
+  EXPECT_EQ(run_program({"terrain", path("m.off"), "-o", path("x.ply")}).code, 3);
+}
+
 }  // namespace
 }  // namespace brushfire::test

@@ -155,6 +155,17 @@ Draft fans(Dice& dice) {
   return draft(s);
 }
 
+// As they are: their many ties are what is awkward. Or with a rim that is torn a little, or much.
+Draft bipyramids(Dice& dice) {
+  const auto rim = static_cast<Index>(dice.between(3, 48));
+  const double height = dice.power(-6, 6);
+  Shape s = shape_of(oracle::bipyramid(rim, height, dice.chance(0.6) ? height : dice.power(-6, 6)));
+  const double torn = dice.chance(0.4) ? 0 : dice.power(-15, 0);
+  for (Vec3& p : s.positions) p = (1 + torn * dice.sign_and_unit()) * p;
+  if (dice.chance(0.2)) mutilate(s, dice);
+  return draft(s);
+}
+
 // Every face two or three times, either way round. The copies come last.
 Draft doubled(Dice& dice) {
   Shape s = dice.chance(0.3) ? shapes::cylinder(2, static_cast<Index>(dice.between(3, 8)), 1, dice.power(-1, 1))
@@ -326,6 +337,7 @@ std::span<const Family> small_families() {
       {"needles", "rows of altitude 1e-16 .. 0.1, and 0", needles},
       {"thin-strips", "bands of 60 triangles, 1e-9 .. 1e4 long", thin_strip},
       {"fans", "60 triangles around a vertex, saddles, spokes of any length", fans},
+      {"bipyramids", "two tips over one rim, of any heights, rims torn", bipyramids},
       {"doubled", "every face two or three times", doubled},
       {"sheets", "sheets at one place, joined here and there", coincident_sheets},
       {"sheared", "sheared by up to 1e9", sheared},

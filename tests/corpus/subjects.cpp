@@ -72,6 +72,7 @@ std::vector<Subject> large_subjects(std::uint64_t seed, double share) {
   return {
       {"fan, closed", [=] { return oracle::fan(sized(1e6, share), true); }},
       {"fan, open, waves", [=] { return oracle::fan(sized(1e6, share), false, 0.3, 7); }},
+      {"bipyramid", [=] { return oracle::bipyramid(sized(5e5, share), 1, 1); }},
       {"strip", [=] { return oracle::strip(sized(1e6, share), 1e-3); }},
       {"strip of needles", [=] { return oracle::strip(sized(1e6, share), 1e-7); }},
       {"1e5 components",

@@ -4,6 +4,7 @@
 #include <brushfire/queries/surface_curves.h>
 #include <brushfire/queries/voronoi.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/windows/engine.h>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +16,7 @@
 
 #include "curves/random_curves.h"
 #include "curves/surfaces.h"
+#include "support/engine_run.h"
 #include "support/same_field.h"
 
 namespace brushfire {
@@ -115,6 +117,42 @@ TEST(Curves, GiveTheSameBitsOnAnyNumberOfThreadsAndAgain) {
       how.threads = threads;
       test::expect_equal_bits(solver.distance(sources, how), alone, std::to_string(threads) + " threads");
     }
+  }
+}
+
+// Parts of 64 faces, side by side.
+TEST(Curves, CrossThePartsOfAMesh) {
+  for (const auto& [name, mesh] : test::small_surfaces()) {
+    const auto whole = windows::make_windows(mesh, 31, windows::Merging::Always);
+    const auto parts = windows::make_windows(mesh, 6, windows::Merging::Always);
+    for (unsigned seed = 0; seed < 4; ++seed) {
+      const std::vector<Source> sources{source_along(walk_on(mesh, seed)), {{0, {0.25, 0.25, 0.5}}, 0.02}};
+      for (const DistanceOptions& how :
+           {DistanceOptions{.method = Method::Exact}, DistanceOptions{.tolerance = 1e-3}}) {
+        const DistanceField a = test::run(*whole, mesh, sources, how), b = test::run(*parts, mesh, sources, how);
+        for (Index v = 0; v < mesh.vertex_count(); ++v) {
+          if (a.distance[v] == kInfinity && b.distance[v] == kInfinity) continue;
+          ASSERT_NEAR(a.distance[v], b.distance[v], a.error_bound[v] + b.error_bound[v]) << name << ", seed " << seed;
+        }
+      }
+    }
+  }
+}
+
+TEST(Curves, ReadTheSameInSparseFields) {
+  const Mesh mesh = shapes::folded_sphere(3).mesh();
+  const std::vector<Source> sources{source_along(walk_on(mesh, 5))};
+  for (const Method method : {Method::Exact, Method::Windows, Method::CarriedSource, Method::Dijkstra}) {
+    const DistanceOptions how{.method = method, .max_distance = 0.4, .targets = {{7, {0.5, 0.25, 0.25}}}};
+    DistanceSolver solver(mesh);
+    const DistanceField dense = solver.distance(sources, how);
+    const SparseField sparse = solver.distance_sparse(sources, how);
+    ASSERT_EQ(sparse.vertex.size(), dense.reached) << name_of(method);
+    for (std::size_t i = 0; i < sparse.vertex.size(); ++i) {
+      EXPECT_EQ(sparse.distance[i], dense.distance[sparse.vertex[i]]) << name_of(method);
+      EXPECT_EQ(sparse.source[i], 0U) << name_of(method);
+    }
+    EXPECT_EQ(sparse.target_distance, dense.target_distance) << name_of(method);
   }
 }
 

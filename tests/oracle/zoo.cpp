@@ -183,6 +183,21 @@ Mesh fan(Index count, bool closed, double height, int waves) {
   return Mesh(p, t);
 }
 
+Mesh bipyramid(Index count, double height, double depth) {
+  Positions p{{0, 0, height}, {0, 0, -depth}};
+  Faces t;
+  for (Index k = 0; k < count; ++k) {
+    const double angle = 2 * kPi * k / count;
+    p.push_back({std::cos(angle), std::sin(angle), 0});
+  }
+  for (Index k = 0; k < count; ++k) {
+    const Index a = 2 + k, b = 2 + (k + 1) % count;
+    t.push_back({0, a, b});
+    t.push_back({1, b, a});
+  }
+  return Mesh(p, t);
+}
+
 Mesh strip(Index count, double step) {
   Positions p;
   Faces t;

@@ -33,6 +33,9 @@ Mesh flat_torus(Index columns, Index rows, double width, double height);
 // `count` triangles around vertex 0, closed or open, on a circle of radius 1 with the height swinging `waves` times.
 Mesh fan(Index count, bool closed, double height = 0, int waves = 0);
 
+// Two tips, vertices 0 and 1, at these heights over and under a rim of `count` vertices on a circle of radius 1.
+Mesh bipyramid(Index count, double height, double depth);
+
 // A band of `count` triangles, 1 high and `step` per vertex long, lower vertices even, upper vertices odd.
 Mesh strip(Index count, double step);
 

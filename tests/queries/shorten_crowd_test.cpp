@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Shorten, Crowd,
                                          std::pair{"folds", shapes::folded_sphere(3).mesh()},
                                          std::pair{"book", shapes::book(3, 7, 9).mesh()},
                                          std::pair{"cone", shapes::cone(8, 16, 0.5, 3).mesh()}),
-                         [](const auto& info) { return info.param.first; });
+                         [](const auto& crowd) { return crowd.param.first; });
 
 }  // namespace
 }  // namespace brushfire

@@ -137,6 +137,8 @@ void add_view(CommandLine& command_line);
 void add_bench(CommandLine& command_line);
 void add_convert(CommandLine& command_line);
 void add_shape(CommandLine& command_line);
+void add_terrain(CommandLine& command_line);
+void add_isochrones(CommandLine& command_line);
 void add_completion(CommandLine& command_line);
 void add_manual(CommandLine& command_line);
 

@@ -45,8 +45,8 @@ Examples:
   brushfire distance bunny.ply --source 0 -o - | sort -t, -gk2 | tail -1
 
 The extension of -o decides: .ply (MeshLab; colours, and the distance as vertex quality), .vtk .vtp (ParaView), .obj
-(colours only), .npy (float64), .csv, .json, .gii, .curv. Only .json tells vertices that were not visited from those that
-cannot be reached.
+(colours only), .npy (float64), .csv, .json, .gii, .curv. Only .json tells vertices that were not visited from those
+that cannot be reached.
 Without -o and --target the result is told in words. Targets print one distance per line, inf and exit code 4
 where no source reaches; the run ends once their distances are final, so that a file written beside them may hold less
 than all. Vertices that cannot be reached, or lie beyond the radius, read inf in files.)";

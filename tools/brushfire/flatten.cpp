@@ -33,8 +33,8 @@ struct Arguments {
 };
 
 void write(const Arguments& a, const Flattening& flat) {
-  const bool is_list = a.output == "-" || a.output.ends_with(".csv") || a.output.ends_with(".json") ||
-                       a.output.ends_with(".npy");
+  const bool is_list =
+      a.output == "-" || a.output.ends_with(".csv") || a.output.ends_with(".json") || a.output.ends_with(".npy");
   const std::vector<std::array<double, 2>> uv = is_list ? flat.uv : in_unit_square(flat.uv);
   std::vector<double> rows;
   for (std::size_t v = 0; v < uv.size(); ++v) {
@@ -53,8 +53,8 @@ int flatten_verb(const Arguments& a, const Talk& talk) {
   options.landmarks = static_cast<Index>(a.landmarks.value_or(static_cast<int>(options.landmarks)));
   const Surface surface(a.file, a.shared);
   stop_if_interrupted();
-  const Flattening flat = surface.domain().has_walls() ? flatten(surface.domain(), options)
-                                                       : flatten(surface.mesh(), options);
+  const Flattening flat =
+      surface.domain().has_walls() ? flatten(surface.domain(), options) : flatten(surface.mesh(), options);
   if (!a.output.empty()) write(a, flat);
   const Distortion& d = flat.distortion;
   if (talk.json) {
@@ -90,9 +90,9 @@ void add_flatten(CommandLine& command_line) {
   command_line.add("flatten", "The surface laid flat: texture coordinates", [&](Verb& verb) {
     add_surface(verb, a->file);
     verb.option("--landmarks", a->landmarks, "N", whole_from(3, 10000), "Vertices whose distances are used (100)");
-    verb.option(
-        "-o,--output", a->output, "FILE",
-        ("Write the coordinates: " + extensions_of(columns_written(Columns::Kind::Texture)) + "; - prints CSV").c_str());
+    verb.option("-o,--output", a->output, "FILE",
+                ("Write the coordinates: " + extensions_of(columns_written(Columns::Kind::Texture)) + "; - prints CSV")
+                    .c_str());
     verb.talks();
     add_shared(verb, a->shared,
                {.without = {{kStarting, "landmarks are chosen, each the farthest from those before"},

@@ -8,6 +8,7 @@ void add_verbs(CommandLine& command_line) {
   add_distance(command_line);
   add_path(command_line);
   add_isolines(command_line);
+  add_isochrones(command_line);
   add_log_map(command_line);
   add_flatten(command_line);
   add_gradient(command_line);
@@ -24,6 +25,7 @@ void add_verbs(CommandLine& command_line) {
   add_bench(command_line);
   add_convert(command_line);
   add_shape(command_line);
+  add_terrain(command_line);
   add_completion(command_line);
   add_manual(command_line);
 }

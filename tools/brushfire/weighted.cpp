@@ -23,7 +23,7 @@ std::int64_t count(std::uint64_t n) { return static_cast<std::int64_t>(n); }
 // What both verbs need: the mesh, weights, sources and targets.
 struct Scene {
   Scene(const WeightedRequest& request, const Talk& talk)
-      : options(weighted_computation(request.shared)),
+      : options(weighted_computation(request.shared, request.weights)),
         source_places(parse_sources(request.shared)),
         target_places(parse_places(request.targets, "a target")),
         surface(request.file, request.shared),
@@ -49,6 +49,8 @@ Record head(const WeightedRequest& request, const Scene& scene) {
       .add("method", std::string(scene.solver->weights().uniform() > 0 ? "windows" : "steiner"))
       .add("weights", request.weights.faces_file)
       .add("edge_weights", request.weights.edges_file)
+      .add("slope", request.weights.slope)
+      .add("towards", request.weights.towards)
       .add("tolerance", scene.options.tolerance)
       .add("sources", count(scene.sources.size()))
       .add("radius", scene.options.max_distance)

@@ -97,6 +97,20 @@ std::vector<EdgeCost> edge_costs(const std::string& file, const Surface& surface
   return edges;
 }
 
+// A name, or a file of slopes and paces.
+SlopePace pace_of(const std::string& slope) {
+  if (slope == "tobler") return SlopePace::tobler();
+  if (slope == "naismith") return SlopePace::naismith();
+  if (slope == "energy") return SlopePace::energy();
+  std::vector<double> slopes, paces;
+  for (const std::vector<double>& row : rows_of(slope)) {
+    if (row.size() != 2) refuse("--slope " + slope + ": a line is a slope and the pace there, two numbers");
+    slopes.push_back(row[0]);
+    paces.push_back(row[1]);
+  }
+  return SlopePace::table(slopes, paces);
+}
+
 }  // namespace
 
 void add_weights(Verb& verb, WeightArguments& arguments) {
@@ -105,22 +119,36 @@ void add_weights(Verb& verb, WeightArguments& arguments) {
   verb.option(
       "--edge-weights", arguments.edges_file, "FILE",
       "Edges with costs: two vertices, cost along (inf: as in the faces), cost to cross; .npy or one to a line");
+  verb.option(
+      "--slope", arguments.slope, "NAME",
+      "What slopes cost, up and down: tobler, naismith (seconds per metre), energy (J/kg), or a file of slopes and "
+      "paces");
+  verb.option("--steepest", arguments.steepest, "S", kPositive,
+              "With --slope: no step is steeper than this (0.5: 27 degrees)");
+  verb.flag("--towards", arguments.towards, "With --slope: what it costs to get to the sources, not from them");
 }
 
 Weights weights_of(const WeightArguments& arguments, const Surface& surface) {
   Weights weights;
   if (!arguments.faces_file.empty()) weights.face = face_weights(arguments.faces_file, surface);
   if (!arguments.edges_file.empty()) weights.edges = edge_costs(arguments.edges_file, surface);
+  if (!arguments.slope.empty()) weights.pace = pace_of(arguments.slope);
+  if (weights.pace && arguments.steepest) weights.pace = weights.pace->up_to(*arguments.steepest);
   return weights;
 }
 
-WeightedOptions weighted_computation(const SharedArguments& a) {
+WeightedOptions weighted_computation(const SharedArguments& a, const WeightArguments& weights) {
   if (const char* name = given(a, {Shared::Method, Shared::Precision})) {
     refuse(std::string(name) + ": with --weights there is one method, points on edges");
   }
+  if (weights.slope.empty() && (weights.steepest || weights.towards)) {
+    refuse(std::string(weights.towards ? "--towards" : "--steepest") + ": without --slope it makes no difference");
+  }
+  if (!weights.slope.empty() && a.bound == "lower") refuse("--bound lower: with --slope there are upper bounds only");
   DistanceOptions plain = computation(a);
   WeightedOptions options;
   options.tolerance = given(a, {Shared::Tolerance}) ? plain.tolerance : kDefaultTolerance;
+  options.towards = weights.towards;
   options.lower = plain.bound != Bound::Upper;
   options.max_distance = plain.max_distance;
   options.cancel = plain.cancel;

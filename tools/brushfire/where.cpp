@@ -16,11 +16,9 @@ namespace brushfire::tool {
 namespace {
 
 [[noreturn]] void refuse(std::string_view text, const char* why) {
-  throw Error(
-      ErrorCode::InvalidArgument,
-      in_quotes(text) + " is no place on a mesh: " + why +
-          "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2); a source may "
-          "also be a curve (boundary, path:0,250, chain:3,4,5, region:FILE:LABEL, curve.obj)");
+  throw Error(ErrorCode::InvalidArgument,
+              in_quotes(text) + " is no place on a mesh: " + why +
+                  "; write a vertex (17), a face and weights (f:120:.2,.3,.5) or a position (at:1.5,0,-2)");
 }
 
 // The whole text as a count; one too large for 64 bits reads as the largest: it is out of range either way.

@@ -70,9 +70,7 @@ class DiscCutter {
   }
   bool is_boundary(Index h) const { return mesh_.opposite()[h] == h; }
   bool reaches(Index h) const { return value_[mesh_.from(h)] < kInfinity; }
-  bool in_tree(Index h) const {
-    return parent_[mesh_.from(h)] == mesh_.to(h) || parent_[mesh_.to(h)] == mesh_.from(h);
-  }
+  bool in_tree(Index h) const { return parent_[mesh_.from(h)] == mesh_.to(h) || parent_[mesh_.to(h)] == mesh_.from(h); }
   std::array<Index, 2> ends(Index h) const {
     return {std::min(mesh_.from(h), mesh_.to(h)), std::max(mesh_.from(h), mesh_.to(h))};
   }
@@ -128,9 +126,9 @@ class DiscCutter {
   const Mesh& mesh_;
   const Index base_;
   Index farthest_ = 0;
-  std::vector<double> value_;           // [vertex_count] along edges, from the base
-  std::vector<Index> parent_;   // [vertex_count] in the tree
-  std::vector<bool> is_seam_;   // [halfedge_count] by the lower halfedge of an edge
+  std::vector<double> value_;  // [vertex_count] along edges, from the base
+  std::vector<Index> parent_;  // [vertex_count] in the tree
+  std::vector<bool> is_seam_;  // [halfedge_count] by the lower halfedge of an edge
 };
 
 }  // namespace

@@ -147,9 +147,9 @@ Flattening laid_flat(Flattening flat, const FlattenOptions& options) {
   DistanceOptions how = options.distance;
   how.targets.clear();
   how.keep_paths = how.keep_windows = false;
-  const auto used = static_cast<Index>(
-      std::count_if(flat.original_vertex.begin(), flat.original_vertex.end(),
-                    [&, v = Index{0}](Index) mutable { return !mesh.corners(v++).empty(); }));
+  const auto used =
+      static_cast<Index>(std::count_if(flat.original_vertex.begin(), flat.original_vertex.end(),
+                                       [&, v = Index{0}](Index) mutable { return !mesh.corners(v++).empty(); }));
   flat.landmarks = farthest_points(mesh, std::min(options.landmarks, used), {}, how).vertices;
   const Rows distance = fields_of(mesh, flat.landmarks, how);
   require_one_piece(mesh, distance);
@@ -169,8 +169,8 @@ void check(const Mesh& mesh, const FlattenOptions& options) {
 
 Distortion distortion_of(const Mesh& mesh, std::span<const std::array<double, 2>> uv) {
   if (uv.size() != mesh.vertex_count()) {
-    throw Error(ErrorCode::InvalidArgument, std::to_string(uv.size()) + " coordinates for " +
-                                                std::to_string(mesh.vertex_count()) + " vertices");
+    throw Error(ErrorCode::InvalidArgument,
+                std::to_string(uv.size()) + " coordinates for " + std::to_string(mesh.vertex_count()) + " vertices");
   }
   Distortion d{0, 0, 0, kInfinity, 0, 0};
   double area = 0, turned_area = 0;

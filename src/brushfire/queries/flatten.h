@@ -1,4 +1,5 @@
-// Flattening: coordinates in the plane whose straight distances are the geodesic ones as nearly as can be, for textures.
+// Flattening: coordinates in the plane whose straight distances are the geodesic ones as nearly as can be, for
+// textures.
 //
 // Example:
 //     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;
@@ -28,8 +29,8 @@ namespace brushfire {
 std::vector<std::array<Index, 2>> cut_to_disc(const Mesh& mesh, Index base);
 
 struct FlattenOptions {
-  Index landmarks = 100;  // at least 3; farthest points. Each costs one field
-  bool cut = true;        // along cut_to_disc() from the first landmark; else as it is
+  Index landmarks = 100;          // at least 3; farthest points. Each costs one field
+  bool cut = true;                // along cut_to_disc() from the first landmark; else as it is
   DistanceOptions distance = {};  // method, tolerance, threads (of one field), cancel, progress
 };
 
@@ -44,11 +45,11 @@ struct Distortion {
 };
 
 struct Flattening {
-  Mesh mesh;                                 // the mesh, cut open
-  std::vector<Index> original_vertex;        // [mesh.vertex_count()] in the whole
-  std::vector<Index> original_face;          // [mesh.face_count()]
-  std::vector<Index> landmarks;              // vertices of `mesh`
-  std::vector<std::array<double, 2>> uv;     // [mesh.vertex_count()] in the mesh's units; NaN for vertices in no face
+  Mesh mesh;                              // the mesh, cut open
+  std::vector<Index> original_vertex;     // [mesh.vertex_count()] in the whole
+  std::vector<Index> original_face;       // [mesh.face_count()]
+  std::vector<Index> landmarks;           // vertices of `mesh`
+  std::vector<std::array<double, 2>> uv;  // [mesh.vertex_count()] in the mesh's units; NaN for vertices in no face
   Distortion distortion;
 };
 

@@ -29,6 +29,10 @@ SurfacePoint point_of(const steiner::WeightedMesh& weighted, const Stop& stop) {
   return point;
 }
 
+double height_of(const steiner::WeightedMesh& weighted, const Stop& stop) {
+  return position(weighted.mesh(), point_of(weighted, stop)).z;
+}
+
 WeightedLeg leg_of(const Run& run, const Strip& strip, std::size_t k) {
   const steiner::WeightedMesh& weighted = *run.mesh;
   const Leg& leg = strip.legs[k];
@@ -36,6 +40,11 @@ WeightedLeg leg_of(const Run& run, const Strip& strip, std::size_t k) {
   result.length = length_of(weighted, strip, k) * weighted.mesh().unit();
   result.weight = leg.weight;
   result.toll = strip.stops[k].toll * weighted.mesh().unit();
+  if (weighted.pace() != nullptr && result.length > 0) {
+    const double rise = height_of(weighted, strip.stops[k + 1]) - height_of(weighted, strip.stops[k]);
+    const steiner::Travel travel{weighted.pace(), run.towards};
+    result.weight *= travel.cost(result.length, rise) / result.length;
+  }
   Index face = leg.face;
   if (face == kNoIndex) {
     const Index h = weighted.edges().halfedge(leg.edge);
@@ -61,6 +70,10 @@ WeightedPath path_of(const Run& run, const Strip& strip) {
   }
   // A fence at the very end is paid without a leg.
   if (!strip.legs.empty()) path.cost += strip.stops.back().toll * run.mesh->mesh().unit();
+  if (run.towards) {
+    std::reverse(path.points.begin(), path.points.end());
+    std::reverse(path.legs.begin(), path.legs.end());
+  }
   return path;
 }
 
@@ -71,7 +84,7 @@ WeightedPath path_to(const Run& run, std::size_t target) {
       std::min_element(values.begin(), values.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   if (best == values.end() || best->value == kInfinity) return {};
   Strip strip = weighted::trace(run, run.targets[target][static_cast<std::size_t>(best - values.begin())], *best);
-  make_locally_shortest(*run.mesh, strip);
+  if (run.mesh->pace() == nullptr) make_locally_shortest(*run.mesh, strip);
   return path_of(run, strip);
 }
 

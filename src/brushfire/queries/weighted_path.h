@@ -40,7 +40,10 @@ struct WeightedPath : SurfacePath {
 // of where they cross edges, and none of the side on which they pass a vertex, makes them cheaper; where they cross an
 // edge they obey Snell's law to rounding. Costs are without the sources' offsets. Of a path that the run misses by more
 // than its tolerance, a cheaper one elsewhere, `lower` tells. With one weight everywhere they are the shortest paths,
-// exactly. Throws as WeightedSolver::distance() does. A millisecond or so for each path of some hundred legs.
+// exactly. Where
+// slopes count, paths are those of the search, whose cost is within its tolerance or so, and are not straightened; with
+// WeightedOptions::towards they lead from the target to the source. Throws as WeightedSolver::distance() does. A
+// millisecond or so for each path of some hundred legs.
 std::vector<WeightedPath> weighted_paths(WeightedSolver& solver, std::span<const Source> sources,
                                          std::span<const SurfacePoint> targets, WeightedOptions options = {});
 

@@ -29,6 +29,12 @@ FaceOver Places::over(Index h) const {
   const double from_end = mesh.lengths()[same_way ? Mesh::next(h) : Mesh::previous(h)];
   over.apex = over.length > 0 ? apex_over_edge(over.length, from_start, from_end, mesh.double_areas()[over.face])
                               : Vec2{from_start, 0};
+  if (travel_.pace != nullptr) {
+    const Index apex = mesh.from(Mesh::previous(h));
+    over.gradient.x = gradient_along(over.edge);
+    const double rise = mesh_.height(apex) - mesh_.height(over.start) - over.gradient.x * over.apex.x;
+    if (over.apex.y > 0) over.gradient.y = rise / over.apex.y;
+  }
   return over;
 }
 
@@ -42,7 +48,8 @@ std::vector<RowBeside> Places::beside(const PointLocation& place) const {
   const Index own = mesh_.edges().edge(place.halfedge);
   const double length = mesh.lengths()[place.halfedge];
   const bool same_way = mesh.from(place.halfedge) == end_of(own, false);
-  rows.push_back({own, mesh_.edge_weight(own), {(same_way ? place.t : 1 - place.t) * length, 0}, true, 0});
+  const double along = (same_way ? place.t : 1 - place.t) * length;
+  rows.push_back({own, mesh_.edge_weight(own), {along, 0}, {gradient_along(own), 0}, true, 0});
   for (const Index f : faces_at(mesh, place)) {
     for (Index k = 0; k < 3; ++k) {
       if (mesh_.edges().edge(3 * f + k) != own) add_beside(3 * f + k, place, rows);
@@ -64,18 +71,27 @@ void Places::add_beside(Index h, const PointLocation& place, std::vector<RowBesi
     if (v == o.end) at = at + (*weights)[k] * Vec2{o.length, 0};
     if (v != o.end && v != o.start) at = at + (*weights)[k] * o.apex;
   }
-  rows.push_back({o.edge, mesh_.face_weight(f), at, false, rounding_of(o)});
+  rows.push_back({o.edge, mesh_.face_weight(f), at, o.gradient, false, rounding_of(o)});
 }
 
 // Along the place's own edge a lowered cost is the distance from the interval that holds it.
-double Places::distance_to(const RowBeside& row, Index i) const {
+double Places::cost_between(const RowBeside& row, Index i, double sense) const {
   const double* at = layout_.at_row(row.edge);
-  if (costs_ == Costs::Real) return std::hypot(row.place.x - at[i], row.place.y);
+  if (costs_ == Costs::Real) {
+    const Vec2 way = sense * (Vec2{at[i], 0} - row.place);
+    return travel_.cost(norm(way), dot(way, row.gradient));
+  }
   const Index count = layout_.count(row.edge);
   if (!row.under) return lower_cost(at, count, i, row.place.x, row.place.y, row.rounding);
   const auto above = static_cast<Index>(std::lower_bound(at, at + count, row.place.x) - at);
   if (i >= above) return at[i] - at[std::min(above, count - 1)];
   return above > 0 ? at[above - 1] - at[i] : 0;
+}
+
+double Places::gradient_along(Index edge) const {
+  const double length = mesh_.mesh().lengths()[mesh_.edges().halfedge(edge)];
+  if (travel_.pace == nullptr || length == 0) return 0;
+  return (mesh_.height(end_of(edge, true)) - mesh_.height(end_of(edge, false))) / length;
 }
 
 ValueAt Places::straight_from(std::span<const detail::LocatedSource> sources, const PointLocation& place) const {
@@ -94,7 +110,11 @@ ValueAt Places::straight_from(std::span<const detail::LocatedSource> sources, co
         }
       }
       if (weight == kInfinity) continue;
-      const double value = sources[s].offset + weight * distance_within(mesh, f, *a, *b);
+      double rise = 0;
+      for (std::size_t k = 0; k < 3 && travel_.pace != nullptr; ++k) {
+        rise += ((*b)[k] - (*a)[k]) * mesh_.height(mesh.faces()[f][k]);
+      }
+      const double value = sources[s].offset + weight * travel_.cost(distance_within(mesh, f, *a, *b), rise);
       if (value < best.value) best = {value, kFromSource + static_cast<Index>(s)};
     }
   }
@@ -126,7 +146,7 @@ ValueAt Places::value(const Front& front, std::span<const detail::LocatedSource>
       continue;
     }
     for (Index i = 0; i < layout_.count(row.edge); ++i) {
-      const double value = front.value[layout_.row(row.edge) + i] + row.weight * distance_to(row, i);
+      const double value = front.value[layout_.row(row.edge) + i] + row.weight * cost_to(row, i);
       if (value < best.value) best = {value, layout_.row(row.edge) + i};
     }
   }

@@ -1,8 +1,8 @@
 // From either end of an edge the points lie as an exponential function of their number, up to where the halves meet.
 #include <brushfire/solvers/steiner/detail/point_layout.h>
 
-#include <brushfire/core/error.h>
 #include <brushfire/core/detail/memory.h>
+#include <brushfire/core/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,8 +102,8 @@ PointLayout::PointLayout(const WeightedMesh& weighted, const Density& density) {
     for (const int k : {0, 1}) {
       const Index v = k == 0 ? mesh.from(edges.halfedge(e)) : mesh.to(edges.halfedge(e));
       // An altitude that has vanished in rounding says nothing, and no interval needs to be shorter than this.
-      const double least = density.least * std::max(std::min(height[weighted.vertex(v)], shape.length),
-                                                    shape.length * 0x1p-20);
+      const double least =
+          density.least * std::max(std::min(height[weighted.vertex(v)], shape.length), shape.length * 0x1p-20);
       halves.emplace_back(k == 0 ? split : shape.length - split, density.growth * shape.sine[k], least,
                           std::max<Index>(1, density.most / 2));
     }
@@ -117,8 +117,9 @@ PointLayout::PointLayout(const WeightedMesh& weighted, const Density& density) {
   require_memory(size * kBytes, 0, "a search over " + std::to_string(size) + " points on edges",
                  "a larger tolerance needs fewer");
   if (size >= std::uint64_t{1} << 31) {
-    throw Error(ErrorCode::TooLarge, std::to_string(size) + " points on edges are more than 2^31: a larger tolerance "
-                                                            "needs fewer");
+    throw Error(ErrorCode::TooLarge, std::to_string(size) +
+                                         " points on edges are more than 2^31: a larger tolerance "
+                                         "needs fewer");
   }
   rows_.push_back(0);
   at_.reserve(size);

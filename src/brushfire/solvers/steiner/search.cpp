@@ -19,13 +19,18 @@ double mean_length(const WeightedMesh& weighted) {
 }
 
 void resize(LowerTerms& terms, Index room) {
-  for (std::vector<double>* v : {&terms.height, &terms.reach, &terms.variance, &terms.quotient, &terms.ceiling}) v->assign(room, 0);
+  for (std::vector<double>* v : {&terms.height, &terms.reach, &terms.variance, &terms.quotient, &terms.ceiling})
+    v->assign(room, 0);
 }
 
 }  // namespace
 
-Search::Search(const WeightedMesh& mesh, const PointLayout& layout, Costs costs)
-    : mesh_(mesh), layout_(layout), costs_(costs), places_(mesh, layout, costs) {
+Search::Search(const WeightedMesh& mesh, const PointLayout& layout, Costs costs, bool towards)
+    : mesh_(mesh),
+      layout_(layout),
+      costs_(costs),
+      travel_{mesh.pace(), towards},
+      places_(mesh, layout, costs, travel_) {
   const double width = kBucketWidth * mean_length(mesh) * mesh.mean_weight();
   width_ = width > 0 && width < kInfinity ? width : 1;
   offers_.value.resize(layout.longest_row());
@@ -88,7 +93,7 @@ void Search::start(const detail::LocatedSource& source, Index number) {
   for (const RowBeside& row : places_.beside(source.at)) {
     if (row.weight == kInfinity) continue;
     for (Index i = 0; i < layout_.count(row.edge); ++i) {
-      const double value = source.offset + row.weight * places_.distance_to(row, i);
+      const double value = source.offset + row.weight * places_.cost_from(row, i);
       if (value < front_.value[layout_.row(row.edge) + i]) improve(row.edge, i, value, parent);
     }
   }
@@ -118,8 +123,7 @@ void Search::mark(Index edge, Index j, double value) {
   first_[edge] = std::min(first_[edge], j);
   last_[edge] = std::max(last_[edge], j);
   constexpr double kLastBucket = 0x1p62;
-  const auto bucket =
-      std::max(static_cast<RowQueue::Bucket>(std::min(value / width_, kLastBucket)), queue_.cursor());
+  const auto bucket = std::max(static_cast<RowQueue::Bucket>(std::min(value / width_, kLastBucket)), queue_.cursor());
   if (bucket >= waiting_[edge]) return;
   waiting_[edge] = bucket;
   queue_.push(edge, bucket);
@@ -137,7 +141,8 @@ void Search::send(Index edge) {
   Index h = begin;
   do {
     const Index f = Mesh::face_of(h);
-    if (mesh_.mesh().is_face_usable(f) && mesh_.face_weight(f) < kInfinity) send_into_face(places_.over(h), first, last);
+    if (mesh_.mesh().is_face_usable(f) && mesh_.face_weight(f) < kInfinity)
+      send_into_face(places_.over(h), first, last);
     h = opposite[h];
   } while (h != begin);
   cross(edge, first, last);
@@ -149,9 +154,11 @@ void Search::sweep(Index edge, Index& first, Index& last) {
   if (weight == kInfinity) return;
   const double* at = layout_.at_row(edge);
   const Index count = layout_.count(edge), from = first, to = last;
-  for (Index j = from; j + 1 < count && j <= last; ++j) step(edge, j, j + 1, weight * (at[j + 1] - at[j]), first, last);
+  const double gradient = places_.gradient_along(edge);
+  const double up = weight * travel_.cost(1, gradient), down = weight * travel_.cost(1, -gradient);
+  for (Index j = from; j + 1 < count && j <= last; ++j) step(edge, j, j + 1, up * (at[j + 1] - at[j]), first, last);
   for (Index j = std::max(to, last); j > 0 && j >= first; --j) {
-    step(edge, j, j - 1, weight * (at[j] - at[j - 1]), first, last);
+    step(edge, j, j - 1, down * (at[j] - at[j - 1]), first, last);
   }
 }
 
@@ -178,17 +185,23 @@ void Search::send_into_face(const FaceOver& over, Index first, Index last) {
 
 void Search::send_to_row(const FaceOver& over, Index target, Index first, Index last) {
   const double* values = front_.value.data() + layout_.row(over.edge);
-  const Offering from{layout_.at_row(over.edge), values, first, last, *std::min_element(values + first, values + last + 1)};
+  const Offering from{layout_.at_row(over.edge), values, first, last,
+                      *std::min_element(values + first, values + last + 1)};
   const auto place = [&](Index v) {
     return v == over.start ? Vec2{} : v == over.end ? Vec2{over.length, 0} : over.apex;
   };
-  Receiving to{layout_.at_row(target), front_.value.data() + layout_.row(target), place(end_of(target, false)), {},
+  Receiving to{layout_.at_row(target),
+               front_.value.data() + layout_.row(target),
+               place(end_of(target, false)),
+               {},
                layout_.room(target)};
   const double length = to.at[layout_.count(target) - 1];
   if (length > 0) to.direction = (1 / length) * (place(end_of(target, true)) - to.start);
   const double weight = mesh_.face_weight(over.face);
   bool lower;
-  if (costs_ == Costs::Real) {
+  if (travel_.pace != nullptr) {
+    lower = relax_sloped_rows(from, to, weight, over.gradient, travel_, offers_);
+  } else if (costs_ == Costs::Real) {
     lower = BRUSHFIRE_ON_TARGET(Variant::Best, relax_rows(from, to, weight, offers_));
   } else {
     find_lower_terms(over, target, to);

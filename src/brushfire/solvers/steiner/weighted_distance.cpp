@@ -88,8 +88,8 @@ struct WeightedSolver::Workspace {
   Domain domain{Mesh()};
   Weights weights;
   double uniform = 0;
-  std::unique_ptr<DistanceSolver> plain;      // where the weight is uniform
-  std::shared_ptr<const WeightedMesh> mesh;   // elsewhere
+  std::unique_ptr<DistanceSolver> plain;     // where the weight is uniform
+  std::shared_ptr<const WeightedMesh> mesh;  // elsewhere
   struct LaidOut {
     Density density;
     std::shared_ptr<const PointLayout> points;
@@ -123,6 +123,10 @@ void WeightedSolver::Workspace::locate(std::span<const Source> sources, const We
   run.given.assign(sources.begin(), sources.end());
   const double unit = mesh->mesh().unit();
   for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (sources[i].curve) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "source " + std::to_string(i) + " is a curve: weighted distances start at points");
+    }
     const std::vector<SurfacePoint> sides = mesh->on_open(sources[i].point);
     if (sides.empty()) {
       throw Error(ErrorCode::InvalidArgument,
@@ -144,12 +148,12 @@ void WeightedSolver::Workspace::search(Run& run, const WeightedOptions& options,
                                        WeightedField& field) const {
   std::vector<PointLocation> places;
   for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
-  const double unit = mesh->mesh().unit(), share = options.lower ? 0.1 : 1;
+  const double unit = mesh->mesh().unit(), share = below_points ? 0.1 : 1;
   SearchLimits limits{(options.max_distance - run.base) / unit, places, {}};
   if (options.progress) limits.progress = [&](double done) { options.progress(share * done); };
   if (!options.targets.empty() && places.empty()) limits.max_value = -1;  // all targets are nowhere
   {
-    Search real(*mesh, *run.layout, Costs::Real);
+    Search real(*mesh, *run.layout, Costs::Real, options.towards);
     real.run(run.sources, limits);
     for (const auto& sides : run.targets) {
       std::vector<ValueAt>& values = run.target_values.emplace_back();
@@ -165,8 +169,7 @@ void WeightedSolver::Workspace::search(Run& run, const WeightedOptions& options,
   fill_lower(below, run, options, field);
 }
 
-void WeightedSolver::Workspace::fill_upper(const Run& run, const WeightedOptions& options,
-                                           WeightedField& field) const {
+void WeightedSolver::Workspace::fill_upper(const Run& run, const WeightedOptions& options, WeightedField& field) const {
   const double unit = mesh->mesh().unit(), horizon = run.front.horizon;
   const Index count = domain.mesh().vertex_count();
   const auto label = [&](Index parent) {
@@ -231,11 +234,12 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
   if (!mesh) mesh = std::make_shared<WeightedMesh>(domain, weights);
   auto run = std::make_shared<Run>();
   run->mesh = mesh;
+  run->towards = options.towards;
   run->layout = points_for(Costs::Real, options, doublings);
   locate(sources, options, *run);
   WeightedField field;
   std::shared_ptr<const PointLayout> below;
-  if (options.lower) below = points_for(Costs::Below, options, doublings);
+  if (options.lower && !weights.pace) below = points_for(Costs::Below, options, doublings);
   search(*run, options, below.get(), field);
   field.points = run->layout->size() + (below ? below->size() : 0);
   field.run = std::move(run);
@@ -292,7 +296,8 @@ WeightedField WeightedSolver::distance(std::span<const Source> sources, const We
   check(options);
   if (workspace_->uniform > 0) return workspace_->run_uniform(sources, options);
   WeightedField field = workspace_->run(sources, options, 0);
-  for (unsigned k = 1; k <= options.refinements && field.max_error_bound > options.tolerance; ++k) {
+  for (unsigned k = 1; k <= options.refinements && !field.lower.empty() && field.max_error_bound > options.tolerance;
+       ++k) {
     field = workspace_->run(sources, options, k);
     field.refinements = k;
   }

@@ -1,4 +1,5 @@
-// weighted_distance(): what it costs to get from sources to every vertex where not all places are equally easy to cross.
+// weighted_distance(): what it costs to get from sources to every vertex where not all places are equally easy to
+// cross.
 //
 // Example:
 //     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;
@@ -37,18 +38,21 @@ struct WeightedOptions {
   double tolerance = 0.01;
   // Where the wish is not met at every vertex, run again with points twice as dense, this many times at most.
   unsigned refinements = 0;
-  bool lower = true;                        // false: upper bounds only, in a third of the time
-  double max_distance = kInfinity;          // vertices that cost more read +inf; >= 0, may be +inf
-  std::vector<SurfacePoint> targets = {};   // where there are any, it stops once all of them are final
+  // Where slopes count: sources are where one goes to, and not where one comes from.
+  bool towards = false;
+  bool lower = true;                       // false: upper bounds only, in a third of the time
+  double max_distance = kInfinity;         // vertices that cost more read +inf; >= 0, may be +inf
+  std::vector<SurfacePoint> targets = {};  // where there are any, it stops once all of them are final
   Progress progress = {};
-  const CancelToken* cancel = nullptr;      // null: what the thread listens to
+  const CancelToken* cancel = nullptr;  // null: what the thread listens to
 };
 
 // Costs are those of the cheapest paths, plus the sources' offsets. [vertex_count] unless said otherwise.
 struct WeightedField {
   std::vector<double> distance;  // an upper bound, which a real path has; +inf: unreachable or beyond max_distance
-  std::vector<double> lower;     // a lower bound, proven (docs/weights.md); empty where none was asked for
-  std::vector<Index> source;     // whose path it is: position in the caller's list; kNoIndex: none
+  // A lower bound, proven (docs/weights.md); empty where none was asked for, and where slopes count.
+  std::vector<double> lower;
+  std::vector<Index> source;                          // whose path it is: position in the caller's list; kNoIndex: none
   std::vector<double> target_distance, target_lower;  // [targets]
   std::vector<Index> target_source;                   // [targets]
   // The greatest (distance - lower) / lower, without offsets, over all vertices (or targets, where there are any) that
@@ -56,8 +60,8 @@ struct WeightedField {
   double max_error_bound = kInfinity;
   double mean_error_bound = kInfinity;
   Index reached = 0;
-  std::uint64_t points = 0;     // on edges, the vertices' copies among them; 0 where the weight is the same everywhere
-  unsigned refinements = 0;     // done
+  std::uint64_t points = 0;  // on edges, the vertices' copies among them; 0 where the weight is the same everywhere
+  unsigned refinements = 0;  // done
   std::shared_ptr<const steiner::Run> run;  // for weighted_path(); null where the weight is the same everywhere
 };
 

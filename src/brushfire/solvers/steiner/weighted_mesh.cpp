@@ -49,7 +49,7 @@ std::vector<double> on_open(const Domain& domain, const std::vector<double>& wei
 
 Weights opened(const Domain& domain, const Weights& weights) {
   check(domain.mesh(), weights);
-  return {on_open(domain, weights.face), on_open(domain, merged(weights.edges))};
+  return {on_open(domain, weights.face), on_open(domain, merged(weights.edges)), weights.pace};
 }
 
 Barriers barriers_of(const Mesh& mesh, const Weights& weights) {
@@ -77,6 +77,7 @@ WeightedMesh::WeightedMesh(const Domain& domain, const Weights& weights)
 WeightedMesh::WeightedMesh(const Domain& domain, const Opened& given)
     : domain_(domain), fenced_(fenced(domain.open(), given.weights)), edges_(fenced_.open()) {
   const Weights& opened = given.weights;
+  pace_ = opened.pace;
   const Mesh& open = mesh();
   face_weight_.resize(open.face_count());
   double sum = 0;
@@ -84,7 +85,7 @@ WeightedMesh::WeightedMesh(const Domain& domain, const Opened& given)
     face_weight_[f] = opened.face[fenced_.face(f)];
     sum += 1 / face_weight_[f];
   }
-  if (sum > 0) mean_weight_ = open.face_count() / sum;
+  if (sum > 0) mean_weight_ = open.face_count() / sum * (pace_ ? pace_->least() : 1);
   edge_weight_.assign(edges_.count(), kInfinity);
   for (Index h = 0; h < open.halfedge_count(); ++h) {
     double& w = edge_weight_[edges_.edge(h)];

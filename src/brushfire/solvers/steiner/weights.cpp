@@ -57,7 +57,7 @@ void check_edge(const Mesh& mesh, const EdgeCost& edge, const std::vector<double
 }  // namespace
 
 double Weights::uniform() const {
-  if (!edges.empty()) return 0;
+  if (!edges.empty() || pace) return 0;
   if (face.empty()) return 1;
   const bool same =
       face.front() < kInfinity && std::all_of(face.begin(), face.end(), [&](double w) { return w == face.front(); });
@@ -66,6 +66,9 @@ double Weights::uniform() const {
 
 void check(const Mesh& mesh, const Weights& weights) {
   check_faces(mesh, weights.face);
+  if (weights.pace && !mesh.has_positions()) {
+    throw Error(ErrorCode::InvalidArgument, "slopes need positions, and this mesh has lengths only");
+  }
   for (const EdgeCost& edge : weights.edges) check_edge(mesh, edge, weights.face);
 }
 

@@ -3,8 +3,10 @@
 
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/steiner/slope_pace.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace brushfire {
@@ -26,8 +28,11 @@ struct Weights {
   // [face_count] per unit of length in the face, > 0; +inf: a wall, as in Barriers::faces. Empty: 1 everywhere.
   std::vector<double> face = {};
   std::vector<EdgeCost> edges = {};  // of an edge that is named twice the lowest of `along`, the highest of `crossing`
+  // Where set, a unit of length does not cost its weight, but that times what the pace is at its slope, for a unit of
+  // length on the map. z is up, and the mesh must have positions. Paths from a to b and from b to a then differ.
+  std::optional<SlopePace> pace = std::nullopt;
 
-  // The weight of all faces where they have one and the same and no edge is special; 0 where that is not so.
+  // The weight of all faces where they have one and the same, no edge is special and no slope counts; else 0.
   double uniform() const;
 };
 

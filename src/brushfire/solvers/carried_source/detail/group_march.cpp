@@ -14,8 +14,8 @@
 namespace brushfire::carried_source {
 namespace {
 
-constexpr std::size_t kOffsetAhead = 16, kRecordAhead = 8, kEndsAhead = 3, kRecordLines = 8, kCacheLine = 64;
-constexpr Index kUsualSides = 6;
+constexpr std::size_t kOffsetAhead = 16, kRecordAhead = 8, kEndsAhead = 3, kRecordLines = 10, kCacheLine = 64;
+constexpr Index kUsualSides = 8;
 
 BRUSHFIRE_INLINE BucketQueue::Bucket group_bucket(float bucket) {
   constexpr float kLast = 0x1p60f;

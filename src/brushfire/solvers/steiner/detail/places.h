@@ -4,6 +4,7 @@
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/steiner/detail/point_layout.h>
+#include <brushfire/solvers/steiner/detail/travel.h>
 
 #include <cstdint>
 #include <span>
@@ -38,6 +39,7 @@ struct FaceOver {
   Index start = kNoIndex, end = kNoIndex;  // the edge's vertices
   double length = 0;
   Vec2 apex;
+  Vec2 gradient;  // of the height, where slopes count
 };
 
 // Where a place is in the frame of an edge beside it, or under it.
@@ -45,29 +47,34 @@ struct RowBeside {
   Index edge = kNoIndex;
   double weight = 0;
   Vec2 place;
+  Vec2 gradient;  // of the height
   bool under = false;
   double rounding = 0;  // of distances from it
 };
 
 class Places {
  public:
-  Places(const WeightedMesh& mesh, const PointLayout& layout, Costs costs)
-      : mesh_(mesh), layout_(layout), costs_(costs) {}
+  Places(const WeightedMesh& mesh, const PointLayout& layout, Costs costs, const Travel& travel)
+      : mesh_(mesh), layout_(layout), costs_(costs), travel_(travel) {}
 
   Index end_of(Index edge, bool last) const {
     const Index h = mesh_.edges().halfedge(edge);
     return last ? mesh_.mesh().to(h) : mesh_.mesh().from(h);
   }
+  // By how much an edge climbs per length, from its start on; 0 where slopes do not count.
+  double gradient_along(Index edge) const;
   // The face of a halfedge over its edge.
   FaceOver over(Index h) const;
   // The rows of the faces that hold a place which is not a vertex; of an edge also its own.
   std::vector<RowBeside> beside(const PointLocation& place) const;
-  // From the place to point i of the row, without its weight.
-  double distance_to(const RowBeside& row, Index i) const;
+  // Between the place and point i of the row, from the place or to it, without the weight.
+  double cost_from(const RowBeside& row, Index i) const { return cost_between(row, i, 1); }
+  double cost_to(const RowBeside& row, Index i) const { return cost_between(row, i, -1); }
   // What a front says of any place. O(points on the rows around it).
   ValueAt value(const Front& front, std::span<const detail::LocatedSource> sources, const PointLocation& place) const;
 
  private:
+  double cost_between(const RowBeside& row, Index i, double sense) const;
   void add_beside(Index h, const PointLocation& place, std::vector<RowBeside>& rows) const;
   ValueAt straight_from(std::span<const detail::LocatedSource> sources, const PointLocation& place) const;
   ValueAt between_points(const Front& front, const RowBeside& row) const;
@@ -75,6 +82,7 @@ class Places {
   const WeightedMesh& mesh_;
   const PointLayout& layout_;
   Costs costs_;
+  Travel travel_;
 };
 
 }  // namespace brushfire::steiner

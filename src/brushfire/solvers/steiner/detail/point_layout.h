@@ -11,9 +11,9 @@
 
 namespace brushfire::steiner {
 
-// How dense. With s the sine of the angle at a vertex (the least of the faces beside the edge), the interval at distance
-// t from the vertex is `growth` * s * t + `least` * height long, with the least altitude of a face over the edges at the
-// vertex. No edge has more than `most` intervals.
+// How dense. With s the sine of the angle at a vertex (the least of the faces beside the edge), the interval at
+// distance t from the vertex is `growth` * s * t + `least` * height long, with the least altitude of a face over the
+// edges at the vertex. No edge has more than `most` intervals.
 struct Density {
   double growth = 0.3, least = 0.05;
   Index most = 64;
@@ -22,7 +22,8 @@ struct Density {
 };
 
 // Every edge has a row of points: its first vertex, points between, its last vertex; then room up to a multiple of
-// kLanes, which lies at the last vertex. Points are numbered along the rows. Both sides of a fence have the same points.
+// kLanes, which lies at the last vertex. Points are numbered along the rows. Both sides of a fence have the same
+// points.
 class PointLayout {
  public:
   static constexpr Index kLanes = 4;

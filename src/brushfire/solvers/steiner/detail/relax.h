@@ -3,6 +3,7 @@
 
 #include <brushfire/core/detail/lanes.h>
 #include <brushfire/core/types.h>
+#include <brushfire/solvers/steiner/detail/travel.h>
 
 #include <vector>
 
@@ -42,6 +43,11 @@ struct Offers {
 // By how much a distance in a face may be off for the rounding of its coordinates, as a share of the longest edge: they
 // have two roundings each, their squares, sum and root one.
 inline constexpr double kPlaceRounding = 0x1p-48;
+
+// Real costs where slopes count: `gradient` is that of the height, in the frame of the offering edge. As relax_rows()
+// in the kernel, one pair of points after the other.
+bool relax_sloped_rows(const Offering& from, const Receiving& to, double weight, Vec2 gradient, const Travel& travel,
+                       Offers& offers);
 
 }  // namespace brushfire::steiner
 

@@ -37,11 +37,11 @@ inline bool relax_rows_below(const Offering& from, const Receiving& to, double w
     if (any(V(from.least) < old)) {
       const V x = to.start.x + at * to.direction.x, y = to.start.y + at * to.direction.y, yy = y * y;
       const V height = load<V>(far.height.data() + j), reach = load<V>(far.reach.data() + j),
-              variance = load<V>(far.variance.data() + j), quotient = load<V>(far.quotient.data() + j), ceiling = load<V>(far.ceiling.data() + j);
+              variance = load<V>(far.variance.data() + j), quotient = load<V>(far.quotient.data() + j),
+              ceiling = load<V>(far.ceiling.data() + j);
       for (Index i = from.first; i <= from.last; ++i) {
         const V dx = x - from.at[i], d = square_root(dx * dx + yy) - rounding;
-        const V apart =
-            greater(greater(d - reach - near.reach[i], V(kTiny)), greater(height, V(near.height[i])));
+        const V apart = greater(greater(d - reach - near.reach[i], V(kTiny)), greater(height, V(near.height[i])));
         const V square = apart * apart;
         const V spread = lesser(quotient * square, variance) + lesser(near.quotient[i] * square, V(near.variance[i]));
         const V share = apart / square_root(square + spread);

@@ -14,6 +14,7 @@ struct Run {
   std::vector<detail::LocatedSource> sources;  // on mesh->mesh(); labels are positions in the caller's list
   double base = 0;                             // the least offset, in the caller's units: fronts start from there
   Front front;                                 // of real costs
+  bool towards = false;                        // the sources are where one goes to
   std::vector<Source> given;                   // the caller's
   // The caller's targets on mesh->mesh(), one list each: a place on a wall has sides.
   std::vector<std::vector<PointLocation>> targets;

@@ -24,7 +24,9 @@ struct SearchLimits {
 
 class Search {
  public:
-  Search(const WeightedMesh& mesh, const PointLayout& layout, Costs costs);
+  // `towards`: sources are where one goes to, which tells a difference where slopes count. Those are for real costs
+  // only.
+  Search(const WeightedMesh& mesh, const PointLayout& layout, Costs costs, bool towards = false);
 
   // Polls what the thread listens to. The sources' offsets are >= 0.
   void run(std::span<const detail::LocatedSource> sources, const SearchLimits& limits);
@@ -52,13 +54,14 @@ class Search {
   const WeightedMesh& mesh_;
   const PointLayout& layout_;
   Costs costs_;
+  Travel travel_;
   Places places_;
   std::span<const detail::LocatedSource> sources_;
   double width_ = 1;  // of a bucket
   RowQueue queue_;
   Front front_;
-  std::vector<Index> first_, last_;             // [edges] what has changed since the row was last sent
-  std::vector<RowQueue::Bucket> waiting_;    // [edges] the bucket it waits in
+  std::vector<Index> first_, last_;        // [edges] what has changed since the row was last sent
+  std::vector<RowQueue::Bucket> waiting_;  // [edges] the bucket it waits in
   Offers offers_;
   LowerTerms near_, far_;
 };

@@ -31,6 +31,9 @@ class WeightedMesh {
   std::span<const Bridge> bridges(Index edge) const;
   std::span<const Bridge> all_bridges() const { return bridges_; }
   double mean_weight() const { return mean_weight_; }  // harmonic, so that walls and marshes do not count
+  // Where slopes count: null elsewhere.
+  const SlopePace* pace() const { return pace_ ? &*pace_ : nullptr; }
+  double height(Index v) const { return mesh().positions()[v].z / mesh().unit(); }
 
   // Points and vertices of the caller's mesh there and back, as those of Domain.
   std::vector<SurfacePoint> on_open(const SurfacePoint& point) const;
@@ -51,6 +54,7 @@ class WeightedMesh {
   std::vector<double> face_weight_, edge_weight_;
   std::vector<Bridge> bridges_;  // by `from`
   double mean_weight_ = 1;
+  std::optional<SlopePace> pace_;
 };
 
 }  // namespace brushfire::steiner

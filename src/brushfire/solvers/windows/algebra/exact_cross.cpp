@@ -1,6 +1,7 @@
 // The loops over lists: straight-line arithmetic without branches, which compilers turn into vector instructions.
 #include <brushfire/solvers/windows/algebra/exact_cross.h>
 
+#include <brushfire/solvers/windows/algebra/propagate.h>
 #include <brushfire/solvers/windows/algebra/wide.h>
 
 #include <algorithm>
@@ -18,8 +19,10 @@ Index without_slivers(const WindowColumns& w, Index count) {
   Index kept = 0;
   for (Index i = 0; i < count; ++i) {
     const Real width = w.b1[i] - w.b0[i];
-    const bool visible = w.y[i] < 0 || (w.y[i] == 0 && w.x[i] > w.b0[i] && w.x[i] < w.b1[i]);
-    if (!visible || !(width > 0) || !(width > kSliver * length_of(w.x[i] - w.b0[i], w.y[i]))) continue;
+    const bool linear = w.is_linear(i);
+    const bool visible = linear || w.y[i] < 0 || (w.y[i] == 0 && w.x[i] > w.b0[i] && w.x[i] < w.b1[i]);
+    const Real scale = linear ? w.b1[i] : length_of(w.x[i] - w.b0[i], w.y[i]);
+    if (!visible || !(width > 0) || !(width > kSliver * scale)) continue;
     if (kept != i) w.move(kept, i);
     ++kept;
   }
@@ -39,6 +42,33 @@ BRUSHFIRE_WIDE void look(const Real* __restrict b0, const Real* __restrict b1, c
     left[i] = l;
     right[i] = r;
     value[i] = (l < r ? l : r) > -near * along ? straight : kInfinity;
+  }
+}
+
+// The same loops for lists with linear windows, which are told by y > 0 (WindowColumns): the weight of the origin is 1
+// or 0, as in window.h.
+BRUSHFIRE_WIDE void look_mixed(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict x,
+                               const Real* __restrict y, const Real* __restrict sigma, std::ptrdiff_t count, Vec2 apex,
+                               Real near, Real* __restrict left, Real* __restrict right, Real* __restrict value) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const Real circular = y[i] > 0 ? 0.0 : 1.0, below = y[i] > 0 ? -y[i] : y[i];
+    const Real across = x[i] * apex.y - below * apex.x, along = circular * apex.y - below;
+    const Real dx = apex.x - x[i];
+    const Real l = across - b0[i] * along, r = b1[i] * along - across;
+    const Real way = sqrt(dx * dx + along * along), rise = -(apex.x * x[i] + apex.y * below);
+    left[i] = l;
+    right[i] = r;
+    value[i] = (l < r ? l : r) > -near * along ? sigma[i] + (y[i] > 0 ? rise : way) : kInfinity;
+  }
+}
+
+BRUSHFIRE_WIDE void ends_mixed(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict x,
+                               const Real* __restrict y, const Real* __restrict sigma, std::ptrdiff_t count,
+                               Real* __restrict d0, Real* __restrict d1) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const Real p = b0[i] - x[i], q = b1[i] - x[i], h = y[i] * y[i];
+    d0[i] = sigma[i] + (y[i] > 0 ? -(b0[i] * x[i]) : sqrt(p * p + h));
+    d1[i] = sigma[i] + (y[i] > 0 ? -(b1[i] * x[i]) : sqrt(q * q + h));
   }
 }
 
@@ -131,7 +161,8 @@ void look_at_apex(const WindowColumns& w, Index count, const Frame& frame, Sight
     sight.right.resize(2 * count);
     sight.value.resize(2 * count);
   }
-  look(w.b0, w.b1, w.x, w.y, w.sigma, count, frame.apex, kNearMiss * frame.length, sight.left.data(),
+  const auto loop = w.mixed ? look_mixed : look;
+  loop(w.b0, w.b1, w.x, w.y, w.sigma, count, frame.apex, kNearMiss * frame.length, sight.left.data(),
        sight.right.data(), sight.value.data());
 }
 
@@ -150,7 +181,8 @@ namespace {
 
 // Where the ray to the apex crosses the edge.
 Real place_of_apex(const WindowColumns& w, const Frame& frame, Index i) {
-  return (w.x[i] * frame.apex.y - w.y[i] * frame.apex.x) / (frame.apex.y - w.y[i]);
+  const Vec2 s = w.source(i);
+  return (s.x * frame.apex.y - s.y * frame.apex.x) / (origin_weight(w.kind(i)) * frame.apex.y - s.y);
 }
 
 // Whether a window that sees the apex, and loses to the best one there, has to go on to the left, to the right.
@@ -158,6 +190,11 @@ struct Way {
   bool left = true, right = true;
 };
 Way way_of_loser(const WindowColumns& w, const Frame& frame, Index best, Real best_place, Index i) {
+  // Limit rays that cross behind the edge are told by where sources lie: of circular ones.
+  if (w.is_linear(i) || w.is_linear(best)) {
+    const bool is_left = place_of_apex(w, frame, i) <= best_place;
+    return {is_left || w.b0[i] < best_place, !is_left || w.b1[i] > best_place};
+  }
   const Vec2 s{w.x[i], w.y[i]}, b{w.x[best], w.y[best]};
   const Real side = cross(frame.apex - b, s - b);  // > 0: the source lies left of the best one's ray to the apex
   Way way;
@@ -197,6 +234,20 @@ void find_routes_one_by_one(const WindowColumns& w, Index count, const Frame& fr
   }
 }
 
+// One by one, from lists with linear windows: child(window, division, value at the apex).
+template <class Child>
+Index cross_one_by_one(const WindowColumns& w, Index count, const Real* goes, const Frame& frame,
+                       const WindowColumns& out, Child&& child) {
+  Index kept = 0;
+  for (Index i = 0; i < count; ++i) {
+    if (!(goes[i] > 0)) continue;
+    const Window window = w.window(i);
+    const Window next = child(window, divide(window, frame.apex), straight_value(window, frame.apex));
+    if (next.b0 < next.b1 && is_visible(next) && !is_sliver(next)) out.set(kept++, next);
+  }
+  return kept;
+}
+
 }  // namespace
 
 void find_routes(const WindowColumns& w, Index count, const Frame& frame, const Sight& sight, Index best,
@@ -223,6 +274,11 @@ Index cross_to_left(const WindowColumns& w, const Routes& routes, const Sight& s
                     const WindowColumns& out) {
   const Index count = routes.left_end;
   if (!(frame.left > 0)) return 0;
+  if (w.mixed) {
+    return cross_one_by_one(
+        w, count, routes.goes_left, frame, out,
+        [&](const Window& from, const Division& d, Real apex) { return left_child(from, frame, d, apex); });
+  }
   const bool dim = to_left(w.b0, w.b1, w.x, w.y, routes.goes_left, sight.right.data(), count, frame.apex, frame.left,
                            out.b0, out.b1, out.x, out.y) > 0;
   std::copy_n(w.sigma, count, out.sigma);
@@ -236,6 +292,11 @@ Index cross_to_right(const WindowColumns& all, Index count, const Routes& routes
   const WindowColumns w = all.from(begin);
   count -= begin;
   if (!(frame.right > 0)) return 0;
+  if (w.mixed) {
+    return cross_one_by_one(
+        w, count, routes.goes_right + begin, frame, out,
+        [&](const Window& from, const Division& d, Real apex) { return right_child(from, frame, d, apex); });
+  }
   const bool dim = to_right(w.b0, w.b1, w.x, w.y, routes.goes_right + begin, sight.left.data() + begin, count,
                             frame.apex, frame.length, frame.right, out.b0, out.b1, out.x, out.y) > 0;
   std::copy_n(w.sigma, count, out.sigma);
@@ -244,7 +305,7 @@ Index cross_to_right(const WindowColumns& all, Index count, const Routes& routes
 }
 
 void end_values(const WindowColumns& w, Index count, Real* d0, Real* d1) {
-  ends(w.b0, w.b1, w.x, w.y, w.sigma, count, d0, d1);
+  (w.mixed ? ends_mixed : ends)(w.b0, w.b1, w.x, w.y, w.sigma, count, d0, d1);
 }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -36,15 +36,16 @@ TracedRays::TracedRays(std::size_t vertices) : slots_(std::bit_ceil(2 * kCrossin
   entries_.reserve(kCrossings * vertices);
 }
 
-std::size_t TracedRays::slot_of(Index halfedge) const {
+std::size_t TracedRays::slot_of(Index halfedge, Index pseudo_source) const {
   constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15;  // as in VertexRecords
-  return static_cast<std::size_t>((halfedge * kGolden) >> 32) & (slots_.size() - 1);
+  const std::uint64_t both = (std::uint64_t{pseudo_source} << 32 | halfedge) * kGolden;
+  return static_cast<std::size_t>((both ^ (both >> 29)) * kGolden >> 32) & (slots_.size() - 1);
 }
 
 std::optional<TracedRays::Angle> TracedRays::find(const RayCrossing& crossing, Index pseudo_source) const {
   const Vec2 direction = crossing.point - crossing.source;
   const double allowed = kSamePlace * norm(direction);
-  for (std::size_t s = slot_of(crossing.halfedge); slots_[s] != 0; s = (s + 1) & (slots_.size() - 1)) {
+  for (std::size_t s = slot_of(crossing.halfedge, pseudo_source); slots_[s] != 0; s = (s + 1) & (slots_.size() - 1)) {
     const Entry& entry = entries_[slots_[s] - 1];
     if (entry.halfedge != crossing.halfedge || entry.pseudo_source != pseudo_source) continue;
     if (!(norm(entry.source - crossing.source) <= allowed)) continue;
@@ -55,23 +56,30 @@ std::optional<TracedRays::Angle> TracedRays::find(const RayCrossing& crossing, I
 }
 
 void TracedRays::add(std::span<const RayCrossing> trail, Index pseudo_source, Angle angle) {
-  for (const RayCrossing& c : trail) {
+  if (trail.empty()) return;
+  add_before_known(trail, pseudo_source, angle);
+  const RayCrossing& last = trail.back();
+  add({last.halfedge, pseudo_source, last.source, last.point - last.source, angle});
+}
+
+void TracedRays::add_before_known(std::span<const RayCrossing> trail, Index pseudo_source, Angle angle) {
+  for (const RayCrossing& c : trail.first(trail.size() - 1)) {
     const double sense = c.mirrored == trail.back().mirrored ? angle.sense : -angle.sense;
     add({c.halfedge, pseudo_source, c.source, c.point - c.source, {angle.angle, sense}});
   }
 }
 
 void TracedRays::add(const Entry& entry) {
-  const auto put = [&](Index halfedge, std::uint32_t position) {
-    std::size_t s = slot_of(halfedge);
+  const auto put = [&](const Entry& e, std::uint32_t position) {
+    std::size_t s = slot_of(e.halfedge, e.pseudo_source);
     while (slots_[s] != 0) s = (s + 1) & (slots_.size() - 1);
     slots_[s] = position + 1;
   };
   if (2 * (entries_.size() + 1) > slots_.size()) {
     slots_.assign(2 * slots_.size(), 0);
-    for (std::uint32_t i = 0; i < entries_.size(); ++i) put(entries_[i].halfedge, i);
+    for (std::uint32_t i = 0; i < entries_.size(); ++i) put(entries_[i], i);
   }
-  put(entry.halfedge, static_cast<std::uint32_t>(entries_.size()));
+  put(entry, static_cast<std::uint32_t>(entries_.size()));
   entries_.push_back(entry);
 }
 
@@ -102,7 +110,7 @@ std::optional<Departures::Departure> Departures::follow(Index vertex) {
   const bool from_vertex = ray.pseudo_source < data.mesh.vertex_count();
   if (known) {
     if (!is_explained(data, record)) return std::nullopt;
-    rays_.add(trail_, ray.pseudo_source, *known);
+    rays_.add_before_known(trail_, ray.pseudo_source, *known);
     return Departure{from_vertex ? ray.pseudo_source : kNoIndex, known->angle};
   }
   if (leg.points.empty()) return std::nullopt;

@@ -30,6 +30,8 @@ class TracedRays {
   std::optional<Angle> find(const RayCrossing& crossing, Index pseudo_source) const;
   // Of a ray that came by these: its angle, and the sense in the last one's face.
   void add(std::span<const RayCrossing> trail, Index pseudo_source, Angle angle);
+  // The same where the last one is where it came upon a known one: once is enough there, and chains stay short.
+  void add_before_known(std::span<const RayCrossing> trail, Index pseudo_source, Angle angle);
 
  private:
   struct Entry {
@@ -37,7 +39,7 @@ class TracedRays {
     Vec2 source, direction;  // in the halfedge's frame
     Angle angle;
   };
-  std::size_t slot_of(Index halfedge) const;
+  std::size_t slot_of(Index halfedge, Index pseudo_source) const;
   void add(const Entry& entry);
 
   // Open addressing: a slot holds a position in entries_, plus 1; 0: free.

@@ -12,7 +12,7 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
-Real value_of(const WindowColumns& w, Index i, Real at) { return w.sigma[i] + length_of(at - w.x[i], w.y[i]); }
+Real value_of(const WindowColumns& w, Index i, Real at) { return w.value(i, at); }
 
 // The usual case for a whole list at once: window i reaches into the next one, j = i + 1, and is the lower one where
 // their overlap begins, the next one where it ends, so that both end at the tie point. tie_point_in_closed_form() says
@@ -53,7 +53,7 @@ BRUSHFIRE_WIDE void tie_points(const Real* __restrict b0, const Real* __restrict
 
 // Windows with their source on the edge (is_on_edge()) are neither cut nor do they cut others.
 bool on_edge(const WindowColumns& w, Index i) {
-  return -w.y[i] <= kOnEdge * (w.b1[i] - w.b0[i]) && w.x[i] > w.b0[i] && w.x[i] < w.b1[i];
+  return !w.is_linear(i) && -w.y[i] <= kOnEdge * (w.b1[i] - w.b0[i]) && w.x[i] > w.b0[i] && w.x[i] < w.b1[i];
 }
 BRUSHFIRE_WIDE std::int64_t nearly_on_edge(const Real* __restrict b0, const Real* __restrict b1,
                                            const Real* __restrict y, std::ptrdiff_t count) {
@@ -81,7 +81,7 @@ void ListTrimmer::operator()(WindowList& list, const EdgeBounds& edge, Real radi
   list.age = 0;
   drop_dominated(list, edge, radius);
   if (!list.ordered) return replace_by_envelope(list, blocks);
-  const WindowColumns w = list.block.columns();
+  const WindowColumns w = list.columns();
   sweep(w, list.size);
   Index count = 0;
   for (const Index i : kept_) {
@@ -93,7 +93,7 @@ void ListTrimmer::operator()(WindowList& list, const EdgeBounds& edge, Real radi
 
 // Leaves the values at the ends in d0_ and d1_.
 void ListTrimmer::drop_dominated(WindowList& list, const EdgeBounds& edge, Real radius) {
-  const WindowColumns w = list.block.columns();
+  const WindowColumns w = list.columns();
   if (d0_.size() < list.size) {
     for (std::vector<Real>* column : {&d0_, &d1_, &tie_point_, &tie_value_a_, &tie_value_b_, &plain_}) {
       column->resize(2 * list.size);
@@ -115,10 +115,16 @@ void ListTrimmer::drop_dominated(WindowList& list, const EdgeBounds& edge, Real 
 
 void ListTrimmer::sweep(const WindowColumns& w, Index count) {
   constexpr std::size_t kDepth = 6;  // how many windows back are looked at
-  const auto gone = [&](Index i) { return !(w.b1[i] - w.b0[i] > kSliver * (d0_[i] - w.sigma[i])); };
+  const auto gone = [&](Index i) {
+    return !(w.b1[i] - w.b0[i] > kSliver * (w.is_linear(i) ? w.b1[i] : d0_[i] - w.sigma[i]));
+  };
   if (count > 1) {
     tie_points(w.b0, w.b1, w.x, w.y, w.sigma, d0_.data(), d1_.data(), static_cast<std::ptrdiff_t>(count) - 1,
                tie_point_.data(), tie_value_a_.data(), tie_value_b_.data(), plain_.data());
+  }
+  // (What is said of linear windows there is not meant.)
+  for (Index i = 0; w.mixed && i + 1 < count; ++i) {
+    if (w.is_linear(i) || w.is_linear(i + 1)) plain_[i] = 0;
   }
   const bool all_may_be_cut = nearly_on_edge(w.b0, w.b1, w.y, count) == 0;
   kept_.clear();
@@ -168,7 +174,8 @@ void ListTrimmer::settle(const WindowColumns& w, Index a, Index b) {
   };
   if (fp * fq < 0) {
     const Vec2 s{w.x[a], w.y[a]}, t{w.x[b], w.y[b]};
-    Real z = p + tie_point_in_closed_form(s, t, w.sigma[b] - w.sigma[a], p, q - p);
+    const bool both_circular = !w.is_linear(a) && !w.is_linear(b);
+    Real z = both_circular ? p + tie_point_in_closed_form(s, t, w.sigma[b] - w.sigma[a], p, q - p) : -kInfinity;
     Real az = value_of(w, a, z), bz = value_of(w, b, z);
     if (!(z >= p && z <= q && abs(az - bz) <= within)) {
       z = tie_point(w.window(a), w.window(b), p, q, fp, fq);
@@ -184,9 +191,12 @@ void ListTrimmer::settle(const WindowColumns& w, Index a, Index b) {
   // One is lower at both ends; the other may win between them, where the slopes are equal, if its source is the nearer.
   bool a_wins = fp < 0 || fq < 0;
   const bool draw = fp == 0 && fq == 0;
-  if (draw || (a_wins ? w.sigma[b] > w.sigma[a] : w.sigma[a] > w.sigma[b])) {
+  const bool linear = w.is_linear(a) || w.is_linear(b);
+  if (draw || linear || (a_wins ? w.sigma[b] > w.sigma[a] : w.sigma[a] > w.sigma[b])) {
     const Real along = w.y[b] - w.y[a];
-    const Real x = along == 0 ? kInfinity : (w.x[a] * w.y[b] - w.y[a] * w.x[b]) / along;
+    const Real x = linear       ? equal_slope(w.window(a), w.window(b))
+                   : along == 0 ? kInfinity
+                                : (w.x[a] * w.y[b] - w.y[a] * w.x[b]) / along;
     const Real fx = x > p && x < q ? settled(value_of(w, a, x) - value_of(w, b, x)) : 0;
     if (draw) {
       a_wins = fx < 0 || (fx == 0 && w.pseudo_source[a] <= w.pseudo_source[b]);
@@ -205,7 +215,7 @@ void ListTrimmer::settle(const WindowColumns& w, Index a, Index b) {
 void ListTrimmer::replace_by_envelope(WindowList& list, BlockPool& blocks) {
   windows_.clear();
   uncut_.clear();
-  const WindowColumns w = list.block.columns();
+  const WindowColumns w = list.columns();
   for (Index i = 0; i < list.size; ++i) (on_edge(w, i) ? uncut_ : windows_).push_back(w.window(i));
   const std::span<Window> result = envelope_(windows_);
   list.size = static_cast<Index>(result.size() + uncut_.size());

@@ -43,7 +43,8 @@ void Part::work(std::int64_t last, Workbench& bench) {
   EventQueue::Event event;
   queue.advance_to(last);
   prefetching.first();
-  while (queue.pop(last, event)) {
+  const bool by_turns = part.run->structure.has_needles;
+  while (by_turns ? queue.pop_by_turns(last, event) : queue.pop(last, event)) {
     if (++updates_ % kPoll == 0) throw_if_cancelled(*part.run);
     if (!event.is_list) {
       prefetching.next_vertices();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <queue>
+#include <utility>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
@@ -84,17 +86,22 @@ bool Results::is_owner(Index v) const {
 void Results::write_vertices(ThreadTeam* team) {
   if (!run_.problem->touched) field_.error_bound.assign(run_.structure.mesh.vertex_count(), kInfinity);
   field_.max_error_bound = 0;
+  std::vector<Index> unseen;
+  Index seen = 0;
   const auto count = [&](const Tally& tally) {
     field_.beyond_radius += tally.beyond_radius;
     field_.max_error_bound = std::max(field_.max_error_bound, tally.largest_bound);
+    unseen.insert(unseen.end(), tally.unseen.begin(), tally.unseen.end());
+    seen += tally.seen;
   };
   if (!team || run_.problem->touched) {
     for (const Part& part : parts_) count(write_vertices(part));
-    return;
+  } else {
+    std::vector<Tally> tallies(parts_.size());
+    team->run(parts_.size(), [&](unsigned, std::size_t p) { tallies[p] = write_vertices(parts_[p]); });
+    for (const Tally& tally : tallies) count(tally);
   }
-  std::vector<Tally> tallies(parts_.size());
-  team->run(parts_.size(), [&](unsigned, std::size_t p) { tallies[p] = write_vertices(parts_[p]); });
-  for (const Tally& tally : tallies) count(tally);
+  write_unseen(std::move(unseen), seen);
 }
 
 Results::Tally Results::write_vertices(const Part& part) {
@@ -105,9 +112,8 @@ Results::Tally Results::write_vertices(const Part& part) {
     const Index outer = run_.structure.outer_vertex(v);
     if (run_.problem->touched) run_.problem->touched->push_back(outer);
     VertexValues s = with_ghosts(v);
-    if (s.lower == kInfinity && s.upper < kInfinity && s.upper <= run_.radius && !narrowed && !run_.several) {
-      write_unseen(v, s.upper);
-      tally.largest_bound = std::max(tally.largest_bound, 1.0);
+    if (s.lower == kInfinity && s.upper < kInfinity && s.upper <= run_.radius) {
+      tally.unseen.push_back(outer);
       return;
     }
     // Seen by no window yet, or not final when the run stopped.
@@ -125,24 +131,74 @@ Results::Tally Results::write_vertices(const Part& part) {
     field_.distance[outer] = to_double(r.value - run_.shift);
     field_.source[outer] = label;
     if (!run_.problem->touched) field_.error_bound[outer] = r.bound;
-    if (r.value <= run_.radius) tally.largest_bound = std::max(tally.largest_bound, r.relative);
+    if (r.value <= run_.radius && r.relative > tally.largest_bound) tally.largest_bound = r.relative;
+    ++tally.seen;
   });
   return tally;
 }
 
-// Rounding lost the light that grazes v, which a path leads to all the same. Its length is then what is known, and
-// anything down to the source's own value may be the distance.
-void Results::write_unseen(Index v, Real length) {
-  const Index outer = run_.structure.outer_vertex(v);
-  const Real start = run_.start_of(0);
-  const double rounded = run_.rounding.of(to_double(length - start));
+// Rounding may lose light that grazes a vertex, or even all that comes into a face. A path leads there all the same:
+// along edges from vertices that are seen, shortest first. Its length is then what is known, and anything down to the
+// least that a source begins with may be the distance. `unseen`: those that a path was found to; all vertices are
+// looked at where the run had no limit. O(edges at unseen vertices, log).
+void Results::write_unseen(std::vector<Index> unseen, Index seen) {
+  const Mesh& mesh = run_.structure.mesh;
+  if (!(run_.radius < kInfinity) && !run_.problem->touched && seen < mesh.vertex_count()) {
+    unseen.clear();
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      if (field_.distance[v] == kInfinity && !mesh.corners(v).empty()) unseen.push_back(v);
+    }
+  }
+  if (unseen.empty()) return;
+  struct Step {
+    Real length;
+    Index to, from;
+    bool operator<(const Step& o) const { return o.length < length; }
+  };
+  std::priority_queue<Step> steps;
+  const auto is_unseen = [&](Index v) { return field_.distance[v] == kInfinity; };
+  const auto offer = [&](Index from, Index to, Index h) {
+    if (is_unseen(from) || !is_unseen(to)) return;
+    const VertexValues at = with_ghosts(run_.structure.inner_vertex(from));
+    steps.push({std::min(at.lower, at.upper) + mesh.length(h), to, from});
+  };
+  const auto look_around = [&](Index v, bool outwards) {
+    for (const Index corner : mesh.corners(v)) {
+      for (const Index h : {corner, Mesh::previous(corner)}) {
+        const Index other = mesh.from(h) == v ? mesh.to(h) : mesh.from(h);
+        outwards ? offer(v, other, h) : offer(other, v, h);
+      }
+    }
+  };
+  for (const Index v : unseen) look_around(v, false);
+  while (!steps.empty()) {
+    const Step next = steps.top();
+    steps.pop();
+    if (!is_unseen(next.to) || next.length > run_.radius) continue;
+    write_unseen(next.to, next.from, next.length);
+    look_around(next.to, true);
+  }
+}
+
+// A vertex and the one before it on the way, by the mesh's numbers.
+void Results::write_unseen(Index outer, Index before, Real along_edge) {
+  const Index v = run_.structure.inner_vertex(outer), label = field_.source[before];
+  Part& part = parts_[run_.structure.part_of_vertex(v)];
+  part.vertices().reach(v, along_edge);
+  // Of one source any path will do, and a shorter one may be known.
+  const Real length = run_.several ? along_edge : with_ghosts(v).upper;
+  const Real least = run_.several ? Real{0} : run_.start_of(0);
+  const double rounded = run_.rounding.of(to_double(length - least));
   Real value = length;
   if (run_.problem->options->bound == Bound::Upper) value = length + rounded;
-  if (run_.problem->options->bound == Bound::Lower) value = start;
+  if (run_.problem->options->bound == Bound::Lower) value = least;
   run_.values[v].lower = length;
+  if (run_.several) run_.provenance[v] = {run_.structure.inner_vertex(before), label};
+  if (run_.keeps_rays()) run_.rays[v] = {{}, kNoIndex, run_.structure.inner_vertex(before), WindowKind::Circular};
   field_.distance[outer] = to_double(value - run_.shift);
-  field_.source[outer] = 0;
-  if (!run_.problem->touched) field_.error_bound[outer] = to_double(length - start) + 2 * rounded;
+  field_.source[outer] = label;
+  if (!run_.problem->touched) field_.error_bound[outer] = to_double(length - least) + 2 * rounded;
+  field_.max_error_bound = std::max(field_.max_error_bound, 1.0);
 }
 
 void Results::write_targets() {

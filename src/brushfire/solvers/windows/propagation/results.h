@@ -35,10 +35,13 @@ class Results {
   struct Tally {
     Index beyond_radius = 0;
     double largest_bound = 0;
+    Index seen = 0;
+    std::vector<Index> unseen;  // by the mesh's numbers: those that a path leads to, but no light
   };
   void write_vertices(ThreadTeam* team);
   Tally write_vertices(const Part& part);
-  void write_unseen(Index v, Real length);
+  void write_unseen(std::vector<Index> unseen, Index seen);
+  void write_unseen(Index outer, Index before, Real along_edge);
   void write_targets();
   void keep();
   std::shared_ptr<const PointValues> point_values();  // null where not all windows were kept

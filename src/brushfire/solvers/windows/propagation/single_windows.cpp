@@ -133,7 +133,8 @@ void propagate_windows(PartState& part, Index h) {
   if (windows.size() > 1 && std::any_of(windows.begin(), windows.end(), is_on_edge)) {
     windows = set_apart(windows, bench.on_edge);
   }
-  if (windows.size() > 1) windows = part.run->merges() ? merged(part, windows) : bench.envelope(windows);
+  const bool merges = part.run->merges() && !f.thin;  // a merged window begins a new trail: see Trails
+  if (windows.size() > 1) windows = merges ? merged(part, windows) : bench.envelope(windows);
   for (const Window& w : windows) pass_face(part, h, frame, w);
   for (const Window& w : bench.on_edge) pass_face(part, h, frame, w);
   bench.on_edge.clear();

@@ -61,7 +61,7 @@ void enter_over_spine(PartState& part, Index h, const Window& window) {
 }
 
 void send(PartState& part, Index h, const WindowList& list, Origin origin) {
-  const WindowColumns w = list.block.columns();
+  const WindowColumns w = list.columns();
   if (part.run->several) {
     const Index to = part.run->structure.part_of_face(h / 3);
     for (Index i = 0; i < list.size; ++i) send_label(part, to, w.pseudo_source[i]);
@@ -136,7 +136,7 @@ void leave_face(PartState& part, Index h, const WindowList& list, Origin origin)
   if (list.size > 0 && f.beyond[h % 3] == Beyond::Face && goes_in_lists(part, beyond)) {
     return part.is_here(beyond / 3) ? wait(part, beyond, list, origin) : send(part, beyond, list, origin);
   }
-  const WindowColumns w = list.block.columns();
+  const WindowColumns w = list.columns();
   for (Index i = 0; i < list.size; ++i) leave_face_once(part, h, w.window(i));
   part.bench->blocks.release(list.block);
 }

@@ -28,6 +28,9 @@ struct Connectivity {
 
 // Corners that make a crowd.
 constexpr Index kCrowd = 64;
+// At so many, light that winds round the vertex from face to face would be as many windows as faces squared: they are
+// remembered as if the faces were thin.
+constexpr Index kWinding = 256;
 // At more, shortest ways in the link of a vertex take longer than light that goes everywhere.
 constexpr Index kManyFaces = 4096;
 
@@ -117,16 +120,30 @@ double median(std::span<double> numbers) {
   return *middle;
 }
 
-// Half the median edge (of a sample): the mean says nothing where few long edges stand beside many short ones.
-double typical_bucket(std::span<const WindowFace> faces) {
-  std::vector<double> sample;
+// Widths of buckets, and whether faces are needles as a rule.
+struct Typical {
+  double bucket = 1;
+  bool needles = false;
+};
+
+// Half the median edge (of a sample): the mean says nothing where few long edges stand beside many short ones. Less
+// where faces are needles: all that goes along a rim of thousands of short edges would fall into one bucket, come in
+// any order, and have to be corrected again and again. No less than a share of it: every bucket is a round of all
+// parts.
+Typical typical_of(std::span<const WindowFace> faces) {
+  constexpr double kShortEdges = 64, kLeastShare = 0x1p-10;
+  std::vector<double> edges, shortest;
   const std::size_t stride = std::max<std::size_t>(1, 3 * faces.size() / kSample);
   for (std::size_t h = 0; h < 3 * faces.size(); h += stride) {
-    const double length = to_double(faces[h / 3].length[h % 3]);
-    if (length > 0) sample.push_back(length);
+    const WindowFace& f = faces[h / 3];
+    const double length = to_double(f.length[h % 3]);
+    if (!(length > 0)) continue;
+    edges.push_back(length);
+    shortest.push_back(to_double(std::min({f.length[0], f.length[1], f.length[2]})));
   }
-  if (sample.empty()) return 1;
-  return 0.5 * median(sample);
+  if (edges.empty()) return {};
+  const double edge = median(edges), width = std::clamp(kShortEdges * median(shortest), kLeastShare * edge, edge);
+  return {0.5 * width, width < edge};
 }
 
 // The sum of angles in (0, pi), as the product of as many turns of the plane: an arc tangent for each would take longer
@@ -303,6 +320,10 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
   }
   std::vector<std::tuple<Index, Index, Index>> by_part;
   for (Crowd& c : crowds) {
+    if (c.corners.size() >= kWinding) {
+      has_needles = true;
+      for (const Index h : c.corners) faces[h / 3].thin = true;
+    }
     by_part.clear();
     for (const Index h : c.corners) by_part.emplace_back(part_of_face(h / 3), outer_halfedge(h), h);
     std::sort(by_part.begin(), by_part.end());
@@ -310,7 +331,9 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
     VertexType& its = vertex_type[order.vertex_rank[c.vertex]];
     if (its == VertexType::Fans && c.corners.size() > kManyFaces) its = VertexType::Full;
   }
-  bucket_width = typical_bucket(faces);
+  const Typical typical = typical_of(faces);
+  bucket_width = typical.bucket;
+  has_needles |= typical.needles;
   typical_deficit = typical_deficit_of(around, vertex_type, links);
   cut_into_parts();
 }

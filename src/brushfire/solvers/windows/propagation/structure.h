@@ -72,7 +72,8 @@ struct WindowStructure {
   partition::FacePartition partition;
   std::vector<Crowd> crowds;   // ascending
   bool has_spines = false;     // some edge has three faces or more
-  double bucket_width = 1;     // half a typical edge
+  bool has_needles = false;    // as a rule, or around some vertex: light passes many vertices in one bucket
+  double bucket_width = 1;     // half a typical edge, or less where faces are needles
   Unevenness unevenness;       // of the faces' edges
   double typical_deficit = 0;  // the median of |2 pi - angles around a vertex|, of inner vertices
 

@@ -90,8 +90,7 @@ class WindowEngine final : public NumberedEngine {
     if (run_.several) run_.provenance.resize(run_.values.size());
     if (run_.keeps_rays()) run_.rays.resize(run_.values.size());
     run_.budget = budget_of(*problem.options, run_.rounding, merging_ == Merging::Always ? 0 : least_share(outlook()));
-    run_.in_lists = !kWide && !run_.merges() && run_.radius > kShort * run_.structure.bucket_width &&
-                    !detail::any_curve(problem.sources);  // lists are for circular windows
+    run_.in_lists = !kWide && !run_.merges() && run_.radius > kShort * run_.structure.bucket_width;
     run_.bucket_width = run_.in_lists ? kExactBucket * run_.structure.bucket_width : run_.structure.bucket_width;
     run_.targets.place(problem.targets, run_.structure);
     next_target_check_ = problem.targets.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;

@@ -12,7 +12,7 @@ constexpr unsigned kTrimEvery = 8;
 
 inline void offer_apex(PartState& part, Index apex, Real value, const WindowColumns& w, Index i, Index h) {
   part.vertices.reach(apex, value);
-  see_vertex(part, apex, value, {{w.x[i], w.y[i]}, h, w.pseudo_source[i], WindowKind::Circular}, false);
+  see_vertex(part, apex, value, {w.source(i), h, w.pseudo_source[i], w.kind(i)}, false);
 }
 
 // What the list is to the apex. Returns the window that is best there among those that see it, if any.
@@ -39,7 +39,7 @@ inline void offer_apex(PartState& part, Index apex, Real value, const WindowColu
   Index right = 0;
   while (right < count && sight.left[right] > 0) ++right;
   const auto bend_around = [&](Index i, Real x) {
-    part.vertices.reach(apex, w.sigma[i] + length_of(x - w.x[i], w.y[i]) + length_of(frame.apex.x - x, frame.apex.y));
+    part.vertices.reach(apex, w.value(i, x) + length_of(frame.apex.x - x, frame.apex.y));
   };
   if (right > 0) bend_around(right - 1, w.b1[right - 1]);
   if (right < count) bend_around(right, w.b0[right]);
@@ -51,7 +51,7 @@ void reach_targets(PartState& part, Index h, const Frame& frame, const WindowCol
     const Vec2 p = in_frame(frame, h % 3, t.weights);
     for (Index i = 0; i < count; ++i) {
       const Arrival there = arrival(w.window(i), p);
-      reach_target(part, t.target, there.value, 0, 0, {{w.x[i], w.y[i]}, h, w.pseudo_source[i], WindowKind::Circular},
+      reach_target(part, t.target, there.value, 0, 0, {w.source(i), h, w.pseudo_source[i], w.kind(i)},
                    there.detour <= kSeen * there.value);
     }
   });
@@ -61,7 +61,7 @@ void pass_face(PartState& part, Index h, const WindowList& list) {
   const WindowFace& f = part.face(h);
   Workbench& bench = *part.bench;
   const Frame frame = frame_of(f, h % 3);
-  const WindowColumns w = list.block.columns();
+  const WindowColumns w = list.columns();
   look_at_apex(w, list.size, frame, bench.sight);
   const Index best = reach_apex(part, h, frame, w, list.size);
   if (f.has_target) reach_targets(part, h, frame, w, list.size);
@@ -75,12 +75,12 @@ void pass_face(PartState& part, Index h, const WindowList& list) {
   find_routes(w, list.size, frame, bench.sight, best, bench.routes);
   const Index left = 3 * (h / 3) + previous3(h % 3), right = 3 * (h / 3) + next3(h % 3);
   if (bench.routes.left_end > 0 && leads_on(part, left)) {
-    WindowList out{bench.blocks.allocate(bench.routes.left_end), 0, age, true};
+    WindowList out{bench.blocks.allocate(bench.routes.left_end), 0, age, true, list.mixed};
     out.size = cross_to_left(w, bench.routes, bench.sight, frame, out.block.columns());
     leave_face(part, left, out, Origin::Start);
   }
   if (bench.routes.right_begin < list.size && leads_on(part, right)) {
-    WindowList out{bench.blocks.allocate(list.size - bench.routes.right_begin), 0, age, true};
+    WindowList out{bench.blocks.allocate(list.size - bench.routes.right_begin), 0, age, true, list.mixed};
     out.size = cross_to_right(w, list.size, bench.routes, bench.sight, frame, out.block.columns());
     leave_face(part, right, out, Origin::End);
   }

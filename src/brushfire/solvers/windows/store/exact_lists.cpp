@@ -77,12 +77,14 @@ void ExactLists::put(Index& first, Index h, Origin origin, const Window& w, Bloc
     if (links_[p].origin != origin || list.size == list.block.capacity()) continue;
     list.block.columns().set(list.size++, w);
     list.ordered = false;
+    list.mixed = list.mixed || w.kind == WindowKind::Linear;
     return;
   }
   WindowList list;
   list.block = blocks.allocate(1);
   list.block.columns().set(0, w);
   list.size = 1;
+  list.mixed = w.kind == WindowKind::Linear;
   put(first, h, origin, list);
 }
 
@@ -106,6 +108,7 @@ WindowList ExactLists::take(Index& first, Index h, BlockPool& blocks) {
       copy_windows(part.block.columns(), all.from(result.size), part.size);
       result.size += part.size;
       result.age = std::max(result.age, part.age);
+      result.mixed = result.mixed || part.mixed;
       result.ordered = result.ordered && part.ordered && links_[p].origin != Origin::Anywhere;
       blocks.release(part.block);
     }

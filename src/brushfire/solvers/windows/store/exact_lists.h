@@ -54,6 +54,13 @@ struct WindowList {
   Index size = 0;
   unsigned age = 0;     // how many faces its windows have crossed since they were last trimmed
   bool ordered = true;  // from left to right, as far as is known
+  bool mixed = false;   // some may be linear
+
+  WindowColumns columns() const {
+    WindowColumns c = block.columns();
+    c.mixed = mixed;
+    return c;
+  }
 };
 
 // What waits on the halfedges of faces: up to one list of each origin, more only where a list is known to be out of

@@ -29,6 +29,7 @@ class EventQueue {
     current_ = current;
     near_count_ = 0;
     list_position_ = vertex_position_ = 0;
+    vertices_turn_ = false;
   }
 
   bool empty() const { return near_count_ == 0 && far_.empty(); }
@@ -76,10 +77,25 @@ class EventQueue {
     } while (advance_to(last));
     return false;
   }
+  // The same, but once vertices are taken, all that are there: where hundreds of vertices side by side send light past
+  // each other's edges, the lists that one sends would go round all of the others before these had their turn.
+  bool pop_by_turns(std::int64_t last, Event& event) {
+    do {
+      Bucket& b = buckets_[current_ % kBuckets];
+      const bool lists = list_position_ < b.lists.size(), vertices = vertex_position_ < b.vertices.size();
+      vertices_turn_ = vertices && (vertices_turn_ || !lists);
+      if (!lists && !vertices) continue;
+      --near_count_;
+      event =
+          vertices_turn_ ? Event{0, b.vertices[vertex_position_++], false} : Event{0, b.lists[list_position_++], true};
+      return true;
+    } while (advance_to(last));
+    return false;
+  }
   // The number of the bucket of the next event, and how many events it holds.
   partition::Outlook outlook() const {
     partition::Outlook next;
-    for (const Event& e : far_) next.bucket = std::min(next.bucket, number(e.key));
+    if (!far_.empty()) next.bucket = far_.front().bucket;
     if (near_count_ == 0) return next;
     std::int64_t n = current_;
     std::size_t taken = list_position_ + vertex_position_;
@@ -139,7 +155,7 @@ class EventQueue {
   [[gnu::always_inline]] void push(const Event& e, std::int64_t bucket) {
     const std::int64_t n = std::max(bucket, current_);
     if (n - current_ >= kBuckets) {
-      far_.push_back(e);
+      push_far(e, n);
       return;
     }
     Bucket& b = buckets_[n % kBuckets];
@@ -148,28 +164,42 @@ class EventQueue {
     events.push_back(e.index);
     ++near_count_;
   }
+  void push_far(const Event& e, std::int64_t bucket) {
+    far_.push_back({bucket, far_count_++, e.index, e.is_list});
+    std::push_heap(far_.begin(), far_.end());
+  }
 
   // The ring of buckets begins anew at multiples of its size, or where the next far event is if the ring is empty.
   void advance(std::int64_t last) {
     ++current_;
     if (far_.empty() || (near_count_ > 0 && current_ % (kBuckets / 2) != 0)) return;
-    if (near_count_ == 0) {
-      double least = kInfinity;
-      for (const Event& e : far_) least = std::min(least, e.key);
-      current_ = std::max(current_, std::min(last, number(least)));
+    if (near_count_ == 0) current_ = std::max(current_, std::min(last, far_.front().bucket));
+    while (!far_.empty() && far_.front().bucket - current_ < kBuckets) {
+      std::pop_heap(far_.begin(), far_.end());
+      const FarEvent e = far_.back();
+      far_.pop_back();
+      push({0, e.index, e.is_list}, e.bucket);
     }
-    moving_.swap(far_);
-    for (const Event& e : moving_) push(e, number(e.key));
-    moving_.clear();
   }
+
+  // Beyond the ring: a heap, so that it is no matter how many there are, nor how far beyond.
+  struct FarEvent {
+    std::int64_t bucket;
+    std::uint64_t number;  // in the order in which they came
+    Index index;
+    bool is_list;
+    bool operator<(const FarEvent& o) const { return bucket > o.bucket || (bucket == o.bucket && number > o.number); }
+  };
 
   std::vector<Bucket> buckets_;
   Spare spare_;
-  std::vector<Event> far_, moving_;
+  std::vector<FarEvent> far_;
+  std::uint64_t far_count_ = 0;
   std::int64_t current_ = 0;
   std::int64_t near_count_ = 0;
   std::size_t list_position_ = 0, vertex_position_ = 0;
   double inverse_width_ = 1;
+  bool vertices_turn_ = false;
 };
 
 }  // namespace brushfire::windows

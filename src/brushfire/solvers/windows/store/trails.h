@@ -13,7 +13,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 // face where it has been is on no shortest path. That is what ends every run, whatever rounding makes of the values:
 // all faces of a branch differ, so none is longer than there are faces. (A path can come back only along the line of an
 // edge; what is on such lines vertices tell each other. Faces without area are nothing but such lines, and are left to
-// WindowMemory.) Merged windows begin a new trail: there begin paths of the augmented problem, see L1.
+// WindowMemory.) Merged windows begin a new trail (L1), so none are made where circles are no longer: in thin faces.
 class Trails {
  public:
   // The trail of what leaves a face: with it.

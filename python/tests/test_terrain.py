@@ -1,0 +1,98 @@
+"""Terrain and costs that depend on the slope."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import brushfire as bf
+
+
+def pace(slope: float) -> float:
+    """Tobler's hiking function, seconds per metre."""
+    return 3.6 / (6 * math.exp(-3.5 * abs(slope + 0.05)))
+
+
+def test_vertices_are_the_array_and_holes_stay_holes() -> None:
+    heights = np.arange(12.0).reshape(3, 4)
+    heights[0, 0] = np.nan
+    ground = bf.terrain(heights, (1000, 10, 0, 2000, 0, -10))
+    assert ground.mesh.face_count == 11 and ground.shape == (3, 4)
+    assert ground.mesh.vertices[5].tolist() == [1015, 1985, 5]
+    place = ground.below([1017, 1983])
+    assert ground.mesh.position(place)[0, :2].tolist() == pytest.approx([1017, 1983])
+    with pytest.raises(bf.BrushfireError, match="no ground below"):
+        ground.below([1005, 1995])
+    with pytest.raises(bf.BrushfireError, match="no ground below"):
+        ground.below([0, 0])
+    assert (bf.terrain(np.where(np.isnan(heights), -1, heights), no_data=-1).mesh.faces == ground.mesh.faces).all()
+
+
+def test_circles_on_flat_ground_are_circles() -> None:
+    n = 61
+    ground = bf.terrain(np.zeros((n, n)), (0, 10, 0, 0, 0, -10))
+    middle = n // 2 * n + n // 2
+    seconds = ground.mesh.weighted(slope="tobler").distance(middle).reshape(n, n)
+    y, x = np.mgrid[:n, :n]
+    truth = 10 * np.hypot(x - n // 2, y - n // 2) * pace(0)
+    off = seconds[truth > 0] / truth[truth > 0] - 1
+    assert off.min() > -1e-7 and off.max() < 0.01
+    graph = pytest.importorskip("skimage.graph", reason="scikit-image is not installed")
+    steps, _ = graph.MCP_Geometric(np.full((n, n), 10 * pace(0))).find_costs([(n // 2, n // 2)])
+    eight = steps[truth > 0] / truth[truth > 0] - 1
+    assert eight.max() > 0.08  # eight directions
+    assert (seconds <= steps * (1 + 1e-7)).all()
+
+
+def test_up_and_down_differ_as_toblers_function_says() -> None:
+    n = 21
+    ramp = bf.terrain(np.tile(2.0 * np.arange(n), (n, 1)), (0, 10, 0, 0, 0, -10))  # slope 0.2 to the east
+    weighted = ramp.mesh.weighted(slope="tobler")
+    west, east = 10 * n, 10 * n + n - 1
+    up, down = weighted.distance(west)[east], weighted.distance(east)[west]
+    assert up == pytest.approx(200 * pace(0.2), rel=0.03) and up <= 200 * pace(0.2) * (1 + 1e-6)
+    assert down == pytest.approx(200 * pace(-0.2), rel=0.03)
+    assert weighted.distance(west, towards=True)[east] == pytest.approx(down, rel=0.01)
+    path = weighted.path(west, east)
+    assert path.cost == pytest.approx(up, rel=1e-9)
+    assert (path.leg_length * path.weight).sum() == pytest.approx(path.cost)
+    back = weighted.path(west, east, towards=True)
+    assert back.cost == pytest.approx(down, rel=0.01) and back.positions[0, 0] == pytest.approx(205)
+
+
+def test_isochrones_are_polygons() -> None:
+    n = 41
+    ground = bf.terrain(np.zeros((n, n)), (0, 10, 0, 0, 0, -10))
+    seconds = ground.mesh.weighted(slope="tobler").distance(n // 2 * n + n // 2)
+    found = ground.mesh.isochrones(seconds, [60, 120])
+    assert [f["properties"]["level"] for f in found["features"]] == [60, 120]
+    [[ring]] = found["features"][1]["geometry"]["coordinates"]
+    assert ring[0] == ring[-1]
+    x, y = np.array(ring).T
+    area = 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
+    assert area == pytest.approx(math.pi * (120 / pace(0)) ** 2, rel=0.02)
+
+
+def test_a_corridor_is_the_sum_of_two_fields() -> None:
+    n = 21
+    rng = np.random.default_rng(1)
+    ground = bf.terrain(rng.uniform(0, 5, (n, n)), (0, 10, 0, 0, 0, -10))
+    weighted = ground.mesh.weighted(slope="naismith")
+    corridor = weighted.distance(0) + weighted.distance(n * n - 1, towards=True)
+    best = weighted.path(0, n * n - 1).cost
+    assert corridor.min() == pytest.approx(best, rel=0.01) and (corridor >= best * 0.99).all()
+
+
+def test_tables_and_steepest_and_what_is_refused() -> None:
+    n = 11
+    ramp = bf.terrain(np.tile(3.0 * np.arange(n), (n, 1)), (0, 10, 0, 0, 0, -10))  # slope 0.3
+    table = ramp.mesh.weighted(slope=([-1, 0, 1], [1, 1, 1]))
+    assert table.distance(0)[n - 1] == pytest.approx(100)
+    assert ramp.mesh.weighted(slope="tobler", steepest=0.001).distance(0)[n - 1] > 10 * 100 * pace(0.3)
+    with pytest.raises(bf.BrushfireError, match="unknown slope"):
+        ramp.mesh.weighted(slope="walking")
+    with pytest.raises(bf.BrushfireError, match="ascend"):
+        ramp.mesh.weighted(slope=([1, 0], [1, 1]))
+    assert ramp.mesh.weighted(slope="tobler").costs(0).lower is None

@@ -1,0 +1,25 @@
+// read_grid(): heights on a grid, from the files that hold them.
+#pragma once
+
+#include <brushfire/mesh/terrain.h>
+
+#include <string>
+#include <vector>
+
+namespace brushfire {
+
+struct Grid {
+  std::vector<double> heights;  // [rows * columns], the file's first row first; +inf: no height
+  Index columns = 0, rows = 0;
+  GridPlacement placement;
+
+  Terrain terrain() const { return Terrain(heights, columns, rows, placement); }
+};
+
+// .asc: an ESRI ASCII grid, whose header places it (the northernmost row comes first). .npy: an array of rows x
+// columns, placed at the origin in steps of 1, rows running down; NaN is no height. By extension. Throws
+// Error(FileNotReadable), Error(FileMalformed), Error(UnknownFormat) for other files: `gdal_translate -of AAIGrid`
+// makes one of these of them.
+Grid read_grid(const std::string& path);
+
+}  // namespace brushfire

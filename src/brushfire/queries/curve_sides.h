@@ -1,0 +1,45 @@
+// Where on a curve, and on which side of it, shortest paths arrive: nearest places and signed distances.
+#pragma once
+
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/window_field.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace brushfire {
+
+// Left and right of a curve as it runs through its places, the faces lying counter-clockwise.
+enum class CurveSide : std::int8_t { Left = -1, None = 0, Right = 1 };
+
+struct CurveArrival {
+  Index source = kNoIndex;  // position in the list of sources; kNoIndex: unreachable
+  Index place = kNoIndex;   // in CurveSource::places, where the segment begins; kNoIndex: the source is a point
+  double share = 0;         // of the way from that place to the next one that differs, in [0,1]
+  CurveSide side = CurveSide::None;
+};
+
+// The nearest place on the nearest source for every vertex, [vertex_count], and on which side of the curve the shortest
+// path from the vertex arrives there. Where several are equally near, that of the path that path_to() would show.
+//
+// The rule of sides: a path that arrives inside a segment arrives on its left or on its right. At a place, segments
+// leave in directions around it; the path lies between two of them, and its side is that of the first one clockwise:
+// left if the curve goes out there, right if it comes in. (So it is also where a curve passes a place more than once.)
+// At the end of an open curve it is the side of the line straight on, which halves the directions; on a curve itself,
+// and at a point, there is none.
+//
+// `field`: of an exact run from these sources with DistanceOptions::keep_paths, on this mesh, without walls. Throws
+// what WindowField::last_leg() throws, and Error(InvalidArgument) where a curve has a place at a vertex whose faces
+// form neither a circle nor an arc. O(edges crossed by paths).
+std::vector<CurveArrival> arrivals(const WindowField& field, std::span<const Source> sources);
+
+// Distance with a sign, [vertex_count]: negative on the left of the nearest curve, positive on its right (and where
+// there is no side), +inf where unreachable. So the inside of a closed curve that runs counter-clockwise is negative,
+// and curves that nest with opposite senses bound what lies between them. An exact run; of `how` max_distance, threads,
+// progress and cancel count. Throws Error(InvalidArgument) for a source that is a point, for offsets, and what
+// arrivals() and distance() throw.
+std::vector<double> signed_distance(const Mesh& mesh, std::span<const Source> curves, const DistanceOptions& how = {});
+
+}  // namespace brushfire

@@ -1,0 +1,167 @@
+// On which side of a curve, and where on it, paths arrive.
+#include <brushfire/core/error.h>
+#include <brushfire/mesh/delaunay.h>
+#include <brushfire/mesh/shapes.h>
+#include <brushfire/queries/curve_sides.h>
+#include <brushfire/queries/path.h>
+#include <brushfire/queries/surface_curves.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "curves/random_curves.h"
+
+namespace brushfire {
+namespace {
+
+Mesh random_triangulation(std::mt19937& random) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < 40; ++i) points.push_back({test::uniform(random), test::uniform(random)});
+  return delaunay(points).mesh();
+}
+
+bool is_inside(const std::vector<Vec3>& polygon, const Vec3& p) {
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Vec3 &a = polygon[i], &b = polygon[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+  }
+  return inside;
+}
+
+// The corners of a star-shaped polygon, counter-clockwise, at vertices, on edges and inside faces.
+std::vector<SurfacePoint> star_shaped(const Mesh& mesh, std::mt19937& random) {
+  std::vector<SurfacePoint> corners;
+  Vec3 middle;
+  const std::size_t count = 3 + random() % 7;
+  for (std::size_t i = 0; i < count; ++i) {
+    corners.push_back(test::any_point(mesh, random));
+    middle = middle + (1.0 / static_cast<double>(count)) * position(mesh, corners.back());
+  }
+  const auto angle = [&](const SurfacePoint& p) {
+    const Vec3 d = position(mesh, p) - middle;
+    return std::atan2(d.y, d.x);
+  };
+  std::sort(corners.begin(), corners.end(), [&](const auto& a, const auto& b) { return angle(a) < angle(b); });
+  return corners;
+}
+
+TEST(Sides, OfRandomSimplePolygonsInEitherSenseAreInsideAndOutside) {
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    std::mt19937 random(seed);
+    const Mesh mesh = random_triangulation(random);
+    const std::vector<SurfacePoint> corners = star_shaped(mesh, random);
+    PathFinder paths(mesh);
+    CurveSource curve{paths.through(corners, true).points, true};
+    std::vector<Vec3> polygon;
+    for (const SurfacePoint& p : curve.places) polygon.push_back(position(mesh, p));
+    const bool turned = seed % 2 == 1;
+    if (turned) std::reverse(curve.places.begin(), curve.places.end());
+    const std::vector<double> d = signed_distance(mesh, std::vector{source_along(curve)});
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      if (!(std::abs(d[v]) > 1e-9) || d[v] == kInfinity) continue;
+      const bool inside = is_inside(polygon, mesh.positions()[v]);
+      ASSERT_EQ(d[v] < 0, inside != turned) << "seed " << seed << ", vertex " << v;
+    }
+  }
+}
+
+// Two arms a constant distance apart, round and round.
+TEST(Sides, OfASpiralAreBetweenItsArms) {
+  const Mesh mesh = shapes::plane(40, 40).mesh();
+  std::vector<Vec3> outer, inner;
+  for (int i = 0; i <= 60; ++i) {
+    const double turn = 2 * kPi * i / 20, radius = 0.05 + 0.12 * i / 20;
+    outer.push_back({0.5 + (radius + 0.05) * std::cos(turn), 0.5 + (radius + 0.05) * std::sin(turn), 0});
+    inner.push_back({0.5 + radius * std::cos(turn), 0.5 + radius * std::sin(turn), 0});
+  }
+  outer.insert(outer.end(), inner.rbegin(), inner.rend());
+  const CurveSource spiral{project_curve(mesh, outer, true).path.points, true};
+  std::vector<Vec3> polygon;
+  for (const SurfacePoint& p : spiral.places) polygon.push_back(position(mesh, p));
+  const std::vector<double> d = signed_distance(mesh, std::vector{source_along(spiral)});
+  int negative = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (!(std::abs(d[v]) > 1e-9)) continue;
+    EXPECT_EQ(d[v] < 0, is_inside(polygon, mesh.positions()[v])) << v;
+    negative += d[v] < 0;
+  }
+  EXPECT_GT(negative, 100);
+}
+
+std::vector<SurfacePoint> square(const Mesh& mesh, Index low, Index high) {
+  std::vector<Index> chain;
+  const auto vertex = [](Index x, Index y) { return y * 11 + x; };
+  for (Index i = low; i < high; ++i) chain.push_back(vertex(i, low));
+  for (Index i = low; i < high; ++i) chain.push_back(vertex(high, i));
+  for (Index i = high; i > low; --i) chain.push_back(vertex(i, high));
+  for (Index i = high; i > low; --i) chain.push_back(vertex(low, i));
+  return curve_along(mesh, chain, true).points;
+}
+
+TEST(Sides, OfCurvesThatNestWithOppositeSensesAreNegativeBetweenThem) {
+  const Mesh mesh = shapes::plane(10, 10, 10, 10).mesh();
+  std::vector<SurfacePoint> inner = square(mesh, 4, 6);
+  std::reverse(inner.begin(), inner.end());
+  const std::vector<Source> curves{source_along({square(mesh, 1, 9), true}), source_along({inner, true})};
+  const std::vector<double> d = signed_distance(mesh, curves);
+  const auto at = [&](Index x, Index y) { return d[y * 11 + x]; };
+  EXPECT_NEAR(at(0, 5), 1, 1e-12);   // outside of both
+  EXPECT_NEAR(at(2, 5), -1, 1e-12);  // between
+  EXPECT_NEAR(at(5, 5), 1, 1e-12);   // inside of the inner one
+  EXPECT_NEAR(at(0, 0), std::sqrt(2), 1e-12);
+  EXPECT_EQ(at(1, 5), 0);
+}
+
+// Along the boundary there is one side; beyond the ends of an open curve the line straight on parts the sides.
+TEST(Sides, OfBoundariesAndOpenCurves) {
+  const Mesh mesh = shapes::plane(10, 10, 10, 10).mesh();
+  for (const double d : signed_distance(mesh, std::vector{source_along({square(mesh, 0, 10), true})})) EXPECT_LE(d, 0);
+  std::vector<Index> chain{5 * 11 + 4, 5 * 11 + 5, 5 * 11 + 6};  // to the right
+  const std::vector<double> d = signed_distance(mesh, std::vector{source_along({curve_along(mesh, chain).points})});
+  for (Index y = 0; y <= 10; ++y) {
+    for (Index x = 0; x <= 10; ++x) {
+      if (y == 5) continue;
+      EXPECT_EQ(d[y * 11 + x] < 0, y > 5) << x << ", " << y;
+    }
+  }
+}
+
+TEST(Arrivals, AreThePlacesWherePathsBegin) {
+  for (const Mesh& mesh : {shapes::folded_sphere(2).mesh(), shapes::noise_terrain(12, 9, 0.4).mesh()}) {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      std::mt19937 random(seed);
+      CurveSource curve;
+      curve.places = test::random_walk(mesh, 8, random);
+      const std::vector<Source> sources{source_along(curve), {test::any_point(mesh, random), 0.05}};
+      const DistanceField field = distance(mesh, sources, {.method = Method::Exact, .keep_paths = true});
+      const std::vector<CurveArrival> where = arrivals(*field.windows, sources);
+      for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        ASSERT_EQ(where[v].source, field.source[v]) << "seed " << seed << ", vertex " << v;
+        if (where[v].source != 0) continue;
+        const SurfacePath path = path_to(*field.windows, vertex_point(mesh, v));
+        ASSERT_LT(where[v].place, curve.places.size());
+        const Vec3 a = position(mesh, curve.places[where[v].place]);
+        std::size_t next = where[v].place + 1;  // the next one that differs
+        while (next + 1 < curve.places.size() && norm(position(mesh, curve.places[next]) - a) < 1e-12) ++next;
+        const Vec3 b = position(mesh, curve.places[std::min(next, curve.places.size() - 1)]);
+        const Vec3 there = a + where[v].share * (b - a);
+        EXPECT_LE(norm(there - position(mesh, path.points.front())), 1e-7) << "seed " << seed << ", vertex " << v;
+      }
+    }
+  }
+}
+
+TEST(Sides, AreRefusedOfPointsAndOffsets) {
+  const Mesh mesh = shapes::plane(4, 4).mesh();
+  EXPECT_THROW(signed_distance(mesh, std::vector<Source>{{vertex_point(mesh, 0)}}), Error);
+  const CurveSource edge{curve_along(mesh, std::vector<Index>{0, 1}).points};
+  EXPECT_THROW(signed_distance(mesh, std::vector{source_along(edge, 1)}), Error);
+}
+
+}  // namespace
+}  // namespace brushfire
