@@ -139,7 +139,7 @@ def _integral(mesh: Mesh, samples: int, method: str | None) -> tuple[Floats, flo
 def _corner_areas(mesh: Mesh) -> Floats:
     a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    corners: Floats = np.bincount(mesh.faces.ravel(), np.repeat(area / 3, 3), mesh.vertex_count)
+    corners: Floats = np.bincount(mesh.faces.ravel(), np.repeat(area / 3, 3), mesh.vertex_count).astype(np.float64)
     return corners
 
 
