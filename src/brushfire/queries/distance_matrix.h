@@ -5,9 +5,9 @@
 // columns.
 //
 // With Method::CarriedSource (in single precision) sixteen neighbouring vertices march together in the lanes of vector
-// registers, in groups that the mesh alone decides: some five to eight times as many rows a second as one by one.
+// registers, in groups that the mesh alone decides: seven to ten times as many rows a second as one by one.
 // Whichever of its rows are asked for, a group is run as a whole, so that a row is the same bits among any others; it
-// differs from distance()'s by 0.01 to 0.03 % in the mean, less than from the truth. Single runs serve the rows of
+// differs from distance()'s by some 0.01 to 0.02 % in the mean, less than from the truth. Single runs serve the rows of
 // other places than vertices, of vertices on walls or without close neighbours, a group that would not settle, all rows
 // where a column is no vertex, and distances_within(). docs/decisions/matrices.md
 //

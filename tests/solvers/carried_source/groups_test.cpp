@@ -125,7 +125,7 @@ TEST(GroupMarch, ThatIsGivenUpLeavesNoHole) {
   std::size_t refused = 0, by_halves = 0;
   for (const int most_turns : {2, 3, 4}) {
     GroupRunner runner(rows, Variant::Best, most_turns);
-    for (std::size_t g = 0; g < 20; ++g) {
+    for (std::size_t g = 0; g < 8; ++g) {
       std::set<int> missing;
       for (int lane = 0; lane < static_cast<int>(rows.groups()[g].vertices.size()); ++lane) missing.insert(lane);
       const std::vector<int> alone = runner.run(rows.groups()[g], kInfinity, [&](int lane, std::span<const float> row) {
@@ -147,7 +147,7 @@ TEST(GroupMarch, IsAsNearToTheTruthAsSingleRuns) {
   GroupRunner runner(rows);
   DistanceSolver solver(mesh);
   double own = 0, single = 0, apart = 0, largest = 0, largest_single = 0, count = 0;
-  for (std::size_t g = 0; g < rows.groups().size(); g += 20) {
+  for (std::size_t g = 0; g < rows.groups().size(); g += 50) {
     for (const auto& [v, row] : rows_of(runner, rows.groups()[g])) {
       const std::vector<double> by_itself = alone(solver, v), truth = alone(solver, v, Method::Exact);
       for (Index u = 0; u < mesh.vertex_count(); ++u) {
