@@ -133,4 +133,6 @@ def test_jax_check_grads():
             lambda v, w: bf.jax.distance(v, faces, 4, weights=w), (v, weights), 1, modes=["rev"], atol=1e-6, rtol=1e-6
         )
         compiled = jax.jit(lambda v: brushfire.jax.distance(v, faces, 0).sum())
-        np.testing.assert_allclose(jax.grad(compiled)(v), bf.Mesh(vertices, faces).distance_vjp(0).vjp(np.ones(25)).vertices)
+        np.testing.assert_allclose(
+            jax.grad(compiled)(v), bf.Mesh(vertices, faces).distance_vjp(0).vjp(np.ones(25)).vertices
+        )
