@@ -31,6 +31,9 @@ FUNCTIONS = {
     "smooth": ["smooth"],
     "convert": ["read_lines"],
     "view": ["page"],
+    "flatten": ["flatten", "distance"],
+    "terrain": ["terrain"],
+    "isochrones": ["isochrones", "weighted", "distance"],
 }
 FOR_EVERY_VERB = {"read": {"weld"}, "at": {"snap_within"}, "walled": {"mask", "faces", "edges"},
                   "write": {"unit", "view", "outline"}}  # fmt: skip
@@ -39,7 +42,6 @@ NOT_IN_PYTHON = {
     "shape": "something to try the program on",
     "completion": "of a shell",
     "manual": "of a shell",
-    "flatten": "not yet",
 }
 
 # "verb --option" or "--option": what it is called in Python instead ("" for nothing), and why.
@@ -83,6 +85,7 @@ OTHERWISE = {
     "compare --fail-above": ("", "an exit code"),
     "certify --show": ("", "slices do that: Certificate.wrong_vertices[:10]"),
     "sample --lloyd": ("sites", "a function of its own: centroidal_voronoi(sites)"),
+    "terrain --cell": ("transform", "GDAL's six numbers, which also say where the grid lies"),
     "measure --of": ("", "functions of their own"),
 }
 
