@@ -219,7 +219,8 @@ bool Results::is_chord(Index outer, const VertexValues& values) const {
   constexpr std::size_t kFewSources = 64;  // each of the others is looked at
   const std::span<const detail::LocatedSource> sources = run_.problem->sources;
   const Mesh& mesh = run_.structure.mesh;
-  if (!values.direct || !mesh.has_positions() || sources.size() > kFewSources || detail::any_curve(sources)) return false;
+  if (!values.direct || !mesh.has_positions() || sources.size() > kFewSources || detail::any_curve(sources))
+    return false;
   if (sources.size() == 1) return true;
   const Real unit = mesh.unit();
   // None is nearer, or not surely farther: then windows decided.
