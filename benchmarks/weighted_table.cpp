@@ -37,8 +37,8 @@ std::vector<double> patches(const Mesh& mesh, std::span<const double> weights) {
   std::vector<double> result(mesh.face_count());
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const Vec3 m = middle(mesh, f);
-    const auto nearest = std::min_element(places.begin(), places.end(),
-                                          [&](Vec3 a, Vec3 b) { return norm(a - m) < norm(b - m); });
+    const auto nearest =
+        std::min_element(places.begin(), places.end(), [&](Vec3 a, Vec3 b) { return norm(a - m) < norm(b - m); });
     result[f] = weights[static_cast<std::size_t>(nearest - places.begin()) % weights.size()];
   }
   return result;

@@ -32,6 +32,6 @@ awk '/^v / { x[++n] = $2; y[n] = $3 }
     print u * u + v * v < 0.04 ? 4 : 1 }' "$temporary/terrain.obj" >"$temporary/weights.txt"
 $brushfire distance "$temporary/terrain.obj" --source 0 --weights "$temporary/weights.txt" --bound upper --quiet \
   -o "$temporary/cost.npy"
-$brushfire render "$temporary/terrain.obj" --scalar "$temporary/cost.npy" --isolines 30 --bar-title cost --azimuth 250 \
-  --elevation 50 --size 640x480 -o docs/images/weights.png
+$brushfire render "$temporary/terrain.obj" --scalar "$temporary/cost.npy" --isolines 30 --bar-title cost --up z \
+  --azimuth 200 --elevation 60 --size 640x480 -o docs/images/weights.png
 ls -l docs/images/bunny.png docs/images/error.png docs/images/brushfire.webp

@@ -91,7 +91,7 @@ def wheel(of_sdist: Path) -> tuple[Path, list[Path]]:
     sources = SCRATCH / of_sdist.name.removesuffix(".tar.gz")
     # The compiler cache then knows the objects of ./run python.
     run(sys.executable, "-m", "pip", "wheel", "--disable-pip-version-check", "--no-deps", "-w", SCRATCH, sources,
-        CCACHE_BASEDIR=str(sources), CCACHE_NOHASHDIR="1")  # fmt: skip
+        CCACHE_BASEDIR=str(sources), CCACHE_NOHASHDIR="1", CXX=os.environ.get("CXX", "c++"))  # fmt: skip
     raw = next(SCRATCH.glob("*.whl"))
     with zipfile.ZipFile(raw) as archive:
         archive.extractall(SCRATCH / "wheel")

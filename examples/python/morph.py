@@ -7,9 +7,16 @@ import brushfire as bf
 
 def ball(shape, n=12):
     """The sides of a cube, n x n squares each, pushed onto a star-shaped surface."""
-    u, v = (a.ravel() for a in np.meshgrid(np.tan(np.linspace(-1, 1, n + 1) * np.pi / 4), np.tan(np.linspace(-1, 1, n + 1) * np.pi / 4)))
+    u, v = (
+        a.ravel()
+        for a in np.meshgrid(
+            np.tan(np.linspace(-1, 1, n + 1) * np.pi / 4), np.tan(np.linspace(-1, 1, n + 1) * np.pi / 4)
+        )
+    )
     one = np.ones_like(u)
-    sides = [np.column_stack(c) for c in ((one, u, v), (-one, v, u), (v, one, u), (u, -one, v), (u, v, one), (v, u, -one))]
+    sides = [
+        np.column_stack(c) for c in ((one, u, v), (-one, v, u), (v, one, u), (u, -one, v), (u, v, one), (v, u, -one))
+    ]
     points, index = np.unique(np.round(np.concatenate(sides), 12), axis=0, return_inverse=True)
     a = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
     quads = [index.ravel()[s * (n + 1) ** 2 + np.column_stack([a, a + 1, a + n + 2, a + n + 1])] for s in range(6)]

@@ -13,7 +13,11 @@ def tube(wobble, knobs, n=40, sides=14):
     angle = 2 * np.pi * np.arange(sides) / sides
     middle = np.column_stack([wobble * np.sin(3 * t), 0.5 * wobble * np.cos(4 * t), 3 * t])
     ring = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
-    V = [middle[0] - [0, 0, 0.1], *(middle[:, None] + radius[:, None, None] * ring).reshape(-1, 3), middle[-1] + [0, 0, 0.1]]
+    V = [
+        middle[0] - [0, 0, 0.1],
+        *(middle[:, None] + radius[:, None, None] * ring).reshape(-1, 3),
+        middle[-1] + [0, 0, 0.1],
+    ]
     k = np.arange(sides)
     F = [[0, 1 + (i + 1) % sides, 1 + i] for i in k]
     for r in range(n - 2):
@@ -24,7 +28,11 @@ def tube(wobble, knobs, n=40, sides=14):
     return bf.Mesh(np.array(V), F)
 
 
-collection = {f"{name}, pose {i}": tube(w, k) for name, k in (("caterpillar", 4), ("peanut", 2)) for i, w in enumerate((0, 0.3, 0.6))}
+collection = {
+    f"{name}, pose {i}": tube(w, k)
+    for name, k in (("caterpillar", 4), ("peanut", 2))
+    for i, w in enumerate((0, 0.3, 0.6))
+}
 collection["ring"] = bf.Mesh(*torus(40, 20))
 graphs = {name: bf.reeb_graph(mesh, 5, samples=80) for name, mesh in collection.items()}
 for name, graph in graphs.items():

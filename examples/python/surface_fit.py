@@ -43,4 +43,5 @@ for k in range(1, 301):  # Adam
     value, gradient = misfit(heights)
 print(f"misfit {first:.2f}, fitted {value:.4f}")
 lift = np.mean(heights - hills.ravel())  # distances do not know how high the whole lies
-print(f"heights off by {np.sqrt(np.mean((heights - lift - hills.ravel()) ** 2)):.3f} of {hills.max():.2f} (root mean square)")
+off = np.sqrt(np.mean((heights - lift - hills.ravel()) ** 2))
+print(f"heights off by {off:.3f} of {hills.max():.2f} (root mean square)")

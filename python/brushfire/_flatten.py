@@ -117,7 +117,7 @@ def flatten(
     >>> import brushfire as bf, numpy as np
     >>> t = np.linspace(0, np.pi, 20)
     >>> v = [[np.cos(a), np.sin(a), z] for z in (0, 1, 2) for a in t]
-    >>> f = [[i, i + 1, i + 21] for i in range(39) if i % 20 < 19] + [[i, i + 21, i + 20] for i in range(39) if i % 20 < 19]
+    >>> f = [t for i in range(39) if i % 20 < 19 for t in ([i, i + 1, i + 21], [i, i + 21, i + 20])]
     >>> flat = bf.flatten(bf.Mesh(v, f), landmarks=10, method="exact")
     >>> flat.distortion.stress < 1e-9
     True

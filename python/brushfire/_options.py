@@ -28,7 +28,7 @@ def tolerance_of(value: Any) -> float:
     if not isinstance(value, str):
         return number(value, "tolerance")
     if value not in _IN_WORDS:
-        raise BrushfireError(
+        raise BrushfireTypeError(
             f"tolerance: a number from 0 to 0.1, or one of {', '.join(_IN_WORDS)} is needed, not {value!r}"
         )
     return _IN_WORDS[value]

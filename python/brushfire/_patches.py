@@ -115,7 +115,11 @@ class _Tracer:
         self.walls: set[Edge] = set()
 
     def run(self) -> None:
-        edges = {(min(a, b), max(a, b)) for face in self.base.tolist() for a, b in zip(face, face[1:] + face[:1], strict=True)}
+        edges = {
+            (min(a, b), max(a, b))
+            for face in self.base.tolist()
+            for a, b in zip(face, face[1:] + face[:1], strict=True)
+        }
         matrix = self.mesh.distance_matrix(list(self.landmarks), list(self.landmarks), dtype=np.float64)
         waiting = sorted(edges, key=lambda e: (matrix[e], e))
         tree, rest, joined = [], [], list(range(len(self.landmarks)))
@@ -296,7 +300,9 @@ def _triangles(polygon: list[int], steps: set[frozenset[int]], added: set[int]) 
         for j in range(i + 2, n):
             if (i, j) != (0, n - 1) and frozenset((polygon[i], polygon[j])) in steps:
                 rest = steps - {frozenset((polygon[i], polygon[j]))}
-                return _triangles(polygon[i : j + 1], rest, added) + _triangles(polygon[j:] + polygon[: i + 1], rest, added)
+                return _triangles(polygon[i : j + 1], rest, added) + _triangles(
+                    polygon[j:] + polygon[: i + 1], rest, added
+                )
     for i in range(n):
         before, after = polygon[i - 1], polygon[(i + 1) % n]
         if polygon[i] not in added and before in added and after in added:

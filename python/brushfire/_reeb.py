@@ -103,7 +103,14 @@ def reeb_graph(mesh: Mesh, levels: int = 5, *, samples: int = 150, method: str |
         chain[level + 1]["parent"] = above
     last = chain[-1]
     return ReebGraph(
-        values, error, pieces.node_of_vertices(finest), last["interval"], last["area"], last["edges"], parents, tuple(chain)
+        values,
+        error,
+        pieces.node_of_vertices(finest),
+        last["interval"],
+        last["area"],
+        last["edges"],
+        parents,
+        tuple(chain),
     )
 
 
@@ -132,7 +139,7 @@ def _integral(mesh: Mesh, samples: int, method: str | None) -> tuple[Floats, flo
 def _corner_areas(mesh: Mesh) -> Floats:
     a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    corners: Floats = np.bincount(mesh.faces.ravel(), np.repeat(area / 3, 3), mesh.vertex_count)
+    corners: Floats = np.bincount(mesh.faces.ravel(), np.repeat(area / 3, 3), mesh.vertex_count).astype(np.float64)
     return corners
 
 
@@ -178,7 +185,9 @@ class _Pieces:
         self.first, self.low = first, low
         edge = mesh.vertices[faces]
         whole_area = np.linalg.norm(np.cross(edge[:, 1] - edge[:, 0], edge[:, 2] - edge[:, 0]), axis=1) / 2
-        below = _share_below(corner[self.face], self.interval + 1.0) - _share_below(corner[self.face], self.interval + 0.0)
+        below = _share_below(corner[self.face], self.interval + 1.0) - _share_below(
+            corner[self.face], self.interval + 0.0
+        )
         self.area = whole_area[self.face] * below / max(whole_area.sum(), np.finfo(float).tiny)
         self.beside = self._across_edges(faces)
         self.above = np.flatnonzero(self.face[1:] == self.face[:-1])  # a piece and the next one of its face

@@ -139,7 +139,9 @@ def distance_matrices(
     named = _named_meshes(meshes)
     team = _workers(threads)
     how = {"method": method, "tolerance": tolerance, "precision": precision}
-    blocks = max(1, -(-team * _BLOCKS_PER_THREAD // max(1, len(named)))) if len(named) < team * _BLOCKS_PER_THREAD else 1
+    blocks = (
+        max(1, -(-team * _BLOCKS_PER_THREAD // max(1, len(named)))) if len(named) < team * _BLOCKS_PER_THREAD else 1
+    )
     if team == 1:
         blocks = 1
     folder = None if out is None else Path(out)

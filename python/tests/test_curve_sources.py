@@ -115,6 +115,13 @@ def test_everything_that_starts_somewhere_starts_from_curves(plane):
     near(level[0].line.positions[:, 1], np.full(len(level[0].line.positions), 1.5))
 
 
+def test_tolerances_have_words(plane):
+    for word, number in (("draft", 1e-2), ("standard", 1e-3), ("fine", 1e-5), ("exact", 0)):
+        np.testing.assert_array_equal(plane.distance(0, tolerance=word), plane.distance(0, tolerance=number))
+    with pytest.raises(bf.BrushfireTypeError, match="draft, standard, fine, exact"):
+        plane.distance(0, tolerance="coarse")
+
+
 def test_what_is_no_curve_is_refused(plane):
     with pytest.raises(bf.BrushfireError, match="share no face"):
         plane.distance(bf.Curve([0, 3 * N + 3]))

@@ -18,7 +18,9 @@ def rolled(n=12):
 
 def cone(rings=6, segments=16):
     angle = 2 * np.pi * np.arange(segments) / segments
-    levels = [np.column_stack([r * np.cos(angle), r * np.sin(angle), np.full(segments, -4 * r)]) for r in range(1, rings)]
+    levels = [
+        np.column_stack([r * np.cos(angle), r * np.sin(angle), np.full(segments, -4 * r)]) for r in range(1, rings)
+    ]
     faces = [[0, 1 + k, 1 + (k + 1) % segments] for k in range(segments)]
     for r in range(rings - 2):
         for k in range(segments):

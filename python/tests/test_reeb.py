@@ -102,7 +102,9 @@ def test_rotation_scale_and_resolution_do_not_count():
 
 def test_a_search_finds_poses_of_one_shape_first():
     kinds = [[5, 2, 2, 2], [3, 3, 3, 3, 3, 3], [6, 1, 1, 5], [4, 4, 1]]
-    shapes = [(k, bf.reeb_graph(figure(arms, bend=b), 4, samples=40)) for k, arms in enumerate(kinds) for b in (0, 0.1, 0.2)]
+    shapes = [
+        (k, bf.reeb_graph(figure(arms, bend=b), 4, samples=40)) for k, arms in enumerate(kinds) for b in (0, 0.1, 0.2)
+    ]
     for i, (kind, graph) in enumerate(shapes):
         ranked = sorted((-graph.similarity(other), k) for j, (k, other) in enumerate(shapes) if j != i)
         assert [k for _, k in ranked[:2]] == [kind, kind], (kind, ranked[:4])

@@ -23,13 +23,13 @@
 #include <brushfire/mesh/terrain.h>
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/steiner/slope_pace.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
-#include <brushfire/solvers/steiner/weights.h>
 #include <brushfire/solvers/heat.h>
 #include <brushfire/solvers/heat_options.h>
 #include <brushfire/solvers/laplacian.h>
 #include <brushfire/solvers/signed_heat.h>
+#include <brushfire/solvers/steiner/slope_pace.h>
+#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/steiner/weights.h>
 #include <brushfire/solvers/vector_heat.h>
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>

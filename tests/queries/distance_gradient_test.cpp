@@ -174,6 +174,10 @@ TEST(DistanceGradient, RefusesFieldsWithoutPathsAndMeshesWithoutPositions) {
   EXPECT_THROW(distance_gradient_wrt_vertices(mesh, sources, distance(mesh, sources), weights), Error);
   const DistanceField field = traced(mesh, sources);
   EXPECT_THROW(distance_gradient_wrt_vertices(mesh, sources, field, std::span(weights).first(3)), Error);
+  CurveSource curve;
+  curve.places = {vertex_point(mesh, 0), vertex_point(mesh, 1)};
+  const std::vector<Source> curves{source_along(curve)};
+  EXPECT_THROW(distance_gradient_wrt_vertices(mesh, curves, traced(mesh, curves), weights), Error);
   EXPECT_THROW(distance_gradient_wrt_vertices(shapes::plane(3, 3).mesh(), sources, field, weights), Error);
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace brushfire {
@@ -91,6 +92,13 @@ TEST(Isochrones, AreGeoJson) {
       "[[[[0,0],[0.5,0],[0.5,0.5],[0.5,1],[0,1],[0,0]]]]}},\n"
       "{\"type\":\"Feature\",\"properties\":{\"level\":5},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":"
       "[[[[0,0],[1,0],[1,1],[0,1],[0,0]]]]}}\n]}\n");
+}
+
+TEST(Isochrones, KeepEveryDigitOfMapCoordinates) {
+  const Terrain terrain(std::vector<double>{0, 0, 0, 0}, 2, 2, {{4512345.678, 5432109.876}, {10, 0}, {0, -10}});
+  const std::vector<double> levels{1};
+  const std::string text = isochrones_as_geojson(terrain.mesh(), std::vector<double>(4, 0), levels);
+  EXPECT_NE(text.find("[4512345.678,5432109.876]"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -114,18 +114,12 @@ SlopePace pace_of(const std::string& slope) {
 }  // namespace
 
 void add_weights(Verb& verb, WeightArguments& arguments) {
-  verb.option("--weights", arguments.faces_file, "FIELD",
-              "What a unit of length costs in each face, > 0; inf: a wall. One number per face: .npy, text");
-  verb.option(
-      "--edge-weights", arguments.edges_file, "FILE",
-      "Edges with costs: two vertices, cost along (inf: as in the faces), cost to cross; .npy or one to a line");
-  verb.option(
-      "--slope", arguments.slope, "NAME",
-      "What slopes cost, up and down: tobler, naismith (seconds per metre), energy (J/kg), or a file of slopes and "
-      "paces");
-  verb.option("--steepest", arguments.steepest, "S", kPositive,
-              "With --slope: no step is steeper than this (0.5: 27 degrees)");
-  verb.flag("--towards", arguments.towards, "With --slope: what it costs to get to the sources, not from them");
+  verb.option("--weights", arguments.faces_file, "FIELD", "What a unit of length costs in each face, > 0; inf: a wall");
+  verb.option("--edge-weights", arguments.edges_file, "FILE",
+              "Lines of two vertices, cost along their edge, cost to cross");
+  verb.option("--slope", arguments.slope, "NAME", "What slopes cost: tobler, naismith, energy, or a file of paces");
+  verb.option("--steepest", arguments.steepest, "S", kPositive, "With --slope: no step is steeper than this");
+  verb.flag("--towards", arguments.towards, "With --slope: to the sources, not from them");
 }
 
 Weights weights_of(const WeightArguments& arguments, const Surface& surface) {

@@ -45,7 +45,7 @@ def gather() -> None:
             page.write_text(linked(page.read_text(), origin, page))
     with (SOURCE / "decisions/README.md").open("a") as index:
         index.write("\n```{toctree}\n:hidden:\n:glob:\n*\n```\n")
-    for path, text in (reference.cpp() | reference.cli(PROGRAM) | reference.js()).items():
+    for path, text in (reference.cpp() | reference.python_rest() | reference.cli(PROGRAM) | reference.js()).items():
         (SOURCE / path).parent.mkdir(parents=True, exist_ok=True)
         (SOURCE / path).write_text(text)
     figures.draw(SOURCE / "figures")

@@ -6,10 +6,13 @@ Python's pages stand in docs/reference/ and are filled in by autodoc.
 
 from __future__ import annotations
 
+import inspect
 import re
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
+
+import brushfire
 
 ROOT = Path(__file__).parents[2]
 ROOMS = {
@@ -173,13 +176,26 @@ def cpp() -> dict[str, str]:
     return pages
 
 
+# ---- Python ----------------------------------------------------------------------------------------------------------
+def python_rest() -> dict[str, str]:
+    """What the pages in docs/reference/python/ do not name, so that a new class or function is never missing."""
+    written = "".join(page.read_text() for page in (ROOT / "docs/reference/python").glob("*.md"))
+    rest = [name for name in brushfire.__all__ if not name.startswith("_") and f"brushfire.{name}\n" not in written]
+    lines = [
+        f".. auto{'class' if inspect.isclass(getattr(brushfire, name)) else 'function'}:: brushfire.{name}"
+        for name in rest
+    ]
+    body = "```{eval-rst}\n" + "\n".join(lines) + "\n```" if lines else "Nothing at present."
+    return {"reference/python/more.md": f"# More of Python\n\n{body}\n"}
+
+
 # ---- command line ----------------------------------------------------------------------------------------------------
 def cli(program: Path) -> dict[str, str]:
     def help_of(*verb: str) -> str:
         return subprocess.run([program, *verb, "--help"], check=True, capture_output=True, text=True).stdout.strip()
 
     main = help_of()
-    verbs = re.findall(r"^  ([a-z-]+) {2,}\S", main.split("Subcommands:")[1].split("\n\n")[0], re.MULTILINE)
+    verbs = re.findall(r"^  ([a-z-]+) {2,}\S", main.split("\nVerbs:\n")[1].split("\n\n")[0], re.MULTILINE)
     if len(verbs) < 10:
         raise SystemExit("reference.py: brushfire --help lists too few verbs")
     parts = [

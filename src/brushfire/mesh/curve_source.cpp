@@ -129,9 +129,9 @@ class Splitter {
     s.to_offset = offset(number);
     for (std::size_t k = 0; k < 3; ++k) s.along_edge = s.along_edge || (s.from[k] == 0 && s.to[k] == 0);
     if (!(std::abs(s.to_offset - s.from_offset) <= s.length * (1 + kSlopeRounding))) {
-      throw Error(ErrorCode::InvalidArgument,
-                  named(from.number, number) + "are " + number_as_text(s.length) + " apart, and their offsets " +
-                      number_as_text(s.from_offset) + " and " + number_as_text(s.to_offset) + " differ by more");
+      throw Error(ErrorCode::InvalidArgument, named(from.number, number) + "are " + number_as_text(s.length) +
+                                                  " apart, and their offsets " + number_as_text(s.from_offset) +
+                                                  " and " + number_as_text(s.to_offset) + " differ by more");
     }
     if (!(s.length > 0)) return std::nullopt;
     return s;

@@ -12,8 +12,8 @@ namespace brushfire {
 
 // A polyline on the surface: places in order, each joined to the next by the straight segment within a face that holds
 // both. It may cross itself, run along edges, through vertices and along the boundary, and stand still; a single place
-// is a point. A place that is nowhere (SurfacePoint{}) parts the curve: what comes before and after it are pieces of one
-// source.
+// is a point. A place that is nowhere (SurfacePoint{}) parts the curve: what comes before and after it are pieces of
+// one source.
 struct CurveSource {
   std::vector<SurfacePoint> places;
   bool closed = false;  // the last place of every piece is joined to its first, which need not be repeated
@@ -26,9 +26,9 @@ struct CurveSource {
 // it.
 struct CurveSegment {
   Index face = kNoIndex;
-  std::array<double, 3> from{}, to{};     // weights in the face: two different points
-  double from_offset = 0, to_offset = 0;  // in the mesh's units; no farther apart than the segment is long
-  double length = 0;                      // in the mesh's units
+  std::array<double, 3> from{}, to{};                // weights in the face: two different points
+  double from_offset = 0, to_offset = 0;             // in the mesh's units; no farther apart than the segment is long
+  double length = 0;                                 // in the mesh's units
   Index from_place = kNoIndex, to_place = kNoIndex;  // in LocatedCurve::places
   bool along_edge = false;
 };

@@ -217,8 +217,11 @@ class Sweep {
   DistanceGradient gradient_;
 };
 
-void check(const Domain& domain, const DistanceField& field, std::size_t weights) {
+void check(const Domain& domain, std::span<const Source> sources, const DistanceField& field, std::size_t weights) {
   const auto refuse = [](const std::string& why) { throw Error(ErrorCode::InvalidArgument, why); };
+  if (std::any_of(sources.begin(), sources.end(), [](const Source& s) { return s.curve != nullptr; })) {
+    refuse("gradients are of distances from points: from curves there are none");
+  }
   if (!field.windows) refuse("a gradient needs the paths of the field: run method exact with keep_paths");
   if (!domain.mesh().has_positions()) refuse("a gradient by positions needs a mesh that has some");
   if (field.windows->mesh().vertex_count() != domain.open().vertex_count() ||
@@ -234,7 +237,7 @@ void check(const Domain& domain, const DistanceField& field, std::size_t weights
 
 DistanceGradient distance_gradient_wrt_vertices(const Domain& domain, std::span<const Source> sources,
                                                 const DistanceField& field, std::span<const double> weights) {
-  check(domain, field, weights.size());
+  check(domain, sources, field, weights.size());
   const Mesh& open = domain.open();
   const DistanceOptions options;
   const detail::WalledRun walled(domain, sources, options);

@@ -43,9 +43,9 @@ struct DistanceGradient {
 // depends on the direction, and given is the gradient of one of the paths (see one_sided_vertices()). A piece of no
 // length has no direction and counts as 0.
 //
-// Throws Error(InvalidArgument) for a field without paths or of another mesh, weights of another number or that are
-// not finite, and a mesh without positions; Error(Cancelled). O(vertices log vertices + crossings of rays that differ);
-// on scans some share of the time of the run (docs/applications.md).
+// Throws Error(InvalidArgument) for curves as sources, a field without paths or of another mesh, weights of another
+// number or that are not finite, and a mesh without positions; Error(Cancelled). O(vertices log vertices + crossings of
+// rays that differ); on scans some share of the time of the run (docs/applications.md).
 DistanceGradient distance_gradient_wrt_vertices(const Domain& domain, std::span<const Source> sources,
                                                 const DistanceField& field, std::span<const double> weights);
 

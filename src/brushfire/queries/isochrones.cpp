@@ -6,6 +6,8 @@
 #include <brushfire/core/error.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -113,11 +115,17 @@ bool holds(const MapRing& ring, const std::array<double, 2>& point) {
   return inside;
 }
 
+// As few digits as it takes to read the same number back.
+std::string exactly(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
 std::string json_of(const MapRing& ring) {
   std::string text = "[";
   for (std::size_t i = 0; i <= ring.size(); ++i) {
     const auto& [x, y] = ring[i % ring.size()];
-    text += (i > 0 ? ",[" : "[") + number_as_text(x) + "," + number_as_text(y) + "]";
+    text += (i > 0 ? ",[" : "[") + exactly(x) + "," + exactly(y) + "]";
   }
   return text + "]";
 }
@@ -154,8 +162,7 @@ std::vector<MapPolygon> isochrone(const Mesh& mesh, std::span<const double> valu
 std::string isochrones_as_geojson(const Mesh& mesh, std::span<const double> values, std::span<const double> levels) {
   std::string text = "{\"type\":\"FeatureCollection\",\"features\":[";
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    text += std::string(k > 0 ? "," : "") +
-            "\n{\"type\":\"Feature\",\"properties\":{\"level\":" + number_as_text(levels[k]) +
+    text += std::string(k > 0 ? "," : "") + "\n{\"type\":\"Feature\",\"properties\":{\"level\":" + exactly(levels[k]) +
             "},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":[";
     bool first = true;
     for (const MapPolygon& polygon : isochrone(mesh, values, levels[k])) {

@@ -289,8 +289,9 @@ void DistanceSolver::Workspace::locate_all(std::span<const Source> from, const D
   points.clear();
   if (!detail::any_curve(sources) || engine_of(options.method) == Method::Windows) return;
   if (options.method == Method::Heat) {
-    throw Error(ErrorCode::InvalidArgument, "heat starts at points: curves are for windows, exact and the marching "
-                                            "methods");
+    throw Error(ErrorCode::InvalidArgument,
+                "heat starts at points: curves are for windows, exact and the marching "
+                "methods");
   }
   check_slopes(options.method, sources);
   points = sources;

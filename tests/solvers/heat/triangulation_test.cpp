@@ -129,6 +129,28 @@ TEST(IntrinsicTriangulation, TheTuftedCoverOfAnythingIsClosed) {
   EXPECT_EQ(heat::triangulation_of(shapes::torus(9, 9).mesh(), Cover::AsItIs).sheets, 1);
 }
 
+TEST(IntrinsicTriangulation, PagesAreGluedToTheNextOnesAroundTheSpine) {
+  // Of a book the back of each page meets the front of the next one: the numbers of the faces say nothing.
+  const Mesh mesh = shapes::book(5, 1, 1).mesh();
+  const Triangulation t = heat::triangulation_of(mesh, Cover::AsItIs);
+  const Index n = mesh.halfedge_count();
+  const auto angle_of = [&](Index h) {  // of the page around z
+    const Index f = (h < n ? h : h - n) / 3;
+    Vec3 sum;
+    for (const Index v : mesh.faces()[f]) sum = sum + mesh.positions()[v];
+    return std::atan2(sum.y, sum.x);
+  };
+  int glued = 0;
+  for (Index h = 0; h < t.tail.size(); ++h) {
+    const Index a = t.tail[h], b = t.tail[Mesh::next(h)];
+    if (a > 1 || b > 1) continue;  // the spine's vertices are 0 and 1
+    const double step = std::remainder(angle_of(t.twin[h]) - angle_of(h), 2 * kPi);
+    EXPECT_NEAR(std::abs(step), 2 * kPi / 5, 1e-9);
+    ++glued;
+  }
+  EXPECT_EQ(glued, 10);
+}
+
 TEST(IntrinsicTriangulation, OnAClosedSurfaceBothCoversHaveTheSameMatrices) {
   const Mesh mesh = sheared(shapes::torus(20, 10), 1);
   std::vector<heat::Operators> both;

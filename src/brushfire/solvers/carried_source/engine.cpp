@@ -46,7 +46,7 @@ class Marcher {
     final_ = kInfinity;
     base_ = kInfinity;
     for (const LocatedSource& s : sources_) base_ = std::min(base_, s.offset);
-    march_.label_fronts(sources_.size() > 1);
+    march_.label_fronts(sources_.front().label != sources_.back().label);  // labels ascend
     for (const LocatedSource& s : sources_) {
       const double offset = s.offset - base_;
       for (const Points::Near& n : points_.around(s.at, records_.most_unrolled, max_distance - s.offset)) {

@@ -92,7 +92,9 @@ class Marcher {
     base_ = kInfinity;
     for (const detail::LocatedSource& s : problem.sources) base_ = std::min(base_, s.offset);
     // One source needs no labels; neither does a method that keeps them anyway.
-    state_.labelled = problem.sources.size() > 1 || front_model(problem.options->method) == FrontModel::LiteralCircular;
+    // (Those of a curve have one label, and labels ascend.)
+    const bool several = problem.sources.front().label != problem.sources.back().label;
+    state_.labelled = several || front_model(problem.options->method) == FrontModel::LiteralCircular;
     if (state_.labelled && state_.label.empty()) state_.label.assign(state_.front_at.size(), kNoIndex);
     state_.start.clear();
     if (state_.labelled) state_.start.resize(problem.sources.back().label + 1);

@@ -133,8 +133,8 @@ void SignedHeatSolver::State::add(const Segment& s, std::vector<Complex>& x) con
   }
 }
 
-// Away from a point without a direction: at the neighbours of the vertices around it, with the weights of the Laplacian,
-// so that on a flat place they sum to 0.
+// Away from a point without a direction: at the neighbours of the vertices around it, with the weights of the
+// Laplacian, so that on a flat place they sum to 0.
 void SignedHeatSolver::State::add_outward(const PointLocation& p, double weight, std::vector<Complex>& x) const {
   for (int k = 0; k < 3; ++k) {
     if (!(p.weights[k] > 0)) continue;

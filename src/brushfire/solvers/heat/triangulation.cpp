@@ -34,11 +34,11 @@ Index back_of(Index h, Index halfedge_count) { return halfedge_count + h - h % 3
 // The directions of the faces around an edge, seen along it: the halfedges of its ring in that order.
 void sort_around(const Mesh& mesh, std::vector<Index>& ring) {
   const std::span<const Vec3> p = mesh.positions();
-  const auto ends = std::minmax(mesh.from(ring[0]), mesh.to(ring[0]));
-  const Vec3 axis = p[ends.second] - p[ends.first];
+  const Index low = std::min(mesh.from(ring[0]), mesh.to(ring[0]));
+  const Vec3 axis = p[std::max(mesh.from(ring[0]), mesh.to(ring[0]))] - p[low];
   const double square = dot(axis, axis);
   const auto across = [&](Index h) {
-    const Vec3 arm = p[mesh.from(Mesh::previous(h))] - p[ends.first];
+    const Vec3 arm = p[mesh.from(Mesh::previous(h))] - p[low];
     return arm - (square > 0 ? dot(arm, axis) / square : 0) * axis;
   };
   const Vec3 first = across(ring[0]), second = cross(axis, first);
@@ -142,7 +142,9 @@ double mean_edge_length(const Triangulation& t) {
 
 void mollify(Triangulation& t, double share) {
   const double mean = mean_edge_length(t);
-  const double least = mean > 0 ? share * mean : 1;  // all points at one place: any triangle will do
+  // All points at one place: triangles so small that nothing is far, whose fourth powers (of areas) still have numbers.
+  constexpr double kNowhere = 1e-60;
+  const double least = mean > 0 ? share * mean : kNowhere;
   double add = 0;
   for (std::size_t f = 0; f < t.face_count(); ++f) {
     const double* l = &t.length[3 * f];

@@ -154,8 +154,8 @@ std::vector<Complex> VectorHeatSolver::State::polar(Index source) {
   const heat::Triangulation& t = system.triangulation();
   const Complex axis = 1;
   const std::vector<Complex> parallel = carried({&source, 1}, {&axis, 1});
-  // Outwards from the source. With these weights, edge vectors around a flat vertex sum to 0: what does not cancel would
-  // outlast the rest on its way.
+  // Outwards from the source. With these weights, edge vectors around a flat vertex sum to 0: what does not cancel
+  // would outlast the rest on its way.
   std::vector<Index> neighbours;
   std::vector<Complex> outward;
   for (Index h = 0; h < t.tail.size(); ++h) {

@@ -26,7 +26,8 @@ class SlopePace {
   // A table: slopes ascend, at least two of them; paces > 0. Linear between. Throws Error(InvalidArgument).
   static SlopePace table(std::span<const double> slopes, std::span<const double> paces);
 
-  // No step is steeper than this, up or down; steeper ground can still be traversed. Throws Error(InvalidArgument) where nothing is left.
+  // No step is steeper than this, up or down; steeper ground can still be traversed. Throws Error(InvalidArgument)
+  // where nothing is left.
   SlopePace up_to(double steepest) const;
 
   // +inf beyond the samples.

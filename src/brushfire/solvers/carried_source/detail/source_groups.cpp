@@ -15,6 +15,9 @@ constexpr float kNowhere = 1e30f;
 // In edges as they are there. Sources farther from each other disagree about the order around them for too long: a
 // group of scattered ones takes 20 to 30 turns a vertex instead of 1.1.
 constexpr double kWidest = 8;
+// What is smaller and lies apart in a piece is an island that a cut left over: it stays with its neighbours as long as
+// it can.
+constexpr Index kComponent = 4 * kGroup;
 
 // body(vertex, length) for each edge at v, those of two faces twice.
 template <class Body>
@@ -63,7 +66,16 @@ Index SourceGrouping::cut(Range range) {
   const auto [begin, end] = range;
   ++pieces_;
   for (Index i = begin; i < end; ++i) piece_[order_[i]] = pieces_;
-  const Index a = farthest(order_[begin], range, from_), b = farthest(a, range, from_);
+  const Index a = farthest(order_[begin], range, from_);
+  // Components come apart as a whole.
+  const auto first = order_.begin() + begin, last = order_.begin() + end;
+  const auto hangs_together = [&](Index v) { return from_[v] < kNowhere; };
+  const auto together = static_cast<Index>(std::count_if(first, last, hangs_together));
+  if (together >= kComponent && end - begin - together >= kComponent) {
+    std::stable_partition(first, last, hangs_together);
+    return begin + together;
+  }
+  const Index b = farthest(a, range, from_);
   farthest(b, range, to_);
   const Index middle = begin + std::max<Index>(1, (end - begin) / kGroup / 2) * kGroup;
   sides_.clear();
@@ -71,8 +83,7 @@ Index SourceGrouping::cut(Range range) {
   const auto pivot = sides_.begin() + (middle - begin);
   std::nth_element(sides_.begin(), pivot, sides_.end());
   const std::pair<float, Index> first_beyond = *pivot;
-  std::stable_partition(order_.begin() + begin, order_.begin() + end,
-                        [&](Index v) { return std::pair(from_[v] - to_[v], v) < first_beyond; });
+  std::stable_partition(first, last, [&](Index v) { return std::pair(from_[v] - to_[v], v) < first_beyond; });
   for (Index i = begin; i < end; ++i) to_[order_[i]] = kNowhere;
   return middle;
 }

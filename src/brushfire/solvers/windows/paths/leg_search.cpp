@@ -352,7 +352,8 @@ class LegSearch {
     const DoubleDouble ahead = -dot(from, step) / length, aside = cross(from, step) / length;
     const DoubleDouble rise2 = (DoubleDouble(1) - slope) * (DoubleDouble(1) + slope);
     const double away = std::abs(aside.high);
-    const double lean = rise2.high > 0 ? away * slope.high / std::sqrt(rise2.high) : std::copysign(kInfinity, slope.high);
+    const double lean =
+        rise2.high > 0 ? away * slope.high / std::sqrt(rise2.high) : std::copysign(kInfinity, slope.high);
     return std::clamp(((ahead - DoubleDouble(lean)) / length).high, 0.0, 1.0);
   }
 
@@ -422,7 +423,7 @@ class LegSearch {
   const Mesh& mesh_;
   const double value_, room_;
   const LegOrigins origins_;
-  std::unordered_multimap<Index, Inside> sources_in_;  // by face
+  std::unordered_multimap<Index, Inside> sources_in_;   // by face
   std::unordered_multimap<Index, AtVertex> source_at_;  // by vertex
   std::vector<Wedge> wedges_;
   std::size_t first_wedges_ = 0, on_hint_ = 0;  // so many of them: where the pass began, aside; along the hint

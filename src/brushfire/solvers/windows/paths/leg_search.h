@@ -5,8 +5,8 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/detail/engine.h>
-#include <brushfire/solvers/windows/algebra/curve_index.h>
 #include <brushfire/solvers/window_field.h>
+#include <brushfire/solvers/windows/algebra/curve_index.h>
 
 #include <functional>
 #include <span>
@@ -17,7 +17,7 @@ namespace brushfire::windows {
 struct LegQuestion {
   const Mesh& mesh;
   std::span<const detail::LocatedSource> sources;
-  const CurveIndex& curves;  // of these
+  const CurveIndex& curves;                          // of these
   double shift = 0;                                  // what was added to every value
   const std::function<double(Index)>& vertex_value;  // NaN: not known
   PointLocation at;

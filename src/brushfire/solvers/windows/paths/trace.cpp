@@ -101,9 +101,10 @@ class Tracer {
     leg_.length += way;
     const bool turned = from(g) == to(h);
     const double origin = origin_weight(ray_.kind);
-    at = {
-        g, {turned ? origin * length - at.source.x : at.source.x, -at.source.y}, {turned ? rest : x, 0},
-        at.mirrored != !turned};
+    at = {g,
+          {turned ? origin * length - at.source.x : at.source.x, -at.source.y},
+          {turned ? rest : x, 0},
+          at.mirrored != !turned};
     return Step::On;
   }
 

@@ -99,8 +99,8 @@ WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Fou
   return leg;
 }
 
-// The best that was found may explain the value no better than by chance: a longer way, or one from another source. That
-// is a fault of ours, and no path.
+// The best that was found may explain the value no better than by chance: a longer way, or one from another source.
+// That is a fault of ours, and no path.
 void hold_to_value(const windows::WindowFieldData& data, const PointRecord& record, const WindowField::Leg& leg) {
   const double start =
       leg.vertex != kNoIndex ? data.vertices[leg.vertex].value : data.sources[leg.source].offset + data.shift;
