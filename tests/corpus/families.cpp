@@ -139,6 +139,13 @@ Draft needles(Dice& dice) {
   return {oracle::needle_grid(dice.below(1u << 30), dice.between(2, 6), altitude), {}};
 }
 
+Draft bipyramids(Dice& dice) {
+  const double height = dice.power(-6, 6), depth = dice.chance(0.6) ? height : dice.power(-6, 6);
+  Shape s = shape_of(oracle::bipyramid(static_cast<Index>(dice.between(3, 48)), height, depth));
+  if (dice.chance(0.6)) jitter(s, dice);
+  return draft(s);
+}
+
 Draft thin_strip(Dice& dice) {
   Shape s = shape_of(oracle::strip(static_cast<Index>(dice.between(2, 60)), dice.power(-9, 4)));
   const double ripple = dice.chance(0.5) ? 0 : dice.power(-6, 0);
@@ -152,17 +159,6 @@ Draft fans(Dice& dice) {
       oracle::fan(static_cast<Index>(dice.between(3, 60)), dice.chance(0.5), dice.power(-3, 1), dice.between(0, 6)));
   const double decades = dice.chance(0.5) ? 0 : dice.within(0, 9);
   for (Vec3& p : s.positions) p = dice.power(-decades, decades) * p;
-  return draft(s);
-}
-
-// As they are: their many ties are what is awkward. Or with a rim that is torn a little, or much.
-Draft bipyramids(Dice& dice) {
-  const auto rim = static_cast<Index>(dice.between(3, 48));
-  const double height = dice.power(-6, 6);
-  Shape s = shape_of(oracle::bipyramid(rim, height, dice.chance(0.6) ? height : dice.power(-6, 6)));
-  const double torn = dice.chance(0.4) ? 0 : dice.power(-15, 0);
-  for (Vec3& p : s.positions) p = (1 + torn * dice.sign_and_unit()) * p;
-  if (dice.chance(0.2)) mutilate(s, dice);
   return draft(s);
 }
 
