@@ -1,11 +1,11 @@
 # cmake -D SOURCE=.../src -P listed.cmake: a header is public, which brushfire.h says and which installs it, or it lies in
-# a detail/ folder or in one of the rooms of windows and their partition, which are private as a whole.
+# a detail/ folder or in one of the rooms of windows, their partition and heat, which are private as a whole.
 cmake_minimum_required(VERSION 3.22)
 file(READ ${SOURCE}/brushfire/brushfire.h everything)
 file(GLOB_RECURSE headers RELATIVE ${SOURCE}/brushfire ${SOURCE}/brushfire/*.h)
 foreach(header ${headers})
   string(FIND "${everything}" "#include <brushfire/${header}>" at)
-  if(header MATCHES "detail/|^solvers/(windows|partition)/")
+  if(header MATCHES "detail/|^solvers/(windows|partition|heat)/")
     if(NOT at EQUAL -1)
       message(SEND_ERROR "${header} is in brushfire.h and private")
     endif()
