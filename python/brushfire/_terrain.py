@@ -30,6 +30,11 @@ class Terrain:
 
     ``mesh``: a :class:`Mesh`, whose vertices are those of the array, row by row: ``mesh.distance(...).reshape(shape)`` is a
     raster again. ``shape``: of the array.
+
+    >>> import brushfire as bf
+    >>> ground = bf.terrain([[0, 1, 2], [0, 1, 2]])
+    >>> ground.mesh.distance(0).reshape(ground.shape).shape
+    (2, 3)
     """
 
     def __init__(self, heights: npt.NDArray[np.float64], transform: Any, no_data: float) -> None:

@@ -96,7 +96,13 @@ def _pace(slope: Slope | None) -> tuple[str, Floats | None, Floats | None]:
 
 
 class Weighted:
-    """A mesh and what it costs to cross its faces and edges; made by :meth:`Mesh.weighted`."""
+    """A mesh and what it costs to cross its faces and edges; made by :meth:`Mesh.weighted`.
+
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> mesh.weighted([1, 3]).path(1, 3).cost > mesh.path(1, 3).length
+    True
+    """
 
     def __init__(self, mesh: OnMesh, weights: Any, edge_weights: Any, slope: Slope | None, steepest: float) -> None:
         face = None if weights is None else floats(weights, "weights")
@@ -120,6 +126,11 @@ class Weighted:
     ) -> Floats:
         """What the cheapest path from the nearest of the sources costs: upper bounds, without lower ones in a fraction of
         the time of :meth:`costs`. Arguments as there; float64 (vertex_count,) or (targets,), +inf where there is no path.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.weighted([2, 2]).distance(1, targets=[0, 2]).round(6).tolist()
+        [6.0, 8.0]
         """
         return self._solve(sources, tolerance, 0, False, towards, offset, radius, targets, progress).upper
 
@@ -218,6 +229,12 @@ class Weighted:
         cross edges they obey Snell's law to rounding.
 
         :return: one :class:`WeightedPath` per target, and the position in ``sources`` of each one's source, -1: none.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> paths, _ = mesh.weighted([1, 3]).paths(1, [2, 3])
+        >>> [round(p.cost, 6) for p in paths]
+        [4.0, 9.895461]
         """
         start, end = self._on._arrays(sources, "sources"), self._on._arrays(targets, "targets")
         source, found = self._solver.paths(

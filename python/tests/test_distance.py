@@ -31,8 +31,9 @@ def test_several_sources_give_the_nearest_and_say_which(bumpy, method):
     single = np.array([bumpy.distance(s, method=method) for s in sources])
     assert set(label) == {0, 1, 2}
     # The fronts of approximate methods disturb each other where they meet.
-    # That of heat rounds all of them, by a share of the edges.
-    assert np.allclose(d, single.min(axis=0), rtol=0.03, atol=0.6 if method == "heat" else 0)
+    # That of heat is rounded everywhere, by some of these long edges.
+    rounded = 1.5 * bumpy.report.mean_edge_length if method == "heat" else 0
+    assert np.allclose(d, single.min(axis=0), rtol=0.03, atol=rounded)
     assert d[5] == d[140] == 0
 
 

@@ -58,6 +58,8 @@ def test_every_public_function_and_method_has_an_example():
         "Voronoi",
         "Cut",
         "Boundary",
+        "Costs",
+        "WeightedPath",
         "Centroidal",
         "Discs",
         "Extent",
