@@ -28,6 +28,7 @@ from brushfire._picture import Pictures
 from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
 from brushfire._progress import Progress, shown
 from brushfire._regions import Regions
+from brushfire._sources import Sources, sources_of
 from brushfire._sets import Pairs
 from brushfire._weighted import WithWeights
 
@@ -367,6 +368,33 @@ class Mesh(
     ) -> Solver:
         """A solver for many calls on this mesh: see :class:`Solver`, which takes the same arguments."""
         return Solver(self, method, tolerance=tolerance, bound=bound, precision=precision)
+
+    def signed_distance(
+        self, curves: Sources, *, radius: float = np.inf, threads: int = 1, progress: Progress = None
+    ) -> Floats:
+        """Exact distance with a sign: negative on the left of the nearest curve, positive on its right.
+
+        Left is seen along the curve, the faces lying counter-clockwise: the inside of a closed curve that runs
+        counter-clockwise is negative, and curves that nest with opposite senses bound what lies between them. On which
+        side a vertex is, its shortest path says, by where it arrives (docs/curve-sources.md); where there is no side, as on
+        the curve, the distance is positive.
+
+        :param curves: one or several, as :meth:`distance` takes them, without offsets.
+        :param radius, threads, progress: as for :meth:`distance`.
+        :return: float64 (vertex_count,); +inf where nothing is reached.
+        :raises BrushfireError: for points among the curves, offsets, a mesh with walls, and as :meth:`distance` does.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.signed_distance(bf.Curve([0, 2])).round(9).tolist()
+        [0.0, 2.4, 0.0, -2.4]
+        """
+        if self._walls is not None:
+            raise BrushfireError("signed_distance: a mesh with walls has no sides; cut() it")
+        chosen = options("exact", None, radius, threads=threads)
+        start = sources_of(self, curves)
+        with shown(progress, "distance") as report:
+            return _core.signed_distance(self._mesh, start, chosen, report)
 
     def page(
         self,

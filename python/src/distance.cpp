@@ -3,6 +3,7 @@
 #include "solver.h"
 
 #include <brushfire/core/error.h>
+#include <brushfire/queries/curve_sides.h>
 
 namespace brushfire::python {
 namespace {
@@ -26,6 +27,14 @@ nb::tuple solve(Solver& solver, const Sources& sources, const std::optional<Vect
   nb::object bound = nb::none();
   if (!field.error_bound.empty()) bound = nb::cast(to_numpy(std::move(field.error_bound)));
   return nb::make_tuple(to_numpy(std::move(field.distance)), to_numpy_signed(std::move(field.source)), bound);
+}
+
+// [vertex_count] negative on the left of curves.
+nb::object signed_field(const Mesh& mesh, const Sources& sources, const nb::dict& given, nb::object progress) {
+  Computation computation(std::move(progress));
+  const DistanceOptions options = options_from(given, computation);
+  return to_numpy(
+      computation.run(mesh.face_count() < kBriefFaces, [&] { return signed_distance(mesh, sources.list, options); }));
 }
 
 // Builds what the first run with these options would build.
@@ -74,6 +83,7 @@ DistanceOptions options_from(const nb::dict& given, Computation& computation) {
 }
 
 void bind_distance(nb::module_& m) {
+  m.def("signed_distance", signed_field, nb::arg("mesh"), nb::arg("sources"), nb::arg("options"), nb::arg("progress"));
   nb::class_<Solver>(m, "Solver")
       .def(nb::init<const Domain&>(), nb::arg("domain"))
       .def("set_up", set_up, nb::arg("options"))

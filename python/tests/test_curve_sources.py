@@ -131,3 +131,15 @@ def test_what_is_no_curve_is_refused(plane):
         plane.distance(bf.Curve([0, N * N]))
     with pytest.raises(bf.BrushfireError, match="at least one"):
         plane.distance(bf.Curve([]))
+
+
+def test_the_left_of_a_curve_is_negative(plane):
+    up = bf.Curve([y * N + 2 for y in range(N)])
+    near(plane.signed_distance(up), X - X[2])
+    near(plane.signed_distance(bf.Curve(list(reversed(up.places)))), X[2] - X)
+    with pytest.raises(bf.BrushfireError, match="is a point"):
+        plane.signed_distance([up, 0])
+    with pytest.raises(bf.BrushfireError, match="offsets"):
+        plane.signed_distance(bf.Curve(rows(0), offset=1.0))
+    with pytest.raises(bf.BrushfireError, match="walls"):
+        plane.walled(edges=[[0, 1]]).signed_distance(up)

@@ -161,5 +161,20 @@ TEST_F(CurveSources, StandInFilesOfSourcesBesidePlaces) {
   EXPECT_EQ(ended.out, "0\n1\n") << ended.err;
 }
 
+TEST_F(CurveSources, HaveALeftThatIsNegative) {
+  const Ended ended = run({"distance", "--source", "chain:2,7,12,17", "--signed", "-q", "-o", path("s.csv")});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  std::istringstream lines(content("s.csv"));
+  std::string line;
+  std::getline(lines, line);
+  for (int v = 0; v < 20; ++v) {
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_NEAR(std::stod(line.substr(line.find(',') + 1)), v % 5 - 2, 1e-12) << line;
+  }
+  expect_refused({"distance", "--source", "chain:2,7", "--signed", "--method", "windows"}, 2, "--signed is exact");
+  expect_refused({"distance", "--source", "chain:2,7", "--signed", "--target", "0"}, 2, "--signed: not with --target");
+  expect_refused({"distance", "--source", "3", "--signed"}, 2, "is a point");
+}
+
 }  // namespace
 }  // namespace brushfire::test

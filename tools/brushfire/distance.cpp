@@ -9,8 +9,10 @@
 #include "weighted.h"
 #include "where.h"
 
+#include <brushfire/queries/curve_sides.h>
 #include <brushfire/solvers/distance.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -39,6 +41,7 @@ Examples:
   brushfire distance bunny.ply --source 0 --target 5000 --target f:120:.2,.3,.5
   brushfire distance bunny.ply --source 0 --method dijkstra --json
   brushfire distance part.stl --source boundary -o from-the-rim.ply
+  brushfire distance bunny.ply --source drawn.obj --signed -o sides.ply
   brushfire distance bunny.ply --source 0 --tolerance 1e-4 -o within-0.01-percent.npy
   brushfire distance bunny.ply --source 0 --target 5000 --tolerance fine --bound upper
   brushfire distance terrain.ply --source 0 --weights friction.npy -o cost.npy
@@ -56,7 +59,7 @@ struct Arguments {
   SharedArguments shared;
   WeightArguments weights;
   std::vector<std::string> targets;
-  bool labels = false;
+  bool labels = false, is_signed = false;
 };
 
 class Stopwatch {
@@ -89,8 +92,22 @@ struct Run {
   }
 };
 
+// Signs are read off exact paths, of the whole mesh.
+void check_signed(const Arguments& arguments) {
+  if (const char* walls = given(arguments.shared, kWalls)) refuse("--signed: not with " + std::string(walls));
+  if (!arguments.targets.empty()) refuse("--signed: not with --target: the field has the signs");
+  if (arguments.weights.given()) refuse("--signed: not with weights: costs have no sides");
+  if (const char* accuracy = given(arguments.shared, kAccuracy)) {
+    refuse("--signed is exact: not with " + std::string(accuracy));
+  }
+  for (const std::string& method : arguments.shared.methods) {
+    if (method != "exact") refuse("--signed is exact: not with --method " + method);
+  }
+}
+
 void check(const Arguments& arguments, const Talk& talk) {
   check_output(arguments.output);
+  if (arguments.is_signed) check_signed(arguments);
   if (arguments.output == "-" && (talk.json || !arguments.targets.empty())) {
     refuse("only one of -o -, --json and --target can have the standard output");
   }
@@ -136,6 +153,8 @@ std::string json(const Arguments& arguments, const Run& run, const PlaceFinder& 
   return record.json();
 }
 
+double least(const DistanceField& field) { return *std::min_element(field.distance.begin(), field.distance.end()); }
+
 std::string in_words(const Arguments& arguments, const Run& run) {
   const DistanceField& field = run.field;
   std::string text = arguments.file + ": " + counted(run.mesh.vertex_count(), "vertex", "vertices") + ", " +
@@ -144,6 +163,7 @@ std::string in_words(const Arguments& arguments, const Run& run) {
           " reached " + counted(field.reached, "vertex", "vertices") + run.reached.in_words() + "\n";
   if (const Index v = run.farthest(); v != kNoIndex) {
     text += "farthest: vertex " + std::to_string(v) + " at " + with_unit(field.distance[v], arguments.shared) + "\n";
+    if (arguments.is_signed) text += "least: " + with_unit(least(field), arguments.shared) + "\n";
   }
   if (field.method == Method::Windows) {
     text += "no distance is wrong by more than " + readable(100 * field.max_error_bound) +
@@ -173,7 +193,8 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   }
   Run run;
   DistanceOptions& options = run.options;
-  options = computation(arguments.shared);
+  options = computation(arguments.shared, arguments.is_signed ? Method::Exact : DistanceOptions{}.method);
+  options.keep_paths = arguments.is_signed;
   const std::vector<Where> source_places = parse_sources(arguments.shared);
   run.target_places = parse_places(arguments.targets, "a target");
 
@@ -196,6 +217,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
 
   const Stopwatch solving;
   run.field = solver.distance(run.sources, options);
+  if (arguments.is_signed) run.field.distance = signed_distance(run.field, run.sources);
   run.solve_s = solving.seconds();
   talk.end_progress();
   run.reached = Reached(surface.domain(), run.sources, options, run.field);
@@ -229,6 +251,8 @@ void add_distance(CommandLine& command_line) {
     verb.option("-o,--output", arguments->output, "FILE",
                 ("Write the field: " + extensions_of(fields_written()) + "; - prints CSV").c_str());
     verb.flag("--labels", arguments->labels, "Write the nearest source into .gii too, as other formats have it");
+    verb.flag("--signed", arguments->is_signed,
+              "From curves: negative on their left, as inside of those that run counter-clockwise");
     add_weights(verb, arguments->weights);
     verb.talks();
     add_shared(verb, arguments->shared,

@@ -306,13 +306,8 @@ class Arrivals {
   std::vector<CurveArrival> result_;
 };
 
-}  // namespace
-
-std::vector<CurveArrival> arrivals(const WindowField& field, std::span<const Source> sources) {
-  return Arrivals(field, sources)();
-}
-
-std::vector<double> signed_distance(const Mesh& mesh, std::span<const Source> curves, const DistanceOptions& how) {
+// Throws Error(InvalidArgument) for what has no sides or no distance of its own.
+void check_have_sides(std::span<const Source> curves) {
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Source& s = curves[i];
     if (!s.curve) {
@@ -323,6 +318,27 @@ std::vector<double> signed_distance(const Mesh& mesh, std::span<const Source> cu
       throw Error(ErrorCode::InvalidArgument, "source " + std::to_string(i) + " has offsets: a sign needs distances");
     }
   }
+}
+
+}  // namespace
+
+std::vector<CurveArrival> arrivals(const WindowField& field, std::span<const Source> sources) {
+  return Arrivals(field, sources)();
+}
+
+std::vector<double> signed_distance(const DistanceField& field, std::span<const Source> curves) {
+  check_have_sides(curves);
+  if (!field.windows) throw Error(ErrorCode::InvalidArgument, "a sign needs the paths of the field: keep_paths");
+  std::vector<double> values = field.distance;
+  const std::vector<CurveArrival> sides = arrivals(*field.windows, curves);
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (values[v] < kInfinity && sides[v].side == CurveSide::Left) values[v] = -values[v];
+  }
+  return values;
+}
+
+std::vector<double> signed_distance(const Mesh& mesh, std::span<const Source> curves, const DistanceOptions& how) {
+  check_have_sides(curves);
   DistanceOptions exact;
   exact.method = Method::Exact;
   exact.keep_paths = true;
@@ -331,12 +347,7 @@ std::vector<double> signed_distance(const Mesh& mesh, std::span<const Source> cu
   exact.progress = how.progress;
   exact.cancel = how.cancel;
   const CancelScope listen(how.cancel);
-  DistanceField field = distance(mesh, curves, exact);
-  const std::vector<CurveArrival> sides = arrivals(*field.windows, curves);
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (field.distance[v] < kInfinity && sides[v].side == CurveSide::Left) field.distance[v] = -field.distance[v];
-  }
-  return std::move(field.distance);
+  return signed_distance(distance(mesh, curves, exact), curves);
 }
 
 }  // namespace brushfire
