@@ -30,7 +30,7 @@ nb::tuple solve(Solver& solver, const Sources& sources, const std::optional<Vect
 }
 
 // [vertex_count] negative on the left of curves.
-nb::object signed_field(const Mesh& mesh, const Sources& sources, const nb::dict& given, nb::object progress) {
+Result<double> signed_field(const Mesh& mesh, const Sources& sources, const nb::dict& given, nb::object progress) {
   Computation computation(std::move(progress));
   const DistanceOptions options = options_from(given, computation);
   return to_numpy(
