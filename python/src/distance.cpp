@@ -83,7 +83,8 @@ DistanceOptions options_from(const nb::dict& given, Computation& computation) {
 }
 
 void bind_distance(nb::module_& m) {
-  m.def("signed_distance", signed_field, nb::arg("mesh"), nb::arg("sources"), nb::arg("options"), nb::arg("progress"));
+  m.def("signed_distance", signed_field, nb::arg("mesh"), nb::arg("sources"), nb::arg("options"),
+        nb::arg("progress").none());
   nb::class_<Solver>(m, "Solver")
       .def(nb::init<const Domain&>(), nb::arg("domain"))
       .def("set_up", set_up, nb::arg("options"))
