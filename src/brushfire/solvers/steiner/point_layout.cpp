@@ -122,7 +122,7 @@ PointLayout::PointLayout(const WeightedMesh& weighted, const Density& density) {
                                          "needs fewer");
   }
   rows_.push_back(0);
-  at_.reserve(size);
+  at_.reserve(static_cast<std::size_t>(size));
   for (Index e = 0; e < edges.count(); ++e) {
     const double length = shapes.edges[e].length;
     const Half &first = halves[2 * e], &last = halves[2 * e + 1];
