@@ -11,6 +11,7 @@
 #include <brushfire/solvers/windows/paths/trace.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,12 +100,22 @@ WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Fou
   return leg;
 }
 
+// A point in a face is where its weights say, to the rounding of three products and two sums in each of two
+// coordinates; so is the other end of the leg: twenty roundings of lengths of the face, which is many times the leg's
+// own where that is short.
+double room_of_places(const Mesh& mesh, Index face) {
+  constexpr double kPlaces = 20 * std::numeric_limits<double>::epsilon();
+  return kPlaces * std::max({mesh.length(3 * face), mesh.length(3 * face + 1), mesh.length(3 * face + 2)});
+}
+
 // The best that was found may explain the value no better than by chance: a longer way, or one from another source.
 // That is a fault of ours, and no path.
-void hold_to_value(const windows::WindowFieldData& data, const PointRecord& record, const WindowField::Leg& leg) {
+void hold_to_value(const windows::WindowFieldData& data, const Found& found, const WindowField::Leg& leg) {
+  const PointRecord& record = found.record;
   const double start =
       leg.vertex != kNoIndex ? data.vertices[leg.vertex].value : data.sources[leg.source].offset + data.shift;
-  if (!(start + leg.length > record.value + data.most_room_for(record))) return;
+  const double room = data.most_room_for(record) + room_of_places(data.mesh, found.at.face);
+  if (!(start + leg.length > record.value + room)) return;
   const double unit = data.mesh.unit();
   throw Error(ErrorCode::Internal, "the path was lost: the shortest way that was found comes to " +
                                        number_as_text(unit * (start + leg.length - data.shift)) + ", the field says " +
@@ -127,7 +138,7 @@ WindowField::Leg last_leg_of(const windows::WindowFieldData& data, const Found& 
     leg = windows::find_leg({data.mesh, data.sources, data.curves, data.shift, vertex_value, at, found.record.value,
                              data.room_for(found.record), ray.pseudo_source, ray.halfedge, ray.source,
                              ray.kind == windows::WindowKind::Linear});
-    if (!leg.points.empty()) hold_to_value(data, found.record, leg);
+    if (!leg.points.empty()) hold_to_value(data, found, leg);
   }
   leg.length *= data.mesh.unit();
   return leg;
