@@ -57,6 +57,7 @@ OTHERWISE = {
     "sample --sources": ("first", "the first samples"),
     "matrix --source": ("rows", "the rows' places"),
     "matrix --sources": ("rows", "the rows' places"),
+    "distance --signed": ("", "signed_distance() is a function of its own"),
     "distance --target": ("targets", "one name for one and for several places"),
     "path --to": ("targets", "one name for one and for several places"),
     "path --via": ("", "path() takes all places of one path, in their order"),
