@@ -35,6 +35,14 @@ def _without_walls(mesh: Mesh) -> _core.Mesh:
     return mesh._mesh
 
 
+def _free_borders(
+    mesh: Mesh, time_factor: float, time: float | None, delaunay: bool
+) -> tuple[_core.Mesh, float, float, str, bool, float]:
+    """What the core's solvers of vectors and signs take: heat does not leave over borders."""
+    chosen = 0.0 if time is None else number(time, "time")
+    return _without_walls(mesh), number(time_factor, "time_factor"), chosen, "neumann", bool(delaunay), 0.0
+
+
 def _in_one(arrays: Sequence[PlaceArrays]) -> tuple[Ints, Floats, Ints]:
     """Index and weights of all, one after the other, and where each begins."""
     index = np.concatenate([np.zeros(0, dtype=np.int64), *(a.index for a in arrays)])
@@ -178,14 +186,7 @@ class VectorHeatSolver:
         self, mesh: Mesh, *, time_factor: float = 1.0, time: float | None = None, delaunay: bool = True
     ) -> None:
         self.mesh = mesh
-        self._core = _core.VectorHeatSolver(
-            _without_walls(mesh),
-            number(time_factor, "time_factor"),
-            0.0 if time is None else number(time, "time"),
-            "neumann",
-            bool(delaunay),
-            0.0,
-        )
+        self._core = _core.VectorHeatSolver(*_free_borders(mesh, time_factor, time, delaunay))
 
     @property
     def time(self) -> float:
@@ -275,14 +276,7 @@ class SignedHeatSolver:
         self, mesh: Mesh, *, time_factor: float = 1.0, time: float | None = None, delaunay: bool = True
     ) -> None:
         self.mesh = mesh
-        self._core = _core.SignedHeatSolver(
-            _without_walls(mesh),
-            number(time_factor, "time_factor"),
-            0.0 if time is None else number(time, "time"),
-            "neumann",
-            bool(delaunay),
-            0.0,
-        )
+        self._core = _core.SignedHeatSolver(*_free_borders(mesh, time_factor, time, delaunay))
 
     def distance(
         self,

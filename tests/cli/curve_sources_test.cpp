@@ -14,17 +14,7 @@ namespace {
 // A plane of 4 x 3 unit squares; vertex y * 5 + x.
 class CurveSources : public InFolder {
  protected:
-  void SetUp() override {
-    std::string text = "OFF\n20 24 0\n";
-    for (int v = 0; v < 20; ++v) text += std::to_string(v % 5) + " " + std::to_string(v / 5) + " 0\n";
-    for (int v = 0; v < 15; ++v) {
-      if (v % 5 == 4) continue;
-      const std::string a = std::to_string(v), b = std::to_string(v + 1), c = std::to_string(v + 6),
-                        d = std::to_string(v + 5);
-      text += "3 " + a + " " + b + " " + c + "\n3 " + a + " " + c + " " + d + "\n";
-    }
-    write("plane.off", text);
-  }
+  void SetUp() override { write_squares("plane.off", 4, 3); }
 
   Ended run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin() + 1, path("plane.off"));

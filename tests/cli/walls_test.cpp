@@ -21,18 +21,7 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 class Walls : public InFolder {
  protected:
   void SetUp() override {
-    std::string off = "OFF\n15 16 0\n";
-    for (int y = 0; y < 3; ++y) {
-      for (int x = 0; x < 5; ++x) off += std::to_string(x) + " " + std::to_string(y) + " 0\n";
-    }
-    for (int y = 0; y < 2; ++y) {
-      for (int x = 0; x < 4; ++x) {
-        const int v = y * 5 + x;
-        off += "3 " + std::to_string(v) + " " + std::to_string(v + 1) + " " + std::to_string(v + 6) + "\n";
-        off += "3 " + std::to_string(v) + " " + std::to_string(v + 6) + " " + std::to_string(v + 5) + "\n";
-      }
-    }
-    write("m.off", off);
+    write_squares("m.off", 4, 2);
     write("edges.txt", "2 7\n");                             // up from (2, 0) to (2, 1)
     write("mask.txt", "1 1 1 0 1\n1 1 1 0 1\n1 1 1 0 1\n");  // column x = 3 is closed
   }

@@ -20,19 +20,9 @@ namespace {
 class WeightFiles : public InFolder {
  protected:
   void SetUp() override {
-    std::string off = "OFF\n15 16 0\n", weights = "# one per face\n";
-    for (int y = 0; y < 3; ++y) {
-      for (int x = 0; x < 5; ++x) off += std::to_string(x) + " " + std::to_string(y) + " 0\n";
-    }
-    for (int y = 0; y < 2; ++y) {
-      for (int x = 0; x < 4; ++x) {
-        const int v = y * 5 + x;
-        off += "3 " + std::to_string(v) + " " + std::to_string(v + 1) + " " + std::to_string(v + 6) + "\n";
-        off += "3 " + std::to_string(v) + " " + std::to_string(v + 6) + " " + std::to_string(v + 5) + "\n";
-        weights += x < 2 ? "1 1\n" : "3 3\n";
-      }
-    }
-    write("m.off", off);
+    std::string weights = "# one per face\n";
+    for (int square = 0; square < 8; ++square) weights += square % 4 < 2 ? "1 1\n" : "3 3\n";
+    write_squares("m.off", 4, 2);
     write("w.txt", weights);
     write("fence.txt", "# from, to, along, across\n2 7 inf 5\n7 12 inf 5\n");
     write("road.txt", "5 6 0.5\n6 7 0.5\n7 8 0.5\n8 9 0.5\n");

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "curves/random_curves.h"
+#include "curves/samples.h"
 #include "curves/surfaces.h"
 #include "support/engine_run.h"
 #include "support/same_field.h"
@@ -211,19 +212,9 @@ TEST(Curves, BehindWallsAreTheCurvesOfTheCutMesh) {
     for (Index row = 0; row < 7; ++row) barriers.edges.push_back({row * 9 + 4, (row + 1) * 9 + 4});
     const Domain domain(mesh, barriers);
     const DistanceField walled = distance(domain, std::vector{source_along(curve)}, {.method = Method::Exact});
-    std::vector<Source> samples;
-    double spacing = 0;
-    for (const CurveSegment& s : locate(mesh, curve).segments) {
-      constexpr int kPieces = 24;
-      spacing = std::max(spacing, s.length / kPieces);
-      for (int i = 0; i <= kPieces; ++i) {
-        const double t = static_cast<double>(i) / kPieces;
-        Source point{{s.face, {}}};
-        for (std::size_t k = 0; k < 3; ++k) point.point.weights[k] = (1 - t) * s.from[k] + t * s.to[k];
-        samples.push_back(point);
-      }
-    }
-    const DistanceField sampled = distance(domain, samples, {.method = Method::Exact});
+    constexpr int kPieces = 24;
+    const double spacing = test::longest_segment(mesh, curve) / kPieces;
+    const DistanceField sampled = distance(domain, test::samples(mesh, curve, kPieces), {.method = Method::Exact});
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       EXPECT_LE(walled.distance[v], sampled.distance[v] + 1e-12) << "seed " << seed << ", vertex " << v;
       EXPECT_GE(walled.distance[v], sampled.distance[v] - 0.5 * spacing - 1e-12) << "seed " << seed << ", vertex " << v;

@@ -7,32 +7,14 @@
 #include <random>
 
 #include "curves/random_curves.h"
+#include "curves/samples.h"
 #include "curves/surfaces.h"
 
 namespace brushfire {
 namespace {
 
-// Sources on every segment of a curve, `pieces` pieces apart.
-std::vector<Source> samples(const Mesh& mesh, const CurveSource& curve, int pieces) {
-  std::vector<Source> points;
-  const LocatedCurve located = locate(mesh, curve);
-  for (const CurveSegment& s : located.segments) {
-    for (int i = 0; i <= pieces; ++i) {
-      const double t = static_cast<double>(i) / pieces;
-      Source point{{s.face, {0, 0, 0}}, (1 - t) * s.from_offset + t * s.to_offset};
-      for (std::size_t k = 0; k < 3; ++k) point.point.weights[k] = (1 - t) * s.from[k] + t * s.to[k];
-      points.push_back(point);
-    }
-  }
-  if (located.segments.empty()) points.push_back({curve.places.front(), located.least_offset});
-  return points;
-}
-
-double longest_segment(const Mesh& mesh, const CurveSource& curve) {
-  double longest = 0;
-  for (const CurveSegment& s : locate(mesh, curve).segments) longest = std::max(longest, s.length);
-  return longest;
-}
+using test::longest_segment;
+using test::samples;
 
 // By how much samples are farther: the least and the largest excess over all vertices.
 struct Excess {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "curves/random_curves.h"
+#include "curves/samples.h"
 #include "curves/surfaces.h"
 #include "support/shared_meshes.h"
 
@@ -118,20 +119,10 @@ TEST(CurvesOnScans, AreNeverFartherThanSamples) {
     curve.places = test::random_walk(mesh, 30, random);
     const DistanceField field =
         distance(mesh, std::vector{source_along(curve)}, {.method = Method::Exact, .max_distance = mesh.unit() * 12});
-    std::vector<Source> samples;
-    double spacing = 0;
-    for (const CurveSegment& s : locate(mesh, curve).segments) {
-      constexpr int kPieces = 20;
-      spacing = std::max(spacing, s.length / kPieces);
-      for (int i = 0; i <= kPieces; ++i) {
-        const double t = static_cast<double>(i) / kPieces;
-        Source point{{s.face, {}}};
-        for (std::size_t k = 0; k < 3; ++k) point.point.weights[k] = (1 - t) * s.from[k] + t * s.to[k];
-        samples.push_back(point);
-      }
-    }
-    const DistanceField sampled =
-        distance(mesh, samples, {.method = Method::Exact, .max_distance = mesh.unit() * 12 + spacing});
+    constexpr int kPieces = 20;
+    const double spacing = test::longest_segment(mesh, curve) / kPieces;
+    const DistanceField sampled = distance(mesh, test::samples(mesh, curve, kPieces),
+                                           {.method = Method::Exact, .max_distance = mesh.unit() * 12 + spacing});
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       if (field.distance[v] == kInfinity) continue;
       EXPECT_LE(field.distance[v], sampled.distance[v] + field.error_bound[v] + sampled.error_bound[v]) << name << v;

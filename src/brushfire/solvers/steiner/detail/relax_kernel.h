@@ -2,6 +2,13 @@
 namespace brushfire::steiner::BRUSHFIRE_TARGET {
 using namespace lanes::BRUSHFIRE_TARGET;
 
+// The least offer so far, and which point it is from.
+inline void keep_lower(const Lanes<double, 4>& offer, Index i, Lanes<double, 4>& best, Lanes<double, 4>& origin) {
+  const auto lower = offer < best;
+  best = select(lower, offer, best);
+  origin = select(lower, Lanes<double, 4>(static_cast<double>(i)), origin);
+}
+
 // The straight distance times the weight. Whether anything is lower than what was there.
 inline bool relax_rows(const Offering& from, const Receiving& to, double weight, Offers& offers) {
   using V = Lanes<double, 4>;
@@ -13,9 +20,7 @@ inline bool relax_rows(const Offering& from, const Receiving& to, double weight,
       const V x = to.start.x + at * to.direction.x, y = to.start.y + at * to.direction.y, yy = y * y;
       for (Index i = from.first; i <= from.last; ++i) {
         const V dx = x - from.at[i], offer = from.value[i] + weight * square_root(dx * dx + yy);
-        const auto lower = offer < best;
-        best = select(lower, offer, best);
-        origin = select(lower, V(static_cast<double>(i)), origin);
+        keep_lower(offer, i, best, origin);
       }
       any_lower = any_lower || any(best < old);
     }
@@ -47,9 +52,7 @@ inline bool relax_rows_below(const Offering& from, const Receiving& to, double w
         const V share = apart / square_root(square + spread);
         const V cost = lesser(greater(d, V(0)) * share, ceiling + near.ceiling[i]);
         const V offer = from.value[i] + weight * cost;
-        const auto lower = offer < best;
-        best = select(lower, offer, best);
-        origin = select(lower, V(static_cast<double>(i)), origin);
+        keep_lower(offer, i, best, origin);
       }
       any_lower = any_lower || any(best < old);
     }
