@@ -56,6 +56,7 @@ struct GroupTurn {
   Index vertex;
   FrontLanes front;
   Around<float> around;
+  std::uint8_t bends;
   const SideEnd<float>* ends;
   const Side<float>* sides;
   const DarkSets* dark;       // null: none
@@ -81,7 +82,9 @@ BRUSHFIRE_INLINE void offer(GroupState& s, const Records<float>& records, const 
   }
   b.x = Values(by.length) - b.x;
   const OfferFrame<float> f = offer_frame(by, to, u, at.around, s.fronts[target].own.around);
-  const Offer<Values> o = offer_over<Values>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, b);
+  const BendingEnds<float> bending{bending_by<float>(at.bends), bending_by<float>(by.end_bends)};
+  const Offer<Values> o =
+      offer_over<Values>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, b, bending);
   const Values c(f.turn_c), sine(f.turn_s), oy = Values(f.sign) * o.y;
   accept(s, target, {o.value, o.sigma, o.x * c - oy * sine, o.x * sine + oy * c}, u.sector());
 }
@@ -104,6 +107,7 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
   const GroupTurn at{v,
                      front_lanes(s.fronts[v]),
                      own.around,
+                     head.bends,
                      record.ends(),
                      record.sides(),
                      head.has_dark ? record.dark() : nullptr,
