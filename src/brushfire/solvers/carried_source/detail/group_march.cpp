@@ -82,8 +82,9 @@ void GroupMarch::begin_at(int lane, Index vertex) {
   own.listed = true;
 }
 
-bool GroupMarch::run(float spread, float last) {
+bool GroupMarch::run(float spread, float last, Beyond beyond) {
   GroupState& s = state_;
+  s.beyond = beyond == Beyond::Ignored ? last : GroupState::kUnreached;
   do {
     const float front = static_cast<float>(s.queue.cursor()) / s.per_unit - spread - settling_;
     if (front > last) return true;

@@ -155,9 +155,10 @@ BRUSHFIRE_INLINE void sort_in(GroupState& s) {
     GroupVertex& own = s.fronts[v].own;
     own.listed = false;
     if ((own.fresh & GroupVertex::kLanes) == 0) continue;
-    s.exhausted |= own.turns >= s.most_turns;
     s.touched.push_if(!own.reached, v);
     own.reached = true;
+    if (!any(load<Values>(s.fronts[v].value) <= Values(s.beyond))) continue;
+    s.exhausted |= own.turns >= s.most_turns;
     const float key = key_of(s.fronts[v]);
     const BucketQueue::Bucket bucket = group_bucket(key * s.per_unit);
     if (bucket <= s.queue.cursor()) {

@@ -55,6 +55,7 @@ struct GroupState {
   float per_unit = 1, slack = 0, farther = 0;  // of the mesh
   int most_turns = 0;                          // of a vertex
   float settled = 0;                           // values below no longer change
+  float beyond = kUnreached;                   // a vertex all of whose values are greater has no turn
   bool exhausted = false;                      // a vertex used up its turns
   std::uint64_t turns = 0, updates = 0;
 };

@@ -136,8 +136,8 @@ BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, 
     take(offer_beside<T>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, bending), at.front.label);
     const T x = by.length - f.x, beyond = std::sqrt(x * x + f.y * f.y);
     b.x = by.length - b.x;
-    Offer<T> o = offer_beside<T>(by.length, x, f.y, beyond, other.value, at.front.value, b,
-                                 {bending.at_b, bending.at_v});
+    Offer<T> o =
+        offer_beside<T>(by.length, x, f.y, beyond, other.value, at.front.value, b, {bending.at_b, bending.at_v});
     o.x = -o.x;
     take(o, other.label);
   } else {

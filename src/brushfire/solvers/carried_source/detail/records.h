@@ -65,7 +65,7 @@ struct RecordHead {
   Index sides = 0;
   std::uint8_t has_dark = 0, has_lenses = 0;
   std::uint8_t bends = 0;  // Fans::bends_light()
-  T reach = 0;  // the longest side that anything is offered over
+  T reach = 0;             // the longest side that anything is offered over
 };
 
 // A direction turned by the sum of a vertex's angles is multiplied by this.

@@ -98,8 +98,8 @@ BRUSHFIRE_INLINE Offer<V> offer_over(NumberIn<V> length, NumberIn<V> to_x, Numbe
   const auto round_v = without(fan, cross < V(bending.at_v) * wide);
   const auto round_b = without(fan, V(T(1) - bending.at_b) * wide < cross);
   // The way through v, whose source is nearer, does not win by rounding.
-  const auto over = without(
-      round_v, (seen_a | seen_b) & (through < V(kTie<T>) * edge) & (at_v < V(kNever)) & (at_b < V(kNever)));
+  const auto over =
+      without(round_v, (seen_a | seen_b) & (through < V(kTie<T>) * edge) & (at_v < V(kNever)) & (at_b < V(kNever)));
   const auto straight = without(round_b, over);
   const V dx = select(straight, (part * (b.x - a.x) - ax) * shorter, select(over, l, zero) - x);
   const V dy = select(straight, (part * (b.y - a.y) - deep_a) * shorter, zero - y);
