@@ -141,11 +141,13 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
   s.updates += offers;
 }
 
-// The mean of the lanes that have a value.
-BRUSHFIRE_INLINE float key_of(const GroupFront& f) {
+// The mean of the lanes that have a value; those that have none yet come later.
+BRUSHFIRE_INLINE float key_of(const GroupState& s, const GroupFront& f) {
   const Values value = load<Values>(f.value);
   const MaskFor<Values> there = value < Values(GroupState::kUnreached);
-  return sum(select(there, value, Values(0.0f))) / static_cast<float>(std::popcount(bits(there)));
+  const int count = std::popcount(bits(there));
+  return sum(select(there, value, Values(0.0f))) / static_cast<float>(count) +
+         static_cast<float>(s.lanes - count) * s.later;
 }
 
 // Those that did fall in a pass wait for their turn: in the next pass of this bucket, or in a later one.
@@ -159,7 +161,7 @@ BRUSHFIRE_INLINE void sort_in(GroupState& s) {
     own.reached = true;
     if (!any(load<Values>(s.fronts[v].value) <= Values(s.beyond))) continue;
     s.exhausted |= own.turns >= s.most_turns;
-    const float key = key_of(s.fronts[v]);
+    const float key = key_of(s, s.fronts[v]);
     const BucketQueue::Bucket bucket = group_bucket(key * s.per_unit);
     if (bucket <= s.queue.cursor()) {
       s.next.emplace_back(key, v);
