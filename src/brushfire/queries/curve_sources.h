@@ -4,7 +4,7 @@
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/boundaries.h>
 #include <brushfire/mesh/curve_source.h>
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 
 #include <cstdint>
 #include <span>

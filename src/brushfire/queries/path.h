@@ -11,7 +11,7 @@
 //     }
 #pragma once
 
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 #include <brushfire/solvers/distance.h>
 
 #include <memory>

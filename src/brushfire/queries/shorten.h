@@ -2,7 +2,7 @@
 #pragma once
 
 #include <brushfire/mesh/domain.h>
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 
 namespace brushfire {
 

@@ -1,7 +1,7 @@
 // Straightest geodesics: walking straight on from a point, and the logarithmic map that undoes it.
 #pragma once
 
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 #include <brushfire/solvers/distance.h>
 
 #include <vector>

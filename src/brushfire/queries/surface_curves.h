@@ -4,7 +4,7 @@
 #include <brushfire/core/progress.h>
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/domain.h>
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 
 #include <span>
 

@@ -10,7 +10,7 @@
 //     std::printf("%g for %g of way\n", path.cost, path.length);
 #pragma once
 
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
 
 #include <array>
