@@ -44,7 +44,6 @@ class Points {
  private:
   const Fans& fans();
   PointLocation by_lowest_halfedge(const PointLocation& at) const;
-  PointLocation at_edge(const PointLocation& at, Index g) const;
   void add_face(Index f, const std::array<double, 3>& weights);
   SourceAt<double> see(Index v, const Known& known, const Direction& side, Hand hand, double length);
 
