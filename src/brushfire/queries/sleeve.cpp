@@ -294,22 +294,23 @@ std::array<double, 3> weights_on(Index h, const Crossing& at) {
 
 }  // namespace
 
-Direction direction_at_begin(const Mesh& mesh, const StraightPiece& s) {
-  const Index f = s.sleeve.first_face;
-  const auto ahead = s.sleeve.steps.empty() ? *weights_in(mesh, s.sleeve.end, f)
-                                            : weights_on(s.sleeve.steps.front().out, s.crossing.front());
-  return direction_towards(mesh, s.sleeve.begin.vertex, f, ahead);
+Direction direction_at_begin(const Mesh& mesh, const StraightPiece& straight) {
+  const Index f = straight.sleeve.first_face;
+  const auto ahead = straight.sleeve.steps.empty()
+                         ? *weights_in(mesh, straight.sleeve.end, f)
+                         : weights_on(straight.sleeve.steps.front().out, straight.crossing.front());
+  return direction_towards(mesh, straight.sleeve.begin.vertex, f, ahead);
 }
 
-Direction direction_at_end(const Mesh& mesh, const StraightPiece& s) {
-  const Index f = s.sleeve.last_face();
-  if (s.sleeve.steps.empty()) {
-    return direction_towards(mesh, s.sleeve.end.vertex, f, *weights_in(mesh, s.sleeve.begin, f));
+Direction direction_at_end(const Mesh& mesh, const StraightPiece& straight) {
+  const Index f = straight.sleeve.last_face();
+  if (straight.sleeve.steps.empty()) {
+    return direction_towards(mesh, straight.sleeve.end.vertex, f, *weights_in(mesh, straight.sleeve.begin, f));
   }
-  const Step& last = s.sleeve.steps.back();
+  const Step& last = straight.sleeve.steps.back();
   const bool same_start = mesh.from(last.in) == mesh.from(last.out);
-  const Crossing& at = s.crossing.back();
-  return direction_towards(mesh, s.sleeve.end.vertex, f,
+  const Crossing& at = straight.crossing.back();
+  return direction_towards(mesh, straight.sleeve.end.vertex, f,
                            weights_on(last.in, same_start ? at : Crossing{at.to, at.from}));
 }
 

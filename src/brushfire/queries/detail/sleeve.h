@@ -49,7 +49,7 @@ std::vector<StraightPiece> shortest_in_sleeve(const Mesh& mesh, Sleeve sleeve);
 inline constexpr double kTouch = 1e-9;  // the bend; its cost is the square of that: below rounding
 
 // The points of a straight piece from begin to end, begin left out where it repeats `points.back()`.
-void append_points(const Mesh& mesh, const StraightPiece& piece, std::vector<SurfacePoint>& points);
+void append_points(const Mesh& mesh, const StraightPiece& straight, std::vector<SurfacePoint>& points);
 
 // A direction at a vertex: within the corner that halfedge `corner` names, `angle` from that halfedge.
 struct Direction {
@@ -61,8 +61,8 @@ struct Direction {
 Direction direction_towards(const Mesh& mesh, Index vertex, Index f, const std::array<double, 3>& point);
 
 // The direction in which a straight piece that begins (ends) at a vertex leaves it (comes from).
-Direction direction_at_begin(const Mesh& mesh, const StraightPiece& piece);
-Direction direction_at_end(const Mesh& mesh, const StraightPiece& piece);
+Direction direction_at_begin(const Mesh& mesh, const StraightPiece& straight);
+Direction direction_at_end(const Mesh& mesh, const StraightPiece& straight);
 
 // An angle that misses pi by less gains less than rounding loses: cutting the corner shortens the two pieces by a share
 // of its square.
