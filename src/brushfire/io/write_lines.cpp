@@ -20,16 +20,17 @@ using detail::Output;
 // What every writer is given: the curves with their positions.
 struct Drawing {
   const Mesh& mesh;
-  std::span<const SurfaceLine> lines;
+  std::span<const SurfacePath> lines;
   const std::string& value_name;
   const LinesOptions& options;
   std::vector<std::vector<Vec3>> positions;  // [lines][points]
 
   std::size_t point_count() const {
     std::size_t n = 0;
-    for (const SurfaceLine& l : lines) n += l.points.size();
+    for (const SurfacePath& l : lines) n += l.points.size();
     return n;
   }
+  double value(std::size_t line) const { return options.values.empty() ? lines[line].length : options.values[line]; }
 };
 
 void write_point(Output& out, const SurfacePoint& p, const Vec3* position) {
@@ -47,10 +48,10 @@ void write_point(Output& out, const SurfacePoint& p, const Vec3* position) {
 }
 
 void write_json_line(Output& out, const Drawing& d, std::size_t i, const char* indent) {
-  const SurfaceLine& line = d.lines[i];
+  const SurfacePath& line = d.lines[i];
   out.write("\"" + d.value_name + "\": ");
-  if (std::isfinite(line.value)) {
-    out.number(line.value);
+  if (std::isfinite(d.value(i))) {
+    out.number(d.value(i));
   } else {
     out.write("null");
   }
@@ -91,7 +92,7 @@ void write_obj(Output& out, const Drawing& d) {
       out.write('\n');
     }
   }
-  for (const SurfaceLine& line : d.lines) {
+  for (const SurfacePath& line : d.lines) {
     out.write(line.points.size() > 1 ? "l" : "p");
     for (std::size_t k = 0; k < line.points.size(); ++k) {
       out.write(' ');
@@ -106,14 +107,14 @@ void write_obj(Output& out, const Drawing& d) {
   }
 }
 
-std::size_t segment_count(const SurfaceLine& line) {
+std::size_t segment_count(const SurfacePath& line) {
   const std::size_t n = line.points.size();
   return n < 2 ? 0 : line.closed ? n : n - 1;
 }
 
 void write_ply(Output& out, const Drawing& d) {
   std::size_t segments = 0, first = 0;
-  for (const SurfaceLine& line : d.lines) segments += segment_count(line);
+  for (const SurfacePath& line : d.lines) segments += segment_count(line);
   out.write("ply\nformat ascii 1.0\nelement vertex " + std::to_string(d.point_count()) +
             "\nproperty double x\nproperty double y\nproperty double z\nelement edge " + std::to_string(segments) +
             "\nproperty int vertex1\nproperty int vertex2\nend_header\n");
@@ -123,7 +124,7 @@ void write_ply(Output& out, const Drawing& d) {
       out.write('\n');
     }
   }
-  for (const SurfaceLine& line : d.lines) {
+  for (const SurfacePath& line : d.lines) {
     const std::size_t n = line.points.size();
     for (std::size_t k = 0; k < segment_count(line); ++k) {
       out.number(static_cast<std::int64_t>(first + k));
@@ -156,7 +157,7 @@ void write_vtp(Output& out, const Drawing& d) {
   }
   out.write(std::string(close) + "</Points>\n<PointData>\n");
   open_array(out, "Int64", "face");
-  for (const SurfaceLine& line : d.lines) {
+  for (const SurfacePath& line : d.lines) {
     for (const SurfacePoint& p : line.points) {
       out.number(p.face);
       out.write('\n');
@@ -164,14 +165,14 @@ void write_vtp(Output& out, const Drawing& d) {
   }
   out.write(std::string(close) + "</PointData>\n<CellData Scalars=\"" + d.value_name + "\">\n");
   open_array(out, "Float64", d.value_name);
-  for (const SurfaceLine& line : d.lines) {
-    out.number(line.value);
+  for (std::size_t i = 0; i < d.lines.size(); ++i) {
+    out.number(d.value(i));
     out.write('\n');
   }
   out.write(std::string(close) + "</CellData>\n<Lines>\n");
   open_array(out, "Int64", "connectivity");
   std::size_t first = 0;
-  for (const SurfaceLine& line : d.lines) {
+  for (const SurfacePath& line : d.lines) {
     for (std::size_t k = 0; k < line.points.size(); ++k) {
       out.number(static_cast<std::int64_t>(first + k));
       out.write(' ');
@@ -183,7 +184,7 @@ void write_vtp(Output& out, const Drawing& d) {
   out.write(close);
   open_array(out, "Int64", "offsets");
   std::size_t end = 0;
-  for (const SurfaceLine& line : d.lines) {
+  for (const SurfacePath& line : d.lines) {
     end += line.points.size() + (line.closed && !line.points.empty() ? 1 : 0);
     out.number(static_cast<std::int64_t>(end));
     out.write('\n');
@@ -199,7 +200,7 @@ void write_csv(Output& out, const Drawing& d) {
       const Vec3& p = d.positions[i][k];
       out.number(static_cast<std::int64_t>(i));
       out.write(',');
-      out.number(d.lines[i].value);
+      out.number(d.value(i));
       out.write(',');
       out.number(static_cast<std::int64_t>(k));
       out.write(',');
@@ -333,7 +334,7 @@ void write_svg(Output& out, const Drawing& d) {
   for (std::size_t i = 0; i < d.lines.size(); ++i) {
     if (d.positions[i].empty()) continue;
     out.write("<path data-" + d.value_name + "=\"");
-    out.number(d.lines[i].value);
+    out.number(d.value(i));
     out.write("\" d=\"");
     for (std::size_t k = 0; k < d.positions[i].size(); ++k) move_to(k == 0 ? 'M' : 'L', on_paper(d.positions[i][k]));
     out.write(d.lines[i].closed ? "Z\"/>\n" : "\"/>\n");
@@ -452,9 +453,13 @@ void check_lines_format(const std::string& path, const std::string& format, cons
 
 namespace {
 
-void write_lines_to(const detail::Destination& to, const Mesh& mesh, std::span<const SurfaceLine> lines,
+void write_lines_to(const detail::Destination& to, const Mesh& mesh, std::span<const SurfacePath> lines,
                     const std::string& value_name, const std::string& format, const LinesOptions& options) {
   check_lines_format(to.name, format, options);
+  if (!options.values.empty() && options.values.size() != lines.size()) {
+    throw Error(ErrorCode::InvalidArgument, std::to_string(options.values.size()) + " values for " +
+                                                std::to_string(lines.size()) + " curves: one each is needed");
+  }
   const Writer& writer = writer_for(to.name, format);
   if (writer.needs_positions && !mesh.has_positions()) {
     throw Error(ErrorCode::InvalidArgument, to.name + ": a mesh without positions has no place in ." +
@@ -463,7 +468,7 @@ void write_lines_to(const detail::Destination& to, const Mesh& mesh, std::span<c
   Drawing drawing{mesh, lines, value_name, options, {}};
   Poll poll;
   if (mesh.has_positions()) {
-    for (const SurfaceLine& line : lines) {
+    for (const SurfacePath& line : lines) {
       auto& positions = drawing.positions.emplace_back();
       for (const SurfacePoint& p : line.points) {
         poll();
@@ -478,12 +483,12 @@ void write_lines_to(const detail::Destination& to, const Mesh& mesh, std::span<c
 
 }  // namespace
 
-void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfaceLine> lines,
+void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfacePath> lines,
                  const std::string& value_name, const std::string& format, const LinesOptions& options) {
   write_lines_to({path}, mesh, lines, value_name, format, options);
 }
 
-std::vector<std::uint8_t> encode_lines(const Mesh& mesh, std::span<const SurfaceLine> lines,
+std::vector<std::uint8_t> encode_lines(const Mesh& mesh, std::span<const SurfacePath> lines,
                                        const std::string& value_name, const std::string& format,
                                        const LinesOptions& options) {
   std::vector<std::uint8_t> bytes;
