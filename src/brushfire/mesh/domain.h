@@ -26,7 +26,7 @@ std::vector<Index> closed_faces(const Mesh& mesh, std::span<const std::uint8_t> 
 // A Mesh is a Domain without walls. Immutable; copies share their data; safe from many threads.
 class Domain {
  public:
-  Domain(Mesh mesh) : mesh_(std::move(mesh)) {}  // implicit: whatever takes a Domain takes a Mesh
+  Domain(Mesh mesh) : mesh_(std::move(mesh)) {}  // NOLINT(google-explicit-constructor): what takes it takes a Mesh
   // Throws as cut() does. O(vertices + faces).
   Domain(Mesh mesh, const Barriers& barriers);
 

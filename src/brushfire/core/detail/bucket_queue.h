@@ -38,7 +38,7 @@ class Pile {
     items_ = std::move(larger);
     room_ = room;
   }
-  void swap(Pile& o) {
+  void swap(Pile& o) noexcept {
     items_.swap(o.items_);
     std::swap(size_, o.size_);
     std::swap(room_, o.room_);

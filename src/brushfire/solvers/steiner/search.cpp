@@ -64,7 +64,7 @@ void Search::run(std::span<const detail::LocatedSource> sources, const SearchLim
     const double from = static_cast<double>(queue_.cursor()) * width_;
     front_.horizon = from;
     if (from > limits.max_value || targets_are_final(limits.targets, done)) return;
-    for (std::size_t i = 0; i < queue_.current().size(); ++i) {
+    for (std::size_t i = 0; i < queue_.current().size(); ++i) {  // NOLINT(modernize-loop-convert): it grows
       const Index edge = queue_.current()[i];
       if (waiting_[edge] != queue_.cursor()) continue;  // sent since
       poll();
