@@ -1,4 +1,4 @@
-// Curves that distances start from, out of what people have: paths, boundary curves, regions of a labelled surface.
+// Curves as sources, made from paths, boundary curves and regions of a labelled surface.
 #pragma once
 
 #include <brushfire/core/types.h>

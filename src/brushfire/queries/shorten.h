@@ -4,6 +4,8 @@
 #include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/surface_path.h>
 
+#include <span>
+
 namespace brushfire {
 
 // The shortest path that the polyline can be pulled into like a rubber band, its ends held (a closed one is held
