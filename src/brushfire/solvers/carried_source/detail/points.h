@@ -27,7 +27,7 @@ class Points {
   // The corners of its faces; of a point that is no vertex also those that it sees across up to `crossings` edges, not
   // farther than `limit`: an obtuse corner is offered nothing over its own edge, behind which the point may lie. Lasts
   // until the next call.
-  std::span<const Near> around(const PointLocation& at, int crossings, double limit);
+  std::span<const Near> around(const PointLocation& named, int crossings, double limit);
 
   // The vertices at the corners of all faces that hold the point, and how far they are.
   std::span<const detail::Seed> corners(const PointLocation& at) { return seeds_.in_own_faces(mesh_, at); }
