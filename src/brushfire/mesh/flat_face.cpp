@@ -125,9 +125,9 @@ double distance_within(const Mesh& mesh, Index f, const PointLocation& a, const 
   return distance_within(mesh, f, weights_in(mesh, a, f).value(), weights_in(mesh, b, f).value());
 }
 
-double distance_within(const Mesh& mesh, Index f, const std::array<double, 3>& from, const std::array<double, 3>& to) {
-  if (!mesh.has_positions()) return norm(flat_difference(flat_corners(mesh, f), from, to));
-  const std::array<double, 3> step = weight_difference(from, to);
+double distance_within(const Mesh& mesh, Index f, const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  if (!mesh.has_positions()) return norm(flat_difference(flat_corners(mesh, f), a, b));
+  const std::array<double, 3> step = weight_difference(a, b);
   const std::size_t k = largest(step);
   const double scale = 1 / mesh.unit();
   const Vec3 origin = mesh.positions()[mesh.faces()[f][k]];

@@ -270,18 +270,18 @@ Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> ve
   return Mesh(std::move(data));
 }
 
-Mesh Mesh::with_faces(std::span<const Index> kept) const {
+Mesh Mesh::with_faces(std::span<const Index> faces) const {
   const Arrays& old = *data_->arrays;
   auto arrays = std::make_shared<Arrays>();
   arrays->vertex_count = old.vertex_count;
   arrays->has_positions = old.has_positions;
   arrays->bounds = old.bounds;
   arrays->positions = old.positions;
-  arrays->faces.resize(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    arrays->faces[i] = old.faces[kept[i]];
+  arrays->faces.resize(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    arrays->faces[i] = old.faces[faces[i]];
     for (std::size_t k = 0; k < 3 && !has_positions(); ++k) {
-      arrays->input_lengths.push_back(unit() * lengths()[3 * std::size_t{kept[i]} + k]);
+      arrays->input_lengths.push_back(unit() * lengths()[3 * std::size_t{faces[i]} + k]);
     }
   }
   auto data = std::make_shared<Data>();
@@ -291,9 +291,9 @@ Mesh Mesh::with_faces(std::span<const Index> kept) const {
   for (const Index slit : data_->slits) {
     const Index v = from(slit), w = to(slit);
     for (const Index corner : corners(v)) {
-      const auto i = std::lower_bound(kept.begin(), kept.end(), face_of(corner));
-      if (i == kept.end() || *i != face_of(corner)) continue;
-      const Index h = 3 * static_cast<Index>(i - kept.begin()) + corner % 3;
+      const auto i = std::lower_bound(faces.begin(), faces.end(), face_of(corner));
+      if (i == faces.end() || *i != face_of(corner)) continue;
+      const Index h = 3 * static_cast<Index>(i - faces.begin()) + corner % 3;
       if (to(corner) == w) data->slits.push_back(h);
       if (from(previous(corner)) == w) data->slits.push_back(previous(h));
     }
