@@ -202,7 +202,7 @@ class Shortener {
     for (int guard = 0; !pieces.empty() && pieces.front().sleeve.begin.on != On::Vertex; ++guard) {
       if (pieces.size() > 1) {
         // Some piece ends at a vertex: let the list begin there.
-        const StraightPiece last = pieces.back();
+        const StraightPiece& last = pieces.back();
         std::vector<Sleeve> sleeves;
         for (std::size_t i = 1; i + 1 < pieces.size(); ++i) sleeves.push_back(pieces[i].sleeve);
         sleeves.push_back(joined(last.sleeve, bridge(last.sleeve, pieces.front().sleeve), pieces.front().sleeve));

@@ -101,7 +101,7 @@ std::vector<WeightedPath> plain_paths(const Domain& domain, double weight, std::
   std::vector<WeightedPath> paths;
   for (const SourcePath& found : paths_to(solver, scaled, targets, how)) {
     WeightedPath& path = paths.emplace_back();
-    static_cast<SurfacePath&>(path) = found;
+    static_cast<SurfacePath&>(path) = found;  // NOLINT(cppcoreguidelines-slicing): the source follows
     path.source = found.source;
     if (found.points.empty()) continue;
     path.cost = path.lower = found.length * weight;

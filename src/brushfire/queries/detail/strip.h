@@ -48,7 +48,7 @@ StripLeg cheapest_leg(const WeightedMesh& mesh, const Stop& from, const Stop& to
 struct Rail {
   Vec2 origin, direction;
 };
-Rail rail(const WeightedMesh& mesh, const StripLeg& leg, const Stop& stop, bool stop_is_first);
+Rail rail(const WeightedMesh& weighted, const StripLeg& leg, const Stop& stop, bool stop_is_first);
 
 double length_of(const WeightedMesh& mesh, const Strip& strip, std::size_t leg);  // mesh.unit()
 double cost_of(const WeightedMesh& mesh, const Strip& strip);                     // mesh.unit()
