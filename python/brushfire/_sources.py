@@ -16,7 +16,7 @@ from brushfire._foreign import is_loose, listed
 from brushfire._places import PlaceArrays, Places, Points, is_one
 
 if TYPE_CHECKING:
-    from brushfire._cells import Boundary
+    from brushfire._boundaries import Boundary
     from brushfire._curves import Path
     from brushfire._fields import Isoline
     from brushfire._regions import Border

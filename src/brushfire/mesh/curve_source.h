@@ -2,7 +2,7 @@
 #pragma once
 
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/mesh/surface_point.h>
+#include <brushfire/mesh/surface_point.h>  // IWYU pragma: export
 
 #include <array>
 #include <span>
@@ -42,7 +42,7 @@ struct CurvePlace {
 };
 
 struct LocatedCurve {
-  std::vector<CurvePlace> places;      // those where the curve moves on, at least one
+  std::vector<CurvePlace> places;      // without repetitions of the one before, at least one
   std::vector<CurveSegment> segments;  // in order
   double least_offset = 0;
 };

@@ -1,10 +1,10 @@
-// Curves that distances start from, out of what people have: paths, boundary curves, regions of a labelled surface.
+// Curves as sources, made from paths, boundary curves and regions of a labelled surface.
 #pragma once
 
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/boundaries.h>
 #include <brushfire/mesh/curve_source.h>
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 
 #include <cstdint>
 #include <span>

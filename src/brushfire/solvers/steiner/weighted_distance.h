@@ -32,11 +32,11 @@ inline constexpr double kLeastWeightedTolerance = 1e-5;
 inline constexpr double kMostWeightedTolerance = 1;
 
 struct WeightedOptions {
-  // How far apart the bounds may be: (upper - lower) / lower; in [kLeastWeightedTolerance, kMostWeightedTolerance]. A
-  // wish: how dense the points on edges are follows from it, so that most vertices meet it, and max_error_bound says
-  // what was reached. Costs grow as its inverse.
+  // How far apart the bounds may be: (upper - lower) / lower; in [kLeastWeightedTolerance, kMostWeightedTolerance]. It
+  // is a goal, not a promise: it sets how dense the points on edges are, so that most vertices meet it, and
+  // max_error_bound says what was reached. Costs grow as its inverse.
   double tolerance = 0.01;
-  // Where the wish is not met at every vertex, run again with points twice as dense, this many times at most.
+  // Where the goal is not met at every vertex, run again with points twice as dense, this many times at most.
   unsigned refinements = 0;
   // Where slopes count: sources are where one goes to, and not where one comes from.
   bool towards = false;

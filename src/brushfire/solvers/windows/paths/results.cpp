@@ -1,5 +1,5 @@
 // Bounds into values, inner numbers into the mesh's own, and what is known of a vertex in several parts into one.
-#include <brushfire/solvers/windows/propagation/results.h>
+#include <brushfire/solvers/windows/paths/results.h>
 
 #include <algorithm>
 #include <limits>
