@@ -22,6 +22,7 @@
 #include "propagation/sink.cpp"
 #include "propagation/structure.cpp"
 #include "propagation/targets.cpp"
+#include "propagation/wheels.cpp"
 #include "propagation/window_engine.cpp"
 #include "propagation/window_lists.cpp"
 
