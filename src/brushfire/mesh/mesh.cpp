@@ -92,6 +92,9 @@ UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> 
   return copy;
 }
 
+// 2^990: a shortest path has 2^32 legs at most and each is shorter than four times this, so distances are finite.
+constexpr double kMostCoordinate = 0x1p990;
+
 [[noreturn]] void throw_position_error(std::span<const Vec3> positions) {
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const Vec3& p = positions[v];
@@ -101,6 +104,18 @@ UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> 
                                             number_as_text(p.z) + ")");
   }
   throw Error(ErrorCode::Internal, "all coordinates are finite");
+}
+
+[[noreturn]] void throw_too_far_out(std::span<const Vec3> positions) {
+  const auto is_too_far_out = [](const Vec3& p) {
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kMostCoordinate;
+  };
+  const auto p = std::find_if(positions.begin(), positions.end(), is_too_far_out);
+  throw Error(ErrorCode::InvalidMesh, "vertex " + std::to_string(p - positions.begin()) + " lies at (" +
+                                          number_as_text(p->x) + ", " + number_as_text(p->y) + ", " +
+                                          number_as_text(p->z) +
+                                          "): there are no numbers for distances between coordinates beyond 1e298; "
+                                          "scale the mesh down");
 }
 
 // A copy of the positions, and their bounds; throws as the constructor of Mesh does.
@@ -123,6 +138,8 @@ UninitializedArray<Vec3> checked_copy(std::span<const Vec3> positions, Box& boun
     for (std::size_t v = begin; v < end; ++v) take(v);
   });
   if (!(zero == Vec3{})) throw_position_error(positions);
+  const double most = std::max({-box.low.x, -box.low.y, -box.low.z, box.high.x, box.high.y, box.high.z});
+  if (most > kMostCoordinate) throw_too_far_out(positions);
   bounds = box;
   return copy;
 }
@@ -278,6 +295,10 @@ void Mesh::Data::check_lengths() const {
       if (!std::isfinite(l[k]) || l[k] < 0 || (loop && l[k] != 0)) {
         throw_length_error(f, "length " + number_as_text(l[k]) + " of edge " + std::to_string(k) +
                                   (loop ? " between a vertex and itself is not 0" : " is not finite and >= 0"));
+      }
+      if (l[k] > kMostCoordinate) {
+        throw_length_error(f, "length " + number_as_text(l[k]) + " of edge " + std::to_string(k) +
+                                  " is beyond 1e298, where sums leave the range of numbers; scale the mesh down");
       }
       const double other = input_lengths[ring[3 * f + k]];
       if (std::abs(l[k] - other) > kLengthAgreement * std::max(l[k], other)) {
