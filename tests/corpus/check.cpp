@@ -17,6 +17,8 @@ using oracle::kFar;
 using oracle::Real;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// What is smaller has no number of its own.
+constexpr double kLeastStep = std::numeric_limits<double>::denorm_min();
 // The truth itself is rounded, to 64 bits.
 constexpr Real kTruthRounding = 0x1p-63L;
 // Quad was right where 237 bits say the same to this share.
@@ -65,7 +67,7 @@ void hold_exact(const Value& v, const std::string& where, Outcome& out) {
   if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(error / v.length));
   if (error > room) ++out.beyond;
   // The factor of the bound's law is measured: half of it is an early warning (docs/tolerance.md, "The factor").
-  const bool nearly_broken = error > kWarning * v.bound + kTruthRounding * std::abs(v.truth);
+  const bool nearly_broken = error > kWarning * v.bound + kTruthRounding * std::abs(v.truth) + kLeastStep;
   if (nearly_broken) ++out.unbound;
   if (error > room || nearly_broken) out.complain(off(v, where));
 }
@@ -75,7 +77,7 @@ void hold_bound(const Value& v, double tolerance, double offsets, const std::str
   if (!same_reach(v, where, out)) return;
   const Real error = std::abs(v.got - v.truth);
   if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(error / v.length));
-  const bool too_wide = v.bound > tolerance * v.length + 16 * kEpsilon * (std::abs(v.got) + offsets);
+  const bool too_wide = v.bound > tolerance * v.length + 16 * kEpsilon * (std::abs(v.got) + offsets) + 2 * kLeastStep;
   if (error > v.bound + kTruthRounding * std::abs(v.truth)) {
     ++out.unbound;
     out.complain(off(v, where));
@@ -330,7 +332,7 @@ Outcome Examination::radius() {
   for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
     Value value = value_at(field, sources, truth().distance, v);
     // What is at the radius itself may fall on either side.
-    const Real room = std::max(Real{1e-8} * std::abs(middle), Real{1e-12} * value.length);
+    const Real room = std::max(Real{1e-8} * std::abs(middle), Real{1e-12} * value.length) + 2 * kLeastStep;
     if (std::abs(value.truth - options.max_distance) <= room) continue;
     if (value.truth > options.max_distance) value.truth = kFar;
     hold_exact(value, vertex_text(v), out);
@@ -377,9 +379,10 @@ Outcome Examination::other(const Task& task) {
   for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
     const Value value = value_at(field, sources, truth().distance, v);
     if (!same_reach(value, vertex_text(v), out)) continue;
-    const bool too_short =
-        task.method == Method::Dijkstra &&
-        value.got < value.truth - kExactPromise * value.length - 2 * kEpsilon * std::abs(value.truth) - frames;
+    const bool too_short = task.method == Method::Dijkstra && value.got < value.truth - kExactPromise * value.length -
+                                                                              2 * kEpsilon * std::abs(value.truth) -
+                                                                              frames -
+                                                                              kLeastStep * case_.mesh.vertex_count();
     if (!too_short) continue;
     ++out.beyond;
     out.complain(off(value, vertex_text(v)));
@@ -426,7 +429,7 @@ void Examination::hold_path(const WindowField& field, const SurfacePoint& to, Re
   }
   if (path.length == kInfinity) return;
   const Real offset = case_.starts[start_][value.source].offset, length = path.length;
-  const Real rounding = 2 * kEpsilon * (std::abs(truth) + std::abs(offset));  // of adding the offset
+  const Real rounding = 2 * kEpsilon * (std::abs(truth) + std::abs(offset)) + kLeastStep;  // of adding the offset
   const Real room = std::max(Real{kPathPromise} * length, Real{bound}) + rounding + rounding_of(case_.mesh, path);
   const Real off_field = std::abs(length + offset - value.distance), off_truth = std::abs(length + offset - truth);
   if (length > 0) out.worst = std::max(out.worst, static_cast<double>(off_field / length));

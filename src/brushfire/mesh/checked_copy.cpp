@@ -36,6 +36,18 @@ namespace {
   throw Error(ErrorCode::Internal, "all coordinates are finite");
 }
 
+[[noreturn]] void throw_too_far_out(std::span<const Vec3> positions) {
+  const auto is_too_far_out = [](const Vec3& p) {
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kMostCoordinate;
+  };
+  const auto p = std::find_if(positions.begin(), positions.end(), is_too_far_out);
+  throw Error(ErrorCode::InvalidMesh, "vertex " + std::to_string(p - positions.begin()) + " lies at (" +
+                                          number_as_text(p->x) + ", " + number_as_text(p->y) + ", " +
+                                          number_as_text(p->z) +
+                                          "): there are no numbers for distances between coordinates beyond 1e298; "
+                                          "scale the mesh down");
+}
+
 }  // namespace
 
 UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> faces) {
@@ -75,6 +87,8 @@ UninitializedArray<Vec3> checked_copy(std::span<const Vec3> positions, Box& boun
     for (std::size_t v = begin; v < end; ++v) take(v);
   });
   if (!(zero == Vec3{})) throw_position_error(positions);
+  const double most = std::max({-box.low.x, -box.low.y, -box.low.z, box.high.x, box.high.y, box.high.z});
+  if (most > kMostCoordinate) throw_too_far_out(positions);
   bounds = box;
   return copy;
 }

@@ -22,7 +22,7 @@
 namespace brushfire {
 
 using detail::checked_copy, detail::power_of_two_below, detail::unit_from_positions, detail::geometry_from_positions;
-using detail::Geometry, detail::length_of, detail::scaled_difference;
+using detail::kMostCoordinate, detail::Geometry, detail::length_of, detail::scaled_difference;
 
 // What the caller gave, and what follows from the faces alone; shared by meshes that differ in slits only.
 struct Mesh::Arrays {
@@ -113,6 +113,10 @@ void Mesh::Data::check_lengths() const {
       if (!std::isfinite(l[k]) || l[k] < 0 || (loop && l[k] != 0)) {
         throw_length_error(f, "length " + number_as_text(l[k]) + " of edge " + std::to_string(k) +
                                   (loop ? " between a vertex and itself is not 0" : " is not finite and >= 0"));
+      }
+      if (l[k] > kMostCoordinate) {
+        throw_length_error(f, "length " + number_as_text(l[k]) + " of edge " + std::to_string(k) +
+                                  " is beyond 1e298, where sums leave the range of numbers; scale the mesh down");
       }
       const double other = input_lengths[ring[3 * f + k]];
       if (std::abs(l[k] - other) > kLengthAgreement * std::max(l[k], other)) {

@@ -52,9 +52,9 @@ class Mesh {
   // No vertices, no faces.
   Mesh();
 
-  // Copies the arrays: positions[vertex_count], faces[face_count]. Throws Error(InvalidMesh) naming the first vertex
-  // with a coordinate that is not finite or the first face with an index >= vertex_count, and Error(TooLarge) beyond
-  // 2^32/3 faces. O(vertices + faces).
+  // Copies the arrays: positions[vertex_count], faces[face_count]. Throws Error(InvalidMesh) naming the first vertex with
+  // a coordinate that is not finite, or beyond 2^990 (1e298), or the first face with an index >= vertex_count, and
+  // Error(TooLarge) beyond 2^32/3 faces. O(vertices + faces).
   Mesh(std::span<const Vec3> positions, std::span<const Face> faces);
 
   // A mesh that has lengths and no coordinates: lengths[f][k] is the length of the edge from corner k to corner k+1 of

@@ -43,6 +43,7 @@ void finish(const Mesh& mesh, std::span<const PointLocation> targets, const Offs
   for (std::size_t v = 0; v < field.distance.size(); ++v) {
     double& d = field.distance[v];
     if (d == kInfinity) continue;
+    const double in_units = d;
     d = offsets.value(d, field.source[v], unit, options.bound);
     if (d == kInfinity || d > options.max_distance) {
       d = kInfinity;
@@ -50,7 +51,7 @@ void finish(const Mesh& mesh, std::span<const PointLocation> targets, const Offs
       if (!field.error_bound.empty()) field.error_bound[v] = kInfinity;
       ++field.beyond_radius;
     } else {
-      if (!field.error_bound.empty()) field.error_bound[v] = offsets.bound(field.error_bound[v], d, unit);
+      if (!field.error_bound.empty()) field.error_bound[v] = offsets.bound(field.error_bound[v], in_units, d, unit);
       ++field.reached;
     }
   }

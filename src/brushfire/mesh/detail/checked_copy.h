@@ -9,6 +9,9 @@
 
 namespace brushfire::detail {
 
+// 2^990: a shortest path has 2^32 legs at most and each is shorter than four times this, so distances are finite.
+constexpr double kMostCoordinate = 0x1p990;
+
 // A copy of the faces; throws as the constructor of Mesh does.
 UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> faces);
 

@@ -21,6 +21,7 @@
 #include "propagation/sink.cpp"
 #include "propagation/structure.cpp"
 #include "propagation/targets.cpp"
+#include "propagation/wheels.cpp"
 #include "propagation/window_lists.cpp"
 
 #include "paths/keep_plain.cpp"
