@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,6 +18,9 @@ namespace {
 // Offsets that were computed may differ by this share more than the segment is long; they are then taken to differ by
 // its length.
 constexpr double kSlopeRounding = 1e-9;
+// And they are known no better than to this share of themselves: beside a large offset a short segment counts for
+// nothing.
+constexpr double kOffsetRounding = 4 * std::numeric_limits<double>::epsilon();
 
 std::string named(Index first, Index second) {
   return "places " + std::to_string(first) + " and " + std::to_string(second) + " of a curve ";
@@ -128,7 +132,9 @@ class Splitter {
     s.from_offset = from.offset;
     s.to_offset = offset(number);
     for (std::size_t k = 0; k < 3; ++k) s.along_edge = s.along_edge || (s.from[k] == 0 && s.to[k] == 0);
-    if (!(std::abs(s.to_offset - s.from_offset) <= s.length * (1 + kSlopeRounding))) {
+    const double rounding =
+        kSlopeRounding * s.length + kOffsetRounding * std::max(std::abs(s.from_offset), std::abs(s.to_offset));
+    if (!(std::abs(s.to_offset - s.from_offset) <= s.length + rounding)) {
       throw Error(ErrorCode::InvalidArgument, named(from.number, number) + "are " + number_as_text(s.length) +
                                                   " apart, and their offsets " + number_as_text(s.from_offset) +
                                                   " and " + number_as_text(s.to_offset) + " differ by more");

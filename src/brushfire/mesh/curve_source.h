@@ -27,7 +27,7 @@ struct CurveSource {
 struct CurveSegment {
   Index face = kNoIndex;
   std::array<double, 3> from{}, to{};                // weights in the face: two different points
-  double from_offset = 0, to_offset = 0;             // in the mesh's units; no farther apart than the segment is long
+  double from_offset = 0, to_offset = 0;             // in the mesh's units; no farther apart than the segment is long, but for rounding
   double length = 0;                                 // in the mesh's units
   Index from_place = kNoIndex, to_place = kNoIndex;  // in LocatedCurve::places
   bool along_edge = false;
