@@ -86,13 +86,19 @@ class Splitter {
     return common_face(mesh_, a, b, b.face);
   }
 
-  // From the last place to this one, which becomes the last unless it is the same.
+  // From the last place to this one, which becomes the last unless it is the same. (Two places without a length between
+  // them may be different: ends of an edge of length 0.)
   void step_to(const PointLocation& at, Index number) {
     const auto last = static_cast<Index>(result_.places.size() - 1);
     const std::optional<CurveSegment> segment = between(result_.places[last], at, number);
-    if (!segment) return;
+    if (!segment && are_one(result_.places[last].at, at)) return;
     result_.places.push_back({at, offset(number), kNoIndex, kNoIndex, number});
-    join(*segment, last, last + 1);
+    if (segment) join(*segment, last, last + 1);
+  }
+
+  bool are_one(const PointLocation& a, const PointLocation& b) const {
+    const auto weights = weights_in(mesh_, b, a.face);
+    return weights && *weights == a.weights;
   }
 
   void close(Index first) {
@@ -102,11 +108,12 @@ class Splitter {
       join(*segment, last, first);
       return;
     }
-    // The first place was repeated: they are one.
+    if (!are_one(result_.places[last].at, begin.at)) return;
+    // The first place was repeated.
     const Index before = result_.places[last].before;
     result_.places.pop_back();
     result_.places[first].before = before;
-    result_.segments[before].to_place = first;
+    if (before != kNoIndex) result_.segments[before].to_place = first;
   }
 
   void join(CurveSegment segment, Index from, Index to) {

@@ -101,8 +101,8 @@ WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Fou
 }
 
 // A point in a face is where its weights say, to the rounding of three products and two sums in each of two
-// coordinates; so is the other end of the leg: twenty roundings of lengths of the face, which is many times the leg's
-// own where that is short.
+// coordinates; so is the other end of the leg, in its face: twenty roundings of lengths of the face, which is many
+// times the leg's own where that is short.
 double room_of_places(const Mesh& mesh, Index face) {
   constexpr double kPlaces = 20 * std::numeric_limits<double>::epsilon();
   return kPlaces * std::max({mesh.length(3 * face), mesh.length(3 * face + 1), mesh.length(3 * face + 2)});
@@ -114,7 +114,8 @@ void hold_to_value(const windows::WindowFieldData& data, const Found& found, con
   const PointRecord& record = found.record;
   const double start =
       leg.vertex != kNoIndex ? data.vertices[leg.vertex].value : data.sources[leg.source].offset + data.shift;
-  const double room = data.most_room_for(record) + room_of_places(data.mesh, found.at.face);
+  const double room = data.most_room_for(record) + std::max(room_of_places(data.mesh, found.at.face),
+                                                            room_of_places(data.mesh, leg.points.back().face));
   if (!(start + leg.length > record.value + room)) return;
   const double unit = data.mesh.unit();
   throw Error(ErrorCode::Internal, "the path was lost: the shortest way that was found comes to " +

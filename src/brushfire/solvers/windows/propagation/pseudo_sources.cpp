@@ -87,7 +87,7 @@ bool leave_to_segments(const Frame& frame, Index k, std::span<const SegmentEnd> 
 // The targets in the face of a segment.
 void reach_targets(PartState& part, const SegmentInFace& s, Index pseudo_source) {
   const WindowFace& f = part.run->structure.faces[s.face];
-  const Index k = f.length[0] > 0 ? 0 : 1;
+  const auto k = static_cast<Index>(std::max_element(std::begin(f.length), std::end(f.length)) - std::begin(f.length));
   if (!(f.length[k] > 0)) return;
   const Frame frame = frame_of(f, k);
   const LineSource line = line_source_in(frame, k, s);
