@@ -44,6 +44,7 @@ class Splitter {
     }
     const auto lower = [](const CurvePlace& a, const CurvePlace& b) { return a.offset < b.offset; };
     result_.least_offset = std::min_element(result_.places.begin(), result_.places.end(), lower)->offset;
+    add_inside();
     return std::move(result_);
   }
 
@@ -59,6 +60,23 @@ class Splitter {
       throw Error(ErrorCode::InvalidArgument, "offset " + number_as_text(curve_.offsets[i]) + " of place " +
                                                   std::to_string(i) + " of a curve is not finite");
     }
+  }
+
+  void add_inside() {
+    if (curve_.inside.empty()) return;
+    for (const Index f : curve_.inside) {
+      if (f < mesh_.face_count()) continue;
+      throw Error(ErrorCode::IndexOutOfRange, "face " + std::to_string(f) + " inside of a curve does not exist: the " +
+                                                  "mesh has " + std::to_string(mesh_.face_count()));
+    }
+    const auto changes = [&](const CurvePlace& p) { return p.offset != result_.least_offset; };
+    if (std::any_of(result_.places.begin(), result_.places.end(), changes)) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "a curve with faces inside has offsets that change: what would these be?");
+    }
+    result_.inside = curve_.inside;
+    std::sort(result_.inside.begin(), result_.inside.end());
+    result_.inside.erase(std::unique(result_.inside.begin(), result_.inside.end()), result_.inside.end());
   }
 
   double offset(Index number) const { return curve_.offsets.empty() ? 0 : curve_.offsets[number]; }
@@ -156,6 +174,14 @@ class Splitter {
 };
 
 }  // namespace
+
+bool LocatedCurve::holds(const Mesh& mesh, const PointLocation& point) const {
+  if (inside.empty()) return false;
+  const auto is_inside = [&](Index f) { return std::binary_search(inside.begin(), inside.end(), f); };
+  if (point.on == PointLocation::On::Interior) return is_inside(point.face);
+  const std::vector<Index> faces = faces_at(mesh, point);
+  return std::any_of(faces.begin(), faces.end(), is_inside);
+}
 
 LocatedCurve locate(const Mesh& mesh, const CurveSource& curve) { return Splitter(mesh, curve)(); }
 

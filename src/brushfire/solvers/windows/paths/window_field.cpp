@@ -4,6 +4,7 @@
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/solvers/detail/curve_feet.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/windows/algebra/frame.h>
 #include <brushfire/solvers/windows/paths/leg_search.h>
@@ -54,6 +55,18 @@ class Look {
 
   Found point(const PointLocation& at) const {
     if (at.on == PointLocation::On::Vertex) return vertex(at.vertex);
+    Found found = on_the_surface(at);
+    const detail::CurveValue in_region = detail::from_regions(mesh_, data_.sources, at);
+    if (in_region.label != kNoIndex && in_region.distance + data_.shift <= found.record.value) {
+      found = {{at.face, at.weights}, {in_region.distance + data_.shift, in_region.label, {}}};
+      found.record.ray.pseudo_source = mesh_.vertex_count() + in_region.label;
+    }
+    return found;
+  }
+
+ private:
+  // As the front sees it.
+  Found on_the_surface(const PointLocation& at) const {
     if (data_.all_points) return evaluate(at);
     for (std::size_t i = 0; i < data_.targets.size(); ++i) {
       const PointLocation& target = data_.targets[i];
@@ -68,7 +81,6 @@ class Look {
     throw not_a_target(at.face);
   }
 
- private:
   Found evaluate(const PointLocation& at) const {
     const windows::PointValue p = data_.all_points->at(at);
     return {{p.face, p.weights}, {p.value, p.label, windows::ray_of(p.ray)}};
@@ -92,7 +104,11 @@ WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Fou
   WindowField::Leg leg;
   if (pseudo_source == kNoIndex) return leg;
   if (pseudo_source >= n) {
-    if (!is_at_vertex(data.sources[pseudo_source - n], vertex)) return {};
+    const detail::LocatedSource& source = data.sources[pseudo_source - n];
+    const auto is_inside = [&] {
+      return source.curve && source.curve->holds(mesh, locate(mesh, {found.at.face, found.at.weights}));
+    };
+    if (!is_at_vertex(source, vertex) && !is_inside()) return {};
     leg.source = pseudo_source - n;
     leg.points.push_back({found.at.face, found.at.weights});
     return leg;
