@@ -128,8 +128,7 @@ def _curve_arrays(owner: Any, curve: Curve) -> tuple[Ints, Floats | None, Ints, 
     if len(starts) == 0 or starts[0] != 0 or starts[-1] >= max(1, len(places.index)):
         raise BrushfireError(f"Curve: starts run from 0 to less than the number of places, {len(places.index)}")
     value = floats(curve.offset, "Curve: offset")
-    none = np.zeros(0, dtype=np.int64)
-    inside = integers(curve.inside, "Curve: inside").reshape(-1) if np.size(curve.inside) else none
+    inside = integers(curve.inside, "Curve: inside").reshape(-1)
     if value.ndim == 0 and value == 0:
         return places.index, places.weights, starts, bool(curve.closed), None, inside
     each = np.full(len(places.index), value) if value.ndim == 0 else value
