@@ -73,7 +73,7 @@ def project_curve(mesh: Mesh, xyz: npt.ArrayLike, *, closed: bool = False) -> tu
 
 
 def region(mesh: Mesh, *, vertices: npt.ArrayLike | None = None, faces: npt.ArrayLike | None = None) -> Curve:
-    """A region as a source: distances are 0 at all of its vertices and along its border, and outside from there on.
+    """A region as a source: distances are 0 everywhere in it, and outside from its border on.
 
     :param vertices: numbers, or a mask with one bool per vertex (``labels == 3``): these, and the edges and faces
         between them; or
@@ -90,7 +90,7 @@ def region(mesh: Mesh, *, vertices: npt.ArrayLike | None = None, faces: npt.Arra
     if (vertices is None) == (faces is None):
         raise BrushfireError("region: one of vertices and faces is needed")
     if faces is not None:
-        face, weights, starts = _core.region_of_faces(
+        face, weights, starts, within = _core.region_of_faces(
             mesh._mesh, _arrays.numbers(faces, mesh._mesh.face_count, "faces")
         )
     else:
@@ -100,5 +100,5 @@ def region(mesh: Mesh, *, vertices: npt.ArrayLike | None = None, faces: npt.Arra
             bad = chosen[(chosen < 0) | (chosen >= len(inside))][0]
             raise BrushfireIndexError(f"vertices: there is no vertex {bad}, the mesh has {len(inside)}")
         inside[chosen] = 1
-        face, weights, starts = _core.region_of_vertices(mesh._mesh, inside)
-    return Curve(Points(face, weights), starts=starts)
+        face, weights, starts, within = _core.region_of_vertices(mesh._mesh, inside)
+    return Curve(Points(face, weights), starts=starts, inside=within)

@@ -1,6 +1,7 @@
 // A case of a family: the mesh, and where distances start and end on it.
 #include "corpus/families.h"
 
+#include "corpus/curves.h"
 #include "oracle/deviation.h"
 
 #include <brushfire/core/error.h>
@@ -64,11 +65,15 @@ Case make_case(const Family& family, std::uint64_t seed, std::uint64_t index) {
   Dice dice(family.name, seed, index);
   Draft made = family.make(dice);
   Case c{made.mesh, made.plain.value_or(made.mesh), {}, {}};
-  const std::uint32_t kinds = family.ordinary_starts ? 3 : kKinds + 1;
-  const auto turn = static_cast<std::uint32_t>(index % kinds);
-  for (const std::uint32_t kind : {turn, (turn + 1 + dice.below(kinds - 1)) % kinds}) {
-    c.starts.push_back(kind == kKinds ? several(c.plain, dice)
-                                      : std::vector<Source>{{point_of_kind(c.plain, dice, kind), 0}});
+  if (family.starts == Starts::Curves) {
+    for (int turn = 0; turn < 2; ++turn) c.starts.push_back(curves_and_points(c.plain, dice));
+  } else {
+    const std::uint32_t kinds = family.starts == Starts::Ordinary ? 3 : kKinds + 1;
+    const auto turn = static_cast<std::uint32_t>(index % kinds);
+    for (const std::uint32_t kind : {turn, (turn + 1 + dice.below(kinds - 1)) % kinds}) {
+      c.starts.push_back(kind == kKinds ? several(c.plain, dice)
+                                        : std::vector<Source>{{point_of_kind(c.plain, dice, kind), 0}});
+    }
   }
   for (std::uint32_t kind = 0; kind < kKinds; ++kind) c.targets.push_back(point_of_kind(c.plain, dice, kind));
   return c;

@@ -319,7 +319,9 @@ Family family_of_ratio(int decades) {
         }
         return draft(s);
       },
-      true};
+      Starts::Ordinary};
 }
+
+Family with_curves(const Family& family) { return {"curves-" + family.name, family.what, family.make, Starts::Curves}; }
 
 }  // namespace brushfire::corpus

@@ -149,14 +149,17 @@ void DistanceSolver::Workspace::locate_all(std::span<const Source> from, const D
   detail::replace_curves_by_feet(mesh, points);
 }
 
-// Targets beside curves that were run as points, straight.
+// Targets in regions; and beside curves that were run as points, straight.
 void DistanceSolver::Workspace::read_curves(DistanceField& field) const {
-  if (points.empty()) return;
+  if (!detail::any_curve(sources)) return;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    const detail::CurveValue value = detail::straight_from_curves(mesh, sources, targets[i]);
-    if (std::pair(value.distance, value.label) >= std::pair(field.target_distance[i], field.target_source[i])) continue;
-    field.target_distance[i] = value.distance;
-    field.target_source[i] = value.label;
+    const auto offer = [&](const detail::CurveValue& v) {
+      if (std::pair(v.distance, v.label) >= std::pair(field.target_distance[i], field.target_source[i])) return;
+      field.target_distance[i] = v.distance;
+      field.target_source[i] = v.label;
+    };
+    if (!points.empty()) offer(detail::straight_from_curves(mesh, sources, targets[i]));
+    offer(detail::from_regions(mesh, sources, targets[i]));
   }
 }
 
