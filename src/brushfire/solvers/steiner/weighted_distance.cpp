@@ -259,7 +259,7 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
   const auto give = [&](const refraction::Known& known, bool counts, double& upper, double& lower, Index& source) {
     upper = lower = kInfinity;
     source = kNoIndex;
-    if (!(known.upper <= horizon)) return;
+    if (known.upper == kInfinity || known.upper > horizon) return;
     upper = run.base + known.upper * unit;
     lower = std::min(upper, run.base + known.lower * unit);
     source = run.sources[known.source].label;

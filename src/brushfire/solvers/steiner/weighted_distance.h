@@ -62,8 +62,8 @@ struct WeightedField {
   double max_error_bound = kInfinity;
   double mean_error_bound = kInfinity;
   Index reached = 0;
-  std::uint64_t points = 0;  // on edges, the vertices' copies among them; 0 where none were searched
-  unsigned refinements = 0;  // done
+  std::uint64_t points = 0;                 // on edges, the vertices' copies among them; 0 where none were searched
+  unsigned refinements = 0;                 // done
   std::shared_ptr<const steiner::Run> run;  // for weighted_path(); null where no points on edges were searched
 };
 

@@ -18,12 +18,12 @@ struct Medium {
   bool is_followable() const { return followable; }
 
   windows::WindowStructure structure;
-  std::vector<double> weight;            // [faces]
-  std::vector<double> along;             // [halfedges] of the edge, no more than in its faces
-  std::vector<std::uint8_t> is_border;   // [halfedges] another weight beyond, or the edge is cheaper than its face
-  std::vector<std::uint8_t> is_pivot;    // [vertices] paths may bend there in any direction: not all is one weight
-  double bucket_width = 1;               // of the queue, in costs
-  double rounding = 0;                   // absolute, of costs
+  std::vector<double> weight;           // [faces]
+  std::vector<double> along;            // [halfedges] of the edge, no more than in its faces
+  std::vector<std::uint8_t> is_border;  // [halfedges] another weight beyond, or the edge is cheaper than its face
+  std::vector<std::uint8_t> is_pivot;   // [vertices] paths may bend there in any direction: not all is one weight
+  double bucket_width = 1;              // of the queue, in costs
+  double rounding = 0;                  // absolute, of costs
   bool followable = true;
 };
 

@@ -20,8 +20,8 @@ namespace {
 constexpr double kSeen = 1e-10;
 // The part of what is left that one merge may spend (MergeBudget::pace).
 constexpr double kMergePace = 0.06;
-// Surfaces take some three windows a face, needles with weights of their own twenty. On large meshes with a weight of its
-// own for every face it may be any number (docs/decisions/weights.md).
+// Surfaces take some three windows a face, needles with weights of their own twenty. On large meshes with a weight of
+// its own for every face it may be any number (docs/decisions/weights.md).
 constexpr std::uint64_t kMostPerFace = 60, kMostAnyway = 200000;
 // Sums and roots along a path, and the solutions of refract(): far more than the 1e-12 that windows need without
 // weights, and next to nothing beside what they are cut for.
@@ -64,7 +64,8 @@ void Run::narrow() {
   for (Index i = 0; i < targets_.size(); ++i) {
     const PointLocation& at = limits_.targets[i];
     const bool vertex = at.on == PointLocation::On::Vertex;
-    farthest = std::max(farthest, vertex ? vertices_[medium_.structure.inner_vertex(at.vertex)].upper : targets_[i].upper);
+    farthest =
+        std::max(farthest, vertex ? vertices_[medium_.structure.inner_vertex(at.vertex)].upper : targets_[i].upper);
   }
   radius_ = std::min(radius_, farthest * (1 + kAlong));
 }
@@ -124,8 +125,8 @@ void Run::refract_at(Index h, const Window& w) {
   const WindowFace& f = face(h);
   const double from = medium_.weight[h / 3];
   const Index end = f.vertex[next3(h % 3)];
-  if (windows::is_dominated({f.length[h % 3], vertices_[end].upper / from, vertices_[f.vertex[h % 3]].upper / from}, w.b0,
-                            w.b1, w.d0, w.d1)) {
+  if (windows::is_dominated({f.length[h % 3], vertices_[end].upper / from, vertices_[f.vertex[h % 3]].upper / from},
+                            w.b0, w.b1, w.d0, w.d1)) {
     return;
   }
   run_from_critical(h, w);
@@ -211,8 +212,7 @@ std::span<Window> Run::what_is_left(std::span<Window> windows, const WindowFace&
   }
   const windows::MergeBudget budget{face.thin ? 0 : limits_.share, kMergePace};
   const auto merge = [&](const Window& a, Window& b, const windows::Joint& joint) {
-    return a.pseudo_source == b.pseudo_source &&
-           merge_into(a, b, joint, start_of(a.pseudo_source) / weight, budget);
+    return a.pseudo_source == b.pseudo_source && merge_into(a, b, joint, start_of(a.pseudo_source) / weight, budget);
   };
   if (windows.size() <= kFew) {
     for (std::size_t i = 1; i < windows.size(); ++i) {

@@ -33,8 +33,8 @@ struct Known {
 };
 
 struct RunLimits {
-  double share = 0.01;            // (upper - lower) of the length of a path, as far as windows can be cut for it
-  double max_value = kInfinity;   // what costs more is not wanted
+  double share = 0.01;           // (upper - lower) of the length of a path, as far as windows can be cut for it
+  double max_value = kInfinity;  // what costs more is not wanted
   std::span<const PointLocation> targets{};
   Progress progress{};
 };

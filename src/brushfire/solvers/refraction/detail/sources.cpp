@@ -43,7 +43,8 @@ void Run::start_in_face(const windows::FaceWeights& at, const Origin& origin) {
     const Index edge = next3(k);  // opposite of corner k
     const bool framed = f.usable && f.length[edge] > 0;
     windows::Ray ray;
-    if (framed) ray = {windows::in_frame(frame_of(f, edge), edge, at.weights), 3 * at.face + edge, 0, WindowKind::Circular};
+    if (framed)
+      ray = {windows::in_frame(frame_of(f, edge), edge, at.weights), 3 * at.face + edge, 0, WindowKind::Circular};
     const double value = origin.value + weight * distance[k];
     reach(f.vertex[k], value, origin.source);
     see(f.vertex[k], value, framed ? &ray : nullptr, !framed || distance[k] < kNear * longest);
