@@ -126,6 +126,7 @@ std::vector<WeightedPath> weighted_paths(WeightedSolver& solver, std::span<const
     return plain_paths(solver.domain(), weight, sources, targets, options);
   }
   options.targets.assign(targets.begin(), targets.end());
+  options.keep_paths = true;
   const WeightedField field = solver.distance(sources, options);
   std::vector<WeightedPath> paths;
   for (std::size_t t = 0; t < targets.size(); ++t) {
