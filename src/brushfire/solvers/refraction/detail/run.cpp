@@ -171,7 +171,7 @@ void Run::enter(Index h, const Window& w) {
   reach(apex, weight * (at.value + w.slack), w.pseudo_source);
   if (weight * at.value > radius_ && weight * minimum_of(w) > radius_) return;
   const std::int64_t bucket = queue_.bucket_of(weight * at.value);
-  if (waiting_.push(f.waiting, h, w, bucket)) queue_.push_list(h, weight * at.value, bucket);
+  if (waiting_.push(f.waiting, h, w, bucket)) queue_.push_list_into(bucket, h);
 }
 
 // ---- through a face
