@@ -28,6 +28,7 @@ from brushfire._heat import HeatSolver, SignedHeatSolver, VectorHeatSolver, lapl
 from brushfire._flatten import Distortion, Flattening, decal, distortion, flatten
 from brushfire._io import FileInfo, read
 from brushfire._lines import read_lines
+from brushfire._matrices import merge_shards
 from brushfire._mesh import Mesh, MeshReport, Solver, methods
 from brushfire._patches import Patches, patches
 from brushfire._picture import Panel, animate, render, render_svg
@@ -95,6 +96,7 @@ __all__ = [
     "from_any",
     "k_medoids",
     "laplacian",
+    "merge_shards",
     "methods",
     "patches",
     "read",
