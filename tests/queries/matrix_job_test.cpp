@@ -32,7 +32,7 @@ class MatrixJobs : public testing::Test {
   }
 
   TemporaryDirectory folder_;
-  Mesh mesh_ = sphere(300);
+  Mesh mesh_ = shapes::icosphere(2).mesh();
   MatrixOptions options_;
 };
 

@@ -32,7 +32,7 @@ struct MatrixFileOptions {
   // Which of how many shards, from 1 on. A shard is a run of rows near each other on the surface. In a .npy file it is
   // a matrix of its own rows alone, for merge_shards(); the shards of a Zarr store write into it together.
   std::uint64_t shard = 1, shards = 1;
-  std::optional<Symmetry> symmetry;  // needs rows and columns that are the same places, and no shards in .npy files
+  std::optional<Symmetry> symmetry{};  // needs rows and columns that are the same places, and no shards in .npy files
 };
 
 // One process's part in a matrix that is written to disk: PATH ends in .npy (little-endian, C order, version 1.0) or in
