@@ -134,7 +134,7 @@ std::string write(const Domain& domain, const std::string& path, bool float32, c
 void merge(const std::vector<std::string>& shards, const std::string& path, const std::string& symmetric,
            std::uint64_t chunk_rows, int zarr_format) {
   const std::vector<std::filesystem::path> paths(shards.begin(), shards.end());
-  Computation computation(nb::none());
+  Computation computation{nb::none()};
   computation.run(false, [&] {
     merge_shards(paths, path, file_options_from(symmetric, chunk_rows, zarr_format, 1, 1));
     return true;
