@@ -15,7 +15,7 @@
 namespace brushfire::detail {
 namespace {
 
-constexpr std::uint64_t kHeadBytes = 1024;
+constexpr std::size_t kHeadBytes = 1024;
 constexpr std::string_view kMagic = "BRF-ROWS";
 constexpr std::size_t kNumbersInHead = 9;                 // behind the magic; then the words, ended by 0
 constexpr std::uint64_t kBeginLock = 0, kFinishLock = 1;  // bytes of the magic
