@@ -186,4 +186,82 @@ template void Rows::run_grouped<float>(std::span<const std::size_t>, const Progr
 template void Rows::run_grouped<double>(std::span<const std::size_t>, const Progress&, const TakeDense<double>&,
                                         const Claim&);
 
+Rows::Blocks Rows::blocks_by_place(std::size_t block) {
+  Blocks blocks;
+  blocks.begin.push_back(0);
+  std::vector<bool> in_a_group(row_count_, false);
+  if (can_group()) {
+    const CancelScope listen(options_.cancel);
+    std::vector<Wish> wishes;
+    for (std::size_t i = 0; i < row_count_; ++i) wishes.emplace_back(vertex_of_row(i), i);
+    std::sort(wishes.begin(), wishes.end());
+    for (const auto& g : groups().groups()) {
+      for (const Index v : g.vertices) {
+        const auto first = std::lower_bound(wishes.begin(), wishes.end(), Wish{v, 0});
+        for (auto w = first; w != wishes.end() && w->first == v; ++w) {
+          blocks.numbers.push_back(w->second), blocks.vertex.push_back(v);
+          in_a_group[w->second] = true;
+        }
+      }
+      blocks.begin.push_back(blocks.numbers.size());
+    }
+    blocks.groups = groups().groups().size();
+  }
+  for (const std::size_t i : numbers_by_place()) {
+    if (in_a_group[i]) continue;
+    blocks.numbers.push_back(i);
+    if (blocks.numbers.size() - blocks.begin.back() == block) blocks.begin.push_back(blocks.numbers.size());
+  }
+  if (blocks.begin.back() < blocks.numbers.size()) blocks.begin.push_back(blocks.numbers.size());
+  return blocks;
+}
+
+void Rows::run_group_within(Worker& w, const Blocks& blocks, std::size_t b, const TakeOfBlock& take) {
+  if (!w.groups) w.groups = std::make_unique<carried_source::GroupRunner>(groups());
+  const carried_source::GroupedRows::Group& group = groups().groups()[b];
+  const auto for_rows_of = [&](int lane, const auto& body) {
+    for (std::size_t k = blocks.begin[b]; k < blocks.begin[b + 1]; ++k) {
+      if (blocks.vertex[k] == group.vertices[static_cast<std::size_t>(lane)]) body(blocks.numbers[k]);
+    }
+  };
+  const auto take_lane = [&](int lane, std::span<const Index> vertices, std::span<const float> distances) {
+    w.field.vertex.assign(vertices.begin(), vertices.end());
+    w.field.distance.resize(distances.size());
+    const double unit = w.groups->unit();
+    std::transform(distances.begin(), distances.end(), w.field.distance.begin(),
+                   [=](float d) { return static_cast<double>(d) * unit; });
+    for_rows_of(lane, [&](std::size_t i) { take(b, i, w.field); });
+  };
+  for (const int lane : w.groups->run_within(group, options_.max_distance, take_lane)) {
+    for_rows_of(lane, [&](std::size_t i) {
+      compute_row(w, i);
+      take(b, i, w.field);
+    });
+  }
+}
+
+void Rows::run_blocks(const Blocks& blocks, std::size_t first, std::size_t last, const Progress& progress,
+                      const TakeOfBlock& take) {
+  const CancelScope listen(options_.cancel);
+  std::atomic<std::size_t> done{0};
+  const std::size_t rows = blocks.begin[last] - blocks.begin[first];
+  const auto body = [&](unsigned worker, std::size_t index) {
+    Worker& w = workers_[worker];
+    const std::size_t b = first + index, begin = blocks.begin[b], end = blocks.begin[b + 1];
+    stop_if_cancelled();
+    if (b < blocks.groups) {
+      run_group_within(w, blocks, b, take);
+    } else {
+      for (std::size_t k = begin; k < end; ++k) {
+        stop_if_cancelled();
+        compute_row(w, blocks.numbers[k]);
+        take(b, blocks.numbers[k], w.field);
+      }
+    }
+    const std::size_t finished = done.fetch_add(end - begin, std::memory_order_relaxed) + end - begin;
+    if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(rows));
+  };
+  team_.run(last - first, body, current_cancel_token());
+}
+
 }  // namespace brushfire::detail

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Rows of a file of their own: seconds of work, and files of some megabytes.
+// Rows of a file, or some more: seconds of work, and files of some megabytes.
 constexpr std::size_t kFileRows = 2048;
 // Of these a thread takes so many at a time.
 constexpr std::size_t kThreadRows = 32;
@@ -48,7 +48,8 @@ class SparseJob {
         path_(detail::followed(path.string())),
         folder_(path_.string() + ".part") {
     detail::require_sparse_memory(all_, kType, options.memory_limit);
-    numbers_ = all_.numbers_by_place();
+    blocks_ = all_.blocks_by_place(kThreadRows);
+    cut_into_files();
     detail::LedgerHead head;
     head.matrix = detail::fingerprint_of(domain, rows, std::nullopt, kType, limited(options, radius).distance);
     detail::Fingerprint layout;
@@ -58,7 +59,7 @@ class SparseJob {
     head.rows = all_.count();
     head.columns = all_.columns();
     head.value_bytes = sizeof(T);
-    head.entries = (numbers_.size() + kFileRows - 1) / kFileRows;
+    head.entries = files_.size() - 1;
     head.words = "sparse, " + std::to_string(all_.count()) + " rows, radius " + std::to_string(radius) + ", method " +
                  std::string(name_of(options.distance.method));
     ledger_.emplace(
@@ -69,9 +70,12 @@ class SparseJob {
           fs::create_directory(folder_, error);
           if (error) throw Error(ErrorCode::FileNotWritable, folder_.string() + ": " + error.message());
         });
+    found_ = all_.count();
+    for (const std::size_t file : ledger_->missing(0, ledger_->entries())) found_ -= numbers_of(file).size();
   }
 
-  std::size_t found() const { return std::min(ledger_->found() * kFileRows, numbers_.size()); }
+  // Rows that were there when it was joined.
+  std::size_t found() const { return found_; }
 
   std::uint64_t run() {
     const CancelScope listen(cancel_);
@@ -109,31 +113,43 @@ class SparseJob {
     return o;
   }
 
-  std::span<const std::size_t> numbers_of(std::size_t block) const {
-    const std::size_t begin = block * kFileRows;
-    return std::span(numbers_).subspan(begin, std::min(kFileRows, numbers_.size() - begin));
+  // Rows that are computed together are in one file.
+  void cut_into_files() {
+    files_.push_back(0);
+    for (std::size_t b = 1; b < blocks_.begin.size(); ++b) {
+      const std::size_t rows = blocks_.begin[b] - blocks_.begin[files_.back()];
+      if (rows >= kFileRows || b + 1 == blocks_.begin.size()) files_.push_back(b);
+    }
   }
-  fs::path file_of(std::size_t block) const { return folder_ / std::to_string(block); }
+  std::size_t first_of(std::size_t file) const { return blocks_.begin[files_[file]]; }
+  std::span<const std::size_t> numbers_of(std::size_t file) const {
+    return std::span(blocks_.numbers).subspan(first_of(file), first_of(file + 1) - first_of(file));
+  }
+  fs::path file_of(std::size_t file) const { return folder_ / std::to_string(file); }
 
   // Sizes of the rows, then their columns, then their values.
-  void compute(std::size_t block) {
-    const std::span<const std::size_t> numbers = numbers_of(block);
+  void compute(std::size_t file) {
+    const std::span<const std::size_t> numbers = numbers_of(file);
     std::vector<SparseRow<T>> rows(numbers.size());
+    std::vector<std::pair<std::size_t, std::size_t>> place;  // of a row's number: where it is in the file
+    for (std::size_t k = 0; k < numbers.size(); ++k) place.emplace_back(numbers[k], k);
+    std::sort(place.begin(), place.end());
     const double before = static_cast<double>(ledger_->done()), blocks = static_cast<double>(ledger_->entries());
     Progress part;
     if (progress_) part = [&](double share) { progress_((before + share) / blocks); };
-    all_.run_sparse(numbers, kThreadRows, part, [&](unsigned, std::size_t k, const SparseField& f) {
-      rows[k].column.assign(f.vertex.begin(), f.vertex.end());
-      rows[k].value.assign(f.distance.begin(), f.distance.end());
+    all_.run_blocks(blocks_, files_[file], files_[file + 1], part, [&](std::size_t, std::size_t i, const auto& f) {
+      SparseRow<T>& row = rows[std::lower_bound(place.begin(), place.end(), std::pair(i, std::size_t{0}))->second];
+      row.column.assign(f.vertex.begin(), f.vertex.end());
+      row.value.assign(f.distance.begin(), f.distance.end());
     });
-    detail::Output output(file_of(block).string());
+    detail::Output output(file_of(file).string());
     for (const SparseRow<T>& row : rows)
       output.value(static_cast<std::uint32_t>(row.column.size()), std::endian::little);
     for (const SparseRow<T>& row : rows) output.values(std::span<const Index>(row.column), std::endian::little);
     for (const SparseRow<T>& row : rows) output.values(std::span<const T>(row.value), std::endian::little);
     output.commit();
-    ledger_->mark(block);
-    ledger_->release(block);
+    ledger_->mark(file);
+    ledger_->release(file);
   }
 
   void wait_for(const std::vector<std::size_t>& blocks) const {
@@ -157,7 +173,7 @@ class SparseJob {
   SparseMatrix<T> joined() const {
     SparseMatrix<T> m;
     m.columns = static_cast<Index>(all_.columns());
-    m.row_start.assign(numbers_.size() + 1, 0);
+    m.row_start.assign(all_.count() + 1, 0);
     const std::size_t blocks = ledger_->entries();
     for (std::size_t b = 0; b < blocks; ++b) {
       const std::span<const std::size_t> numbers = numbers_of(b);
@@ -168,7 +184,7 @@ class SparseJob {
         m.row_start[numbers[k] + 1] = detail::load<std::uint32_t>(sizes.data() + 4 * k, std::endian::little);
       }
     }
-    for (std::size_t i = 0; i < numbers_.size(); ++i) m.row_start[i + 1] += m.row_start[i];
+    for (std::size_t i = 0; i < all_.count(); ++i) m.row_start[i + 1] += m.row_start[i];
     const std::uint64_t entries = m.row_start.back();
     require_memory(entries * (sizeof(Index) + sizeof(T)), 0,
                    "a sparse matrix of " + std::to_string(entries) + " entries",
@@ -201,8 +217,10 @@ class SparseJob {
   const CancelToken* cancel_;
   detail::Rows all_;
   fs::path path_, folder_;
-  std::vector<std::size_t> numbers_;
+  detail::Rows::Blocks blocks_;
+  std::vector<std::size_t> files_;  // which block each file begins with, and at the end all blocks
   std::optional<detail::RowLedger> ledger_;
+  std::size_t found_ = 0;
 };
 
 template <class T>
