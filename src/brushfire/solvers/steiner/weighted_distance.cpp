@@ -3,6 +3,7 @@
 
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
+#include <brushfire/solvers/steiner/detail/curve_points.h>
 #include <brushfire/solvers/steiner/detail/run.h>
 
 #include <algorithm>
@@ -45,13 +46,17 @@ Density density_for(Costs costs, double tolerance, unsigned doublings) {
   return {2.1 * root / (1 + root), std::min(0.25, 0.7 * tolerance * finer), 4 * most};
 }
 
-void check(const WeightedOptions& options) {
-  if (!(options.tolerance >= kLeastWeightedTolerance && options.tolerance <= kMostWeightedTolerance)) {
-    throw Error(ErrorCode::InvalidArgument, "tolerance " + number_as_text(options.tolerance) + " is not in [" +
+void check_tolerance(double tolerance) {
+  if (!(tolerance >= kLeastWeightedTolerance && tolerance <= kMostWeightedTolerance)) {
+    throw Error(ErrorCode::InvalidArgument, "tolerance " + number_as_text(tolerance) + " is not in [" +
                                                 number_as_text(kLeastWeightedTolerance) + ", " +
                                                 number_as_text(kMostWeightedTolerance) + "]: weighted distances are " +
                                                 "computed between bounds");
   }
+}
+
+void check(const WeightedOptions& options) {
+  check_tolerance(options.tolerance);
   if (!(options.max_distance >= 0)) {
     throw Error(ErrorCode::InvalidArgument,
                 "max_distance " + number_as_text(options.max_distance) + " is not a number >= 0");
@@ -66,11 +71,7 @@ double least_offset(std::span<const Source> sources) {
       throw Error(ErrorCode::InvalidArgument,
                   "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
     }
-    if (sources[i].curve) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "source " + std::to_string(i) + " is a curve: weighted distances start at points");
-    }
-    least = std::min(least, sources[i].offset);
+    least = std::min(least, brushfire::least_offset(sources[i]));
   }
   return least;
 }
@@ -122,20 +123,16 @@ void WeightedSolver::Workspace::locate(std::span<const Source> sources, const We
   run.base = least_offset(sources);
   run.given.assign(sources.begin(), sources.end());
   const double unit = mesh->mesh().unit();
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    if (sources[i].curve) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "source " + std::to_string(i) + " is a curve: weighted distances start at points");
+  std::vector<std::uint8_t> is_open(sources.size(), 0);
+  for (const PointSource& s : with_points_of_curves(*mesh, *run.layout, sources)) {
+    for (const SurfacePoint& p : mesh->on_open(s.point)) {
+      is_open[s.label] = 1;
+      run.sources.push_back({brushfire::locate(mesh->mesh(), p), (s.offset - run.base) / unit, s.label, nullptr});
     }
-    const std::vector<SurfacePoint> sides = mesh->on_open(sources[i].point);
-    if (sides.empty()) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "source " + std::to_string(i) + " lies behind a wall: nothing can be reached from there");
-    }
-    for (const SurfacePoint& p : sides) {
-      run.sources.push_back(
-          {brushfire::locate(mesh->mesh(), p), (sources[i].offset - run.base) / unit, static_cast<Index>(i), nullptr});
-    }
+  }
+  if (const auto closed = std::find(is_open.begin(), is_open.end(), 0); closed != is_open.end()) {
+    throw Error(ErrorCode::InvalidArgument, "source " + std::to_string(closed - is_open.begin()) +
+                                                " lies behind a wall: nothing can be reached from there");
   }
   for (const SurfacePoint& t : options.targets) {
     std::vector<PointLocation>& sides = run.targets.emplace_back();
@@ -185,6 +182,14 @@ void WeightedSolver::Workspace::fill_upper(const Run& run, const WeightedOptions
     if (!(d <= options.max_distance) || d == kInfinity || !(d < least)) continue;
     least = d;
     field.source[mesh->vertex(v)] = run.given.size() == 1 ? 0 : label(run.front.vertex_parent[v]);
+  }
+  if (domain.has_walls()) {
+    field.side_distance.assign(domain.open().vertex_count(), kInfinity);
+    for (Index v = 0; v < run.front.vertex_value.size(); ++v) {
+      const double d = value(run.front.vertex_value[v]);
+      double& least = field.side_distance[mesh->open_vertex(v)];
+      if (d <= options.max_distance) least = std::min(least, d);
+    }
   }
   field.reached = static_cast<Index>(
       std::count_if(field.distance.begin(), field.distance.end(), [](double d) { return d < kInfinity; }));
@@ -239,7 +244,9 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
   locate(sources, options, *run);
   WeightedField field;
   std::shared_ptr<const PointLayout> below;
-  if (options.lower && !weights.pace) below = points_for(Costs::Below, options, doublings);
+  const bool from_curves =
+      std::any_of(sources.begin(), sources.end(), [](const Source& s) { return s.curve != nullptr; });
+  if (options.lower && !weights.pace && !from_curves) below = points_for(Costs::Below, options, doublings);
   search(*run, options, below.get(), field);
   field.points = run->layout->size() + (below ? below->size() : 0);
   field.run = std::move(run);
@@ -250,7 +257,13 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
 WeightedField WeightedSolver::Workspace::run_uniform(std::span<const Source> sources, const WeightedOptions& options) {
   if (!plain) plain = std::make_unique<DistanceSolver>(domain);
   std::vector<Source> scaled(sources.begin(), sources.end());
-  for (Source& s : scaled) s.offset /= uniform;
+  for (Source& s : scaled) {
+    s.offset /= uniform;
+    if (!s.curve || s.curve->offsets.empty()) continue;
+    CurveSource curve = *s.curve;
+    for (double& offset : curve.offsets) offset /= uniform;
+    s.curve = std::make_shared<const CurveSource>(std::move(curve));
+  }
   DistanceOptions how;
   how.tolerance = std::min(options.tolerance, kMaxTolerance);
   how.bound = Bound::Upper;
@@ -264,7 +277,8 @@ WeightedField WeightedSolver::Workspace::run_uniform(std::span<const Source> sou
   field.target_distance = found.target_distance;
   field.target_source = found.target_source;
   field.reached = found.reached;
-  for (std::vector<double>* values : {&field.distance, &field.target_distance}) {
+  field.side_distance = found.side_distance;
+  for (std::vector<double>* values : {&field.distance, &field.target_distance, &field.side_distance}) {
     for (double& d : *values) d *= uniform;
   }
   if (!options.lower) return field;
@@ -285,11 +299,33 @@ WeightedSolver::WeightedSolver(Domain domain, Weights weights) : workspace_(std:
   workspace_->weights = std::move(weights);
   workspace_->uniform = workspace_->weights.uniform();
 }
+WeightedSolver::WeightedSolver(std::unique_ptr<Workspace> workspace) : workspace_(std::move(workspace)) {}
 WeightedSolver::~WeightedSolver() = default;
 WeightedSolver::WeightedSolver(WeightedSolver&&) noexcept = default;
 WeightedSolver& WeightedSolver::operator=(WeightedSolver&&) noexcept = default;
 const Domain& WeightedSolver::domain() const noexcept { return workspace_->domain; }
 const Weights& WeightedSolver::weights() const noexcept { return workspace_->weights; }
+
+void WeightedSolver::prepare(double tolerance) {
+  check_tolerance(tolerance);
+  Workspace& w = *workspace_;
+  if (w.uniform > 0) return;
+  if (!w.mesh) w.mesh = std::make_shared<WeightedMesh>(w.domain, w.weights);
+  WeightedOptions options;
+  options.tolerance = tolerance;
+  w.points_for(Costs::Real, options, 0);
+}
+
+WeightedSolver WeightedSolver::twin() const {
+  auto workspace = std::make_unique<Workspace>();
+  workspace->domain = workspace_->domain;
+  workspace->weights = workspace_->weights;
+  workspace->uniform = workspace_->uniform;
+  workspace->mesh = workspace_->mesh;
+  workspace->for_real = workspace_->for_real;
+  workspace->for_below = workspace_->for_below;
+  return WeightedSolver(std::move(workspace));
+}
 
 WeightedField WeightedSolver::distance(std::span<const Source> sources, const WeightedOptions& options) {
   const CancelScope listen(options.cancel);
