@@ -16,6 +16,7 @@ from brushfire._options import Options, Tolerance, options, thread_count
 from brushfire._places import Places, Points
 from brushfire._progress import Progress, shown
 from brushfire._sources import Curve, Sources, sources_of
+from brushfire._weighted import Weighing, chosen_in
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -214,11 +215,13 @@ class Cells(OnMesh):
         threads: int = 1,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
+        weights: Weighing | None = None,
         progress: Progress = None,
     ) -> tuple[Floats, Labels]:
         """The ``count`` nearest sources of every vertex.
 
         :param sources, method, tolerance, bound, precision, threads, offset, radius, progress: as for :meth:`distance`.
+        :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
         :return: distances, (vertex_count, count), ascending along each row, +inf for no more; and which source each is of.
 
         >>> import brushfire as bf
@@ -228,9 +231,9 @@ class Cells(OnMesh):
         ([3.0, 4.0], [2, 0])
         """
         start = sources_of(self, sources, offset)
-        chosen = options(method, tolerance, radius, bound, precision, threads)
+        space, chosen = chosen_in(self, weights, method, tolerance, radius, bound, precision, threads)
         with shown(progress, "nearest sources") as report:
-            return _core.nearest_sources(self._space, start, whole(count, "count", _MOST), chosen, report)
+            return _core.nearest_sources(space, start, whole(count, "count", _MOST), chosen, report)
 
     def extent(
         self, *, within: float = 1e-9, most_runs: int = 0, threads: int = 1, progress: Progress = None
@@ -416,6 +419,7 @@ class Cells(OnMesh):
         precision: str | None = None,
         radius: float = np.inf,
         threads: int = 0,
+        weights: Weighing | None = None,
         progress: Progress = None,
     ) -> Parcels:
         """Distances between the regions of a labelled surface.
@@ -424,6 +428,7 @@ class Cells(OnMesh):
         :param distance: ``"min"``, of the nearest two vertices; ``"hausdorff"``, of the vertex of either that is
             farthest from the other parcel; ``"centroid"``, of the vertices in their middles; ``"mean"`` and ``"max"``, over all pairs.
         :param ignore: labels that are no parcel.
+        :param weights: what going costs, in place of distances: :meth:`weighted` without a slope, or one number per face.
 
         ``"min"`` and ``"hausdorff"`` are one run per parcel, ``"mean"`` and ``"max"`` one per vertex; no dense matrix of
         the vertices is kept.
@@ -438,10 +443,10 @@ class Cells(OnMesh):
         if len(keys) != self._mesh.vertex_count:
             raise BrushfireError(f"labels: one per vertex is needed, {self._mesh.vertex_count}, not {len(keys)}")
         keys[np.isin(keys, _arrays.integers(ignore, "ignore"))] = -1
-        chosen = options(method, tolerance, radius, bound, precision)
+        space, chosen = chosen_in(self, weights, method, tolerance, radius, bound, precision)
         with shown(progress, "parcels") as report:
             label, between, sizes, centroids = _core.parcels(
-                self._space, keys, str(distance), 0, chosen, thread_count(threads), report
+                space, keys, str(distance), 0, chosen, thread_count(threads), report
             )
         return Parcels(label, between, sizes, centroids if len(centroids) else None)
 

@@ -14,6 +14,7 @@ from brushfire._options import Tolerance, options
 from brushfire._places import PlaceArrays, Places
 from brushfire._progress import Progress, shown
 from brushfire._sources import Sources, sources_of
+from brushfire._weighted import Weighing, chosen_in
 
 
 class Distances:
@@ -43,6 +44,7 @@ class Distances:
         threads: int = ...,
         offset: npt.ArrayLike = ...,
         radius: float = ...,
+        weights: Weighing | None = ...,
         targets: Places | None = ...,
         return_source: Literal[False] = ...,
         return_bound: Literal[False] = ...,
@@ -60,6 +62,7 @@ class Distances:
         threads: int = ...,
         offset: npt.ArrayLike = ...,
         radius: float = ...,
+        weights: Weighing | None = ...,
         targets: Places | None = ...,
         return_source: Literal[True],
         return_bound: Literal[False] = ...,
@@ -77,6 +80,7 @@ class Distances:
         threads: int = ...,
         offset: npt.ArrayLike = ...,
         radius: float = ...,
+        weights: Weighing | None = ...,
         targets: None = ...,
         return_source: Literal[False] = ...,
         return_bound: Literal[True],
@@ -94,6 +98,7 @@ class Distances:
         threads: int = ...,
         offset: npt.ArrayLike = ...,
         radius: float = ...,
+        weights: Weighing | None = ...,
         targets: None = ...,
         return_source: Literal[True],
         return_bound: Literal[True],
@@ -110,6 +115,7 @@ class Distances:
         threads: int = 1,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
+        weights: Weighing | None = None,
         targets: Places | None = None,
         return_source: bool = False,
         return_bound: bool = False,
@@ -134,6 +140,8 @@ class Distances:
             The numbers are the same to the bit for any number of threads.
         :param offset: the value that the front starts with, one number or one per source; finite, may be negative.
         :param radius: what is farther reads +inf; the run costs what it reaches.
+        :param weights: what going costs, in place of distances: :meth:`Mesh.weighted`, or one number per face. Upper bounds,
+            or with ``bound="lower"`` lower ones, within about ``tolerance`` (0.01) of each other.
         :param targets: where only some distances are needed; the solver may stop as soon as it has them.
         :param return_source: also return which source is nearest: its position in ``sources``, -1 where none is.
         :param return_bound: also return the proven absolute error of each distance, for methods that have one.
@@ -161,9 +169,15 @@ class Distances:
         """
         start = sources_of(self, sources, offset)
         end = None if targets is None else self._arrays(targets, "targets")
-        chosen = options(*self._or_defaults(method, tolerance, bound, precision, limit=radius), threads)
+        if weights is None:
+            run = self._run()
+            chosen = options(*self._or_defaults(method, tolerance, bound, precision, limit=radius), threads)
+        else:
+            on: Any = getattr(self, "mesh", self)
+            space, chosen = chosen_in(on, weights, method, tolerance, radius, bound, precision, threads)
+            run = _core.Solver(space)
         with shown(progress, "distance") as report:
-            distance, source, error = self._run().solve(
+            distance, source, error = run.solve(
                 start,
                 end.index if end else None,
                 end.weights if end else None,

@@ -12,9 +12,10 @@ from brushfire import _core
 from brushfire._arrays import floating_type, number, path_text, whole
 from brushfire._curves import OnMesh
 from brushfire._errors import BrushfireError, BrushfireTypeError
-from brushfire._options import Options, Tolerance, options, thread_count
+from brushfire._options import Options, Tolerance, thread_count
 from brushfire._places import PlaceArrays, Places
 from brushfire._progress import Progress, Reporter, shown
+from brushfire._weighted import Weighing, chosen_in
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -41,6 +42,7 @@ class Matrices(OnMesh):
         dtype: npt.DTypeLike = np.float32,
         out: Any = None,
         symmetric: Symmetric | None = None,
+        weights: Weighing | None = None,
         threads: int = 0,
         progress: Progress = None,
     ) -> Any:
@@ -50,6 +52,7 @@ class Matrices(OnMesh):
         :param columns: likewise.
         :param method, tolerance, bound, precision: as for :meth:`distance`.
         :param radius: what is farther reads +inf.
+        :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
         :param dtype: float32 (rounded from float64, 7 digits), float64, or float16 (3 digits, up to 65504: what does not
             fit is an error).
         :param out: of shape (rows, columns), to be filled instead of a new array, its dtype is what counts: a
@@ -70,7 +73,7 @@ class Matrices(OnMesh):
         if symmetric is not None:
             _check_symmetric(symmetric, row, column)
         shape = (self._count(row), self._count(column))
-        chosen = options(method, tolerance, radius, bound, precision)
+        space, chosen = chosen_in(self, weights, method, tolerance, radius, bound, precision)
         team = thread_count(threads)
         result = _new_matrix(shape, dtype) if out is None else out
         array = _memory_of(result)
@@ -134,6 +137,7 @@ class Matrices(OnMesh):
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
         symmetric: Symmetric | None = None,
+        weights: Weighing | None = None,
         threads: int = 0,
         memory_limit: int = 0,
         progress: Progress = None,
@@ -149,6 +153,7 @@ class Matrices(OnMesh):
         :param symmetric: for all vertices as rows: ``"mean"`` or ``"min"`` of both directions, of the one that is within
             the radius where the other is not.
         :param memory_limit: bytes that the result may take; 0 means what the machine has left.
+        :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
         :raises BrushfireError: code ``too_large`` where the result will not fit.
         :raises ImportError: where scipy is not installed.
 
@@ -164,10 +169,10 @@ class Matrices(OnMesh):
         compute = _core.sparse_float32 if float_type(dtype) == np.float32 else _core.sparse_float64
         most = whole(memory_limit, "memory_limit", np.iinfo(np.int64).max)
         _scipy_sparse()  # before anything is computed
-        chosen = options(method, tolerance, np.inf, bound, precision)
+        space, chosen = chosen_in(self, weights, method, tolerance, np.inf, bound, precision)
         limit, team = number(radius, "radius"), thread_count(threads)
         with shown(progress, "rows") as report:
-            data, indices, starts = compute(self._space, limit, *_pair(row), chosen, team, most, report)
+            data, indices, starts = compute(space, limit, *_pair(row), chosen, team, most, report)
         if symmetric is not None:
             data, indices, starts = _symmetric_rows(data, indices, starts, symmetric)
         return sparse_matrix(data, indices, starts, self._mesh.vertex_count)
@@ -184,6 +189,7 @@ class Matrices(OnMesh):
         radius: float = np.inf,
         precision: str | None = None,
         dtype: npt.DTypeLike = np.float32,
+        weights: Weighing | None = None,
         threads: int = 0,
         progress: Progress = None,
     ) -> None:
@@ -192,6 +198,7 @@ class Matrices(OnMesh):
         Interrupted, it goes on where it stopped when it is called again with the same arguments; until it is complete
         the rows stand in ``path + ".part"``. Open the result with ``numpy.load(path, mmap_mode="r")``.
 
+        :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
         :raises BrushfireError: code ``file_not_writable``, also where the disk has not enough room left.
 
         >>> import brushfire as bf, numpy as np, tempfile, os
@@ -202,11 +209,11 @@ class Matrices(OnMesh):
         [[3.0, 0.0, 4.0, 7.0]]
         """
         row, column = self._optional(rows, "rows"), self._optional(columns, "columns")
-        chosen = options(method, tolerance, radius, bound, precision)
+        space, chosen = chosen_in(self, weights, method, tolerance, radius, bound, precision)
         single = bool(float_type(dtype) == np.float32)
         team = thread_count(threads)
         with shown(progress, "matrix") as report:
-            _core.write_matrix(self._space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
+            _core.write_matrix(space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
 
     def _optional(self, places: Any, what: str) -> PlaceArrays | None:
         """None for all vertices."""

@@ -12,10 +12,11 @@ from brushfire import _arrays, _core
 from brushfire._arrays import Floats, Ints, Labels, whole
 from brushfire._curves import OnMesh, Path
 from brushfire._errors import BrushfireError
-from brushfire._options import Tolerance, options
+from brushfire._options import Tolerance
 from brushfire._places import Places, Points
 from brushfire._progress import Progress, shown
 from brushfire._sources import Sources, sources_of
+from brushfire._weighted import Weighing, chosen_in
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -142,11 +143,13 @@ class Regions(OnMesh):
         threads: int = 1,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
+        weights: Weighing | None = None,
         progress: Progress = None,
     ) -> Voronoi:
         """The geodesic Voronoi diagram: which source is nearest where, the borders in between, the area of each cell.
 
         :param sources, method, tolerance, bound, precision, threads, offset, radius, progress: as for :meth:`distance`.
+        :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
         :raises BrushfireError: as :meth:`distance` does.
 
         >>> import brushfire as bf
@@ -156,9 +159,9 @@ class Regions(OnMesh):
         ([0, 1, 1, 0], 4.0, (0, 1))
         """
         start = sources_of(self, sources, offset)
-        chosen = options(method, tolerance, radius, bound, precision, threads)
+        space, chosen = chosen_in(self, weights, method, tolerance, radius, bound, precision, threads)
         with shown(progress, "voronoi") as report:
-            found = _core.voronoi(self._space, start, chosen, report)
+            found = _core.voronoi(space, start, chosen, report)
         distance, source, area, borders, dual = found
         return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders], dual)
 
@@ -173,6 +176,7 @@ class Regions(OnMesh):
         precision: str | None = None,
         threads: int = 1,
         radius: float = np.inf,
+        weights: Weighing | None = None,
         progress: Progress = None,
     ) -> Samples:
         """Farthest-point sampling: again and again the vertex that is farthest from all samples so far.
@@ -180,6 +184,7 @@ class Regions(OnMesh):
         :param count: how many; fewer where every vertex is a sample before.
         :param first: vertices to begin with; the lowest vertex that is in a face if none are given.
         :param method, tolerance, bound, precision, threads, radius, progress: as for :meth:`distance`.
+        :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
         :raises BrushfireError: for a first vertex that is in no face or repeats, and for more of them than ``count``.
 
         Runs are limited to what still matters: all together they cost about log(count) whole fields.
@@ -197,9 +202,9 @@ class Regions(OnMesh):
                 raise BrushfireError("first: vertices are needed, not points of faces")
             index = arrays.index
         taken = whole(count, "count", np.iinfo(np.int32).max)
-        chosen = options(method, tolerance, radius, bound, precision, threads)
+        space, chosen = chosen_in(self, weights, method, tolerance, radius, bound, precision, threads)
         with shown(progress, "farthest points") as report:
-            return Samples(*_core.farthest_points(self._space, taken, index, chosen, report))
+            return Samples(*_core.farthest_points(space, taken, index, chosen, report))
 
     def cut(self, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), edges: npt.ArrayLike = ()) -> Cut:
         """The mesh with barriers cut out, through which no distance and no path goes.

@@ -75,6 +75,7 @@ DistanceOptions options_from(const nb::dict& given, Computation& computation) {
     if (name == "precision") options.precision = precision_named(nb::cast<std::string>(value));
     if (name == "tolerance") options.tolerance = nb::cast<double>(value);
     if (name == "threads") options.threads = nb::cast<unsigned>(value);
+    if (name == "weighting") options.weighting = nb::cast<const SharedWeighting&>(value).value;
     if (name == "max_distance") options.max_distance = nb::cast<double>(value);
   }
   options.cancel = computation.cancel();
