@@ -108,8 +108,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    """``brushfire.torch`` and ``brushfire.jax`` are imported when they are asked for: they need PyTorch and JAX."""
-    if name in ("torch", "jax"):
+    """``brushfire.torch``, ``jax`` and ``pyvista`` are imported when they are asked for: they need those packages."""
+    if name in ("torch", "jax", "pyvista"):
         import importlib
 
         return importlib.import_module(f"brushfire.{name}")

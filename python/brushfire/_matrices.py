@@ -145,7 +145,8 @@ class Matrices(OnMesh):
         """All distances up to a radius, as a ``scipy.sparse.csr_matrix`` of shape (rows, vertex_count).
 
         A row costs what it reaches, whatever the size of the mesh. A place's distance to itself is a stored zero: what is
-        not stored is farther than the radius. Columns ascend within a row.
+        not stored is farther than the radius. Columns ascend within a row. Rows of ``carried-source`` in single precision are
+        computed in groups: they differ from :meth:`distance` by as much as that differs from the truth.
 
         :param radius: finite, >= 0.
         :param rows: vertices, points or a mask; all vertices if none are given.

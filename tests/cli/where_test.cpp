@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
+#include <vector>
 
 namespace brushfire::tool {
 namespace {

@@ -7,6 +7,8 @@
 #include "io/counting_allocator.h"
 #include "support/part_solver.h"
 
+#include <string>
+
 namespace brushfire {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <brushfire/queries/extent.h>
 #include <brushfire/queries/vertex_measures.h>
 
+#include <algorithm>
 #include <memory>
 #include <numeric>
 #include <utility>

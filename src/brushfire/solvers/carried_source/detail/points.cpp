@@ -70,7 +70,7 @@ std::span<const Points::Near> Points::around(const PointLocation& named, int cro
       g = mesh_.opposite(g);
     } while (g != at.halfedge);
   }
-  if (at.on == PointLocation::On::Vertex) return near_;
+  if (at.on == PointLocation::On::Vertex && crossings == 0) return near_;
   for (const detail::Seed& s : seeds_.in_sight(mesh_, at, crossings, limit)) {
     if (s.corner == kNoIndex) continue;
     const FanCorner& corner = fans().corner(s.corner);
@@ -99,7 +99,7 @@ SourceAt<double> Points::see(Index v, const Known& known, const Direction& side,
                               length);
 }
 
-double Points::through_edge(Index h, Vec2 at, const Known& from, const Known& to) {
+Points::Lights Points::below_edge(Index h, const Known& from, const Known& to) {
   const Index next = Mesh::next(h);
   const double length = mesh_.length(h);
   const Hand here = fans().corner(h).mirrored ? Hand::Right : Hand::Left;
@@ -109,10 +109,24 @@ double Points::through_edge(Index h, Vec2 at, const Known& from, const Known& to
     const Direction d = fans().direction(corner, own);
     return fans().within(v, d.fan, d.angle);
   };
-  const SourceAt<double> a = see(mesh_.from(h), from, side(mesh_.from(h), h, true), here, length);
-  SourceAt<double> b = see(mesh_.to(h), to, side(mesh_.to(h), next, false), there, length);
-  b.x = length - b.x;
-  return offer_over<double>(length, at.x, at.y, norm(at), from.value, to.value, a, b).value;
+  Lights lights{see(mesh_.from(h), from, side(mesh_.from(h), h, true), here, length),
+                see(mesh_.to(h), to, side(mesh_.to(h), next, false), there, length)};
+  lights.to.x = length - lights.to.x;
+  return lights;
+}
+
+double Points::through_edge(Index h, Vec2 at, const Known& from, const Known& to) {
+  const Lights l = below_edge(h, from, to);
+  return offer_over<double>(mesh_.length(h), at.x, at.y, norm(at), from.value, to.value, l.from, l.to).value;
+}
+
+std::array<double, 2> Points::from_either_end(Index h, Vec2 at, const Known& from, const Known& to) {
+  Lights l = below_edge(h, from, to);
+  const double length = mesh_.length(h);
+  l.to.x = length - l.to.x;
+  return {offer_beside<double>(length, at.x, at.y, norm(at), from.value, to.value, l.from).value,
+          offer_beside<double>(length, length - at.x, at.y, norm(Vec2{length - at.x, at.y}), to.value, from.value, l.to)
+              .value};
 }
 
 }  // namespace brushfire::carried_source

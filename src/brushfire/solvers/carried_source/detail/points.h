@@ -5,6 +5,7 @@
 #include <brushfire/solvers/carried_source/detail/sight.h>
 #include <brushfire/solvers/detail/start.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -24,9 +25,9 @@ class Points {
     bool seen = true;  // false: the direction has no meaning, the vertex becomes a source of its own
     Index sector = 0;
   };
-  // The corners of its faces; of a point that is no vertex also those that it sees across up to `crossings` edges, not
-  // farther than `limit`: an obtuse corner is offered nothing over its own edge, behind which the point may lie. Lasts
-  // until the next call.
+  // The corners of its faces (a vertex: itself), and those that it sees across up to `crossings` edges, not farther
+  // than `limit`: an obtuse corner is offered nothing over its own edge, behind which the point may lie. Lasts until
+  // the next call.
   std::span<const Near> around(const PointLocation& at, int crossings, double limit);
 
   // The vertices at the corners of all faces that hold the point, and how far they are.
@@ -40,8 +41,14 @@ class Points {
   };
   // What the front of the two ends of halfedge h has at a point in the frame of h, above it.
   double through_edge(Index h, Vec2 at, const Known& from, const Known& to);
+  // Where the ends belong to different sources: of each one by itself.
+  std::array<double, 2> from_either_end(Index h, Vec2 at, const Known& from, const Known& to);
 
  private:
+  struct Lights {
+    SourceAt<double> from, to;  // both from the first end on
+  };
+  Lights below_edge(Index h, const Known& from, const Known& to);
   const Fans& fans();
   PointLocation by_lowest_halfedge(const PointLocation& at) const;
   PointLocation at_edge(const PointLocation& at, Index g) const;
