@@ -5,19 +5,23 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
 from brushfire._arrays import Floats, Labels, floats, number
-from brushfire._curves import OnMesh, Path
+from brushfire._curves import Path, path_of
 from brushfire._errors import BrushfireError
 from brushfire._options import Options, options, thread_count, tolerance_of
 from brushfire._places import Places
 from brushfire._progress import Progress, shown
 from brushfire._sources import Sources, sources_of
+
+if TYPE_CHECKING:
+    from brushfire._mesh import Mesh
+    from brushfire._surface import Surface
 
 _TOLERANCE = 0.01
 
@@ -108,7 +112,7 @@ class Weighted:
 
     def __init__(
         self,
-        mesh: OnMesh,
+        mesh: Mesh,
         weights: Any,
         edge_weights: Any = None,
         slope: Slope | None = None,
@@ -262,15 +266,19 @@ class Weighted:
 
     def _weighted_path(self, path: _core.PathArrays, cost: float, lower: float, *legs: Any) -> WeightedPath:
         face, length, weight, toll, edge = legs
-        return WeightedPath(self._on._path(path), cost, lower, face, length, weight, toll, edge.reshape(-1, 2))
+        return WeightedPath(path_of(self._on, path), cost, lower, face, length, weight, toll, edge.reshape(-1, 2))
 
 
 Weighing: TypeAlias = "Weighted | npt.ArrayLike"
 """What going costs: :meth:`Mesh.weighted`, or one number > 0 for every face."""
 
 
+def weighted_of(mesh: Mesh, weights: Weighing | None) -> Weighted | None:
+    return weights if weights is None or isinstance(weights, Weighted) else Weighted(mesh, weights)
+
+
 def chosen_in(
-    on: OnMesh,
+    surface: Surface,
     weights: Weighing | None,
     method: Any,
     tolerance: Any,
@@ -280,14 +288,14 @@ def chosen_in(
     threads: int = 1,
 ) -> tuple[_core.Space, Options]:
     """Where to compute and how: as options() says, or by the weights."""
-    if weights is None:
-        return on._space, options(method, tolerance, radius, bound, precision, threads)
+    on: Any = surface  # a solver has a mesh
+    weighted = weighted_of(getattr(on, "mesh", on), weights)
+    if weighted is None:
+        return surface._space, options(method, tolerance, radius, bound, precision, threads)
     if method is not None or precision is not None:
         raise BrushfireError("method and precision: with weights there is one method, points on edges")
-    weighted = weights if isinstance(weights, Weighted) else Weighted(on, weights)
-    weighting = weighted._solver.weighting(
-        _TOLERANCE if tolerance is None else tolerance_of(tolerance), weighted._towards
-    )
+    within = _TOLERANCE if tolerance is None else tolerance_of(tolerance)
+    weighting = weighted._solver.weighting(within, weighted._towards)
     chosen: Options = {
         "max_distance": number(radius, "radius"),
         "threads": thread_count(threads),
@@ -298,54 +306,53 @@ def chosen_in(
     return weighting.domain, chosen
 
 
-class WithWeights(OnMesh):
-    """The weights of a Mesh."""
+def weighted(
+    mesh: Mesh,
+    weights: npt.ArrayLike | None = None,
+    edge_weights: npt.ArrayLike | Iterable[Any] | None = None,
+    *,
+    slope: Slope | None = None,
+    steepest: float = np.inf,
+    towards: bool = False,
+) -> Weighted:
+    """This mesh, with what it costs to cross its faces and edges.
 
-    def weighted(
-        self,
-        weights: npt.ArrayLike | None = None,
-        edge_weights: npt.ArrayLike | Iterable[Any] | None = None,
-        *,
-        slope: Slope | None = None,
-        steepest: float = np.inf,
-        towards: bool = False,
-    ) -> Weighted:
-        """This mesh, with what it costs to cross its faces and edges.
+    :param weights: per unit of length in each face, > 0; inf is a wall. None: 1 everywhere.
+    :param edge_weights: rows of two vertices, the cost along the edge that joins them (inf: as in its faces) and, if
+        wanted, the cost to cross it (inf: a wall).
+    :param slope: what slopes cost, up and down (z is up): ``"tobler"`` and ``"naismith"`` in seconds per metre on the
+        map, ``"energy"`` in J/kg per metre, or two arrays, slopes and the paces there, linear between; times the weights.
+        Upper bounds only, then.
+    :param steepest: with a slope: no step is steeper than this; steeper ground can still be traversed.
+    :param towards: with a slope: costs are those to get to places, and not from them, where a call does not say.
+    :return: :class:`Weighted`, what ``weights=`` of other calls takes, and whose ``costs()``, ``distance()``, ``path()`` and
+        ``paths()`` are those of the weights.
+    :raises BrushfireError: for weights that are not > 0, as many as faces; for edges that do not exist.
 
-        :param weights: per unit of length in each face, > 0; inf is a wall. None: 1 everywhere.
-        :param edge_weights: rows of two vertices, the cost along the edge that joins them (inf: as in its faces) and, if
-            wanted, the cost to cross it (inf: a wall).
-        :param slope: what slopes cost, up and down (z is up): ``"tobler"`` and ``"naismith"`` in seconds per metre on the
-            map, ``"energy"`` in J/kg per metre, or two arrays, slopes and the paces there, linear between; times the weights.
-            Upper bounds only, then.
-        :param steepest: with a slope: no step is steeper than this; steeper ground can still be traversed.
-        :param towards: with a slope: costs are those to get to places, and not from them, where a call does not say.
-        :return: :class:`Weighted`, what ``weights=`` of other calls takes, and whose ``costs()``, ``distance()``, ``path()`` and ``paths()`` are those of the weights.
-        :raises BrushfireError: for weights that are not > 0, as many as faces; for edges that do not exist.
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> mesh.weighted(edge_weights=[[0, 2, 0.5]]).distance(0, targets=2).tolist()
+    [2.5]
+    >>> road = mesh.weighted(edge_weights=[[0, 2, 0.5]]).path(0, 2)
+    >>> road.cost, road.edge.tolist()
+    (2.5, [[2, 0]])
+    """
+    return Weighted(mesh, weights, edge_weights, slope, steepest, towards)
 
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> mesh.weighted(edge_weights=[[0, 2, 0.5]]).distance(0, targets=2).tolist()
-        [2.5]
-        >>> road = mesh.weighted(edge_weights=[[0, 2, 0.5]]).path(0, 2)
-        >>> road.cost, road.edge.tolist()
-        (2.5, [[2, 0]])
-        """
-        return Weighted(self, weights, edge_weights, slope, steepest, towards)
 
-    def isochrones(self, values: npt.ArrayLike, levels: npt.ArrayLike) -> dict[str, Any]:
-        """Where the values are below each level, as polygons on the map: a GeoJSON FeatureCollection of MultiPolygons.
+def isochrones(mesh: Mesh, values: npt.ArrayLike, levels: npt.ArrayLike) -> dict[str, Any]:
+    """Where the values are below each level, as polygons on the map: a GeoJSON FeatureCollection of MultiPolygons.
 
-        :param values: one per vertex, +inf where there is none, (vertex_count,): what it takes to get there.
-        :param levels: (k,); each one's polygons have it as their property ``level``.
-        :return: what ``json.dump`` writes; in the mesh's x and y. For terrain: no two faces over one another.
+    :param values: one per vertex, +inf where there is none, (vertex_count,): what it takes to get there.
+    :param levels: (k,); each one's polygons have it as their property ``level``.
+    :return: what ``json.dump`` writes; in the mesh's x and y. For terrain: no two faces over one another.
 
-        >>> import brushfire as bf
-        >>> ground = bf.terrain([[0, 0], [0, 0]])
-        >>> region = ground.mesh.isochrones([0, 1, 0, 1], [0.5])["features"][0]
-        >>> region["properties"], region["geometry"]["type"]
-        ({'level': 0.5}, 'MultiPolygon')
-        """
-        field = floats(values, "values").ravel()
-        found: dict[str, Any] = json.loads(_core.isochrones(self._mesh, field, np.atleast_1d(floats(levels, "levels"))))
-        return found
+    >>> import brushfire as bf
+    >>> ground = bf.terrain([[0, 0], [0, 0]])
+    >>> region = ground.mesh.isochrones([0, 1, 0, 1], [0.5])["features"][0]
+    >>> region["properties"], region["geometry"]["type"]
+    ({'level': 0.5}, 'MultiPolygon')
+    """
+    field = floats(values, "values").ravel()
+    found: dict[str, Any] = json.loads(_core.isochrones(mesh._mesh, field, np.atleast_1d(floats(levels, "levels"))))
+    return found

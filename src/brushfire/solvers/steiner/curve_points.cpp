@@ -66,7 +66,7 @@ void add_points(const WeightedMesh& mesh, const PointLayout& layout, const detai
 
 }  // namespace
 
-std::vector<PointSource> with_points_of_curves(const WeightedMesh& mesh, const PointLayout& layout,
+std::vector<PointSource> with_points_of_curves(const WeightedMesh& mesh, const PointLayout* layout,
                                                std::span<const Source> sources) {
   std::vector<PointSource> points;
   for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -81,7 +81,7 @@ std::vector<PointSource> with_points_of_curves(const WeightedMesh& mesh, const P
                                                   ": offsets that change along a curve are for distances, not for "
                                                   "costs");
     }
-    add_points(mesh, layout, feet.front(), points);
+    add_points(mesh, *layout, feet.front(), points);
     detail::replace_curves_by_feet(mesh.domain().mesh(), feet);
     for (const detail::LocatedSource& f : feet) points.push_back({{f.at.face, f.at.weights}, f.offset, label});
   }

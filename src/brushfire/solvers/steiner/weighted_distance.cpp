@@ -3,6 +3,7 @@
 
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
+#include <brushfire/solvers/refraction/detail/run.h>
 #include <brushfire/solvers/steiner/detail/curve_points.h>
 #include <brushfire/solvers/steiner/detail/run.h>
 
@@ -45,6 +46,9 @@ Density density_for(Costs costs, double tolerance, unsigned doublings) {
   if (costs == Costs::Real) return {3 * root, std::min(0.25, 8 * tolerance * finer), most};
   return {2.1 * root / (1 + root), std::min(0.25, 0.7 * tolerance * finer), 4 * most};
 }
+
+// Windows take no less time where they may be farther apart than this.
+constexpr double kWidestWindows = 0.02;
 
 void check_tolerance(double tolerance) {
   if (!(tolerance >= kLeastWeightedTolerance && tolerance <= kMostWeightedTolerance)) {
@@ -96,13 +100,17 @@ struct WeightedSolver::Workspace {
     std::shared_ptr<const PointLayout> points;
   };
   LaidOut for_real, for_below;  // the last ones: upper bounds need fewer points
+  std::unique_ptr<refraction::Medium> medium;
 
   std::shared_ptr<const PointLayout> points_for(Costs costs, const WeightedOptions& options, unsigned doublings);
   WeightedField run_uniform(std::span<const Source> sources, const WeightedOptions& options);
   WeightedField run(std::span<const Source> sources, const WeightedOptions& options, unsigned doublings);
   void locate(std::span<const Source> sources, const WeightedOptions& options, Run& run) const;
+  bool follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field);
   void search(Run& run, const WeightedOptions& options, const PointLayout* below, WeightedField& field) const;
   void fill_upper(const Run& run, const WeightedOptions& options, WeightedField& field) const;
+  template <class Value>
+  void fill_sides(double base, double horizon, Value value, const WeightedOptions& options, WeightedField& field) const;
   void fill_lower(const Search& below, const Run& run, const WeightedOptions& options, WeightedField& field) const;
 };
 
@@ -124,7 +132,7 @@ void WeightedSolver::Workspace::locate(std::span<const Source> sources, const We
   run.given.assign(sources.begin(), sources.end());
   const double unit = mesh->mesh().unit();
   std::vector<std::uint8_t> is_open(sources.size(), 0);
-  for (const PointSource& s : with_points_of_curves(*mesh, *run.layout, sources)) {
+  for (const PointSource& s : with_points_of_curves(*mesh, run.layout.get(), sources)) {
     for (const SurfacePoint& p : mesh->on_open(s.point)) {
       is_open[s.label] = 1;
       run.sources.push_back({brushfire::locate(mesh->mesh(), p), (s.offset - run.base) / unit, s.label, nullptr});
@@ -183,14 +191,7 @@ void WeightedSolver::Workspace::fill_upper(const Run& run, const WeightedOptions
     least = d;
     field.source[mesh->vertex(v)] = run.given.size() == 1 ? 0 : label(run.front.vertex_parent[v]);
   }
-  if (domain.has_walls()) {
-    field.side_distance.assign(domain.open().vertex_count(), kInfinity);
-    for (Index v = 0; v < run.front.vertex_value.size(); ++v) {
-      const double d = value(run.front.vertex_value[v]);
-      double& least = field.side_distance[mesh->open_vertex(v)];
-      if (d <= options.max_distance) least = std::min(least, d);
-    }
-  }
+  fill_sides(run.base, horizon, [&](Index v) { return run.front.vertex_value[v]; }, options, field);
   field.reached = static_cast<Index>(
       std::count_if(field.distance.begin(), field.distance.end(), [](double d) { return d < kInfinity; }));
   for (const std::vector<ValueAt>& sides : run.target_values) {
@@ -200,6 +201,19 @@ void WeightedSolver::Workspace::fill_upper(const Run& run, const WeightedOptions
     const bool is_reached = d < kInfinity && d <= options.max_distance;
     field.target_distance.push_back(is_reached ? d : kInfinity);
     field.target_source.push_back(is_reached ? label(best.parent) : kNoIndex);
+  }
+}
+
+// value(v): what is known at the mesh's vertex v, final up to the horizon.
+template <class Value>
+void WeightedSolver::Workspace::fill_sides(double base, double horizon, Value value, const WeightedOptions& options,
+                                           WeightedField& field) const {
+  if (!domain.has_walls()) return;
+  field.side_distance.assign(domain.open().vertex_count(), kInfinity);
+  for (Index v = 0; v < mesh->mesh().vertex_count(); ++v) {
+    const double at = value(v), d = at <= horizon ? base + at * mesh->mesh().unit() : kInfinity;
+    double& least = field.side_distance[mesh->open_vertex(v)];
+    if (d <= options.max_distance) least = std::min(least, d);
   }
 }
 
@@ -234,19 +248,80 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
   field.mean_error_bound = count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
+// Both bounds by windows. False, and the field is empty, where they cannot be followed.
+bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field) {
+  if (!medium) medium = std::make_unique<refraction::Medium>(*mesh);
+  if (!medium->is_followable()) return false;
+  std::vector<PointLocation> places;
+  for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
+  const double unit = mesh->mesh().unit();
+  double farthest = (options.max_distance - run.base) / unit;
+  if (!options.targets.empty() && places.empty()) farthest = -1;  // all targets are nowhere
+  refraction::Run windows(*medium, run.sources,
+                          {std::min(options.tolerance, kWidestWindows), farthest, places, options.progress});
+  if (!windows()) return false;
+  const double horizon = std::min(farthest, windows.horizon());
+  double sum = 0, most = 0;
+  std::size_t count = 0;
+  // The cheapest of several sides.
+  const auto better = [](const refraction::Known& a, const refraction::Known& b) {
+    refraction::Known best = b.upper < a.upper ? b : a;
+    best.lower = std::min(a.lower, b.lower);
+    return best;
+  };
+  const auto give = [&](const refraction::Known& known, bool counts, double& upper, double& lower, Index& source) {
+    upper = lower = kInfinity;
+    source = kNoIndex;
+    if (known.upper == kInfinity || known.upper > horizon) return;
+    upper = run.base + known.upper * unit;
+    lower = std::min(upper, run.base + known.lower * unit);
+    source = run.sources[known.source].label;
+    if (!counts || upper == run.base) return;
+    const double excess = (upper - lower) / (lower - run.base);
+    sum += excess;
+    most = std::max(most, excess);
+    ++count;
+  };
+  std::vector<refraction::Known> known(domain.mesh().vertex_count());
+  for (Index v = 0; v < mesh->mesh().vertex_count(); ++v) {
+    known[mesh->vertex(v)] = better(known[mesh->vertex(v)], windows.at_vertex(v));
+  }
+  field.distance.resize(known.size());
+  field.lower.resize(known.size());
+  field.source.resize(known.size());
+  for (std::size_t v = 0; v < known.size(); ++v) {
+    give(known[v], options.targets.empty(), field.distance[v], field.lower[v], field.source[v]);
+    field.reached += field.distance[v] < kInfinity;
+  }
+  fill_sides(run.base, horizon, [&](Index v) { return windows.at_vertex(v).upper; }, options, field);
+  std::size_t place = 0;
+  for (const auto& sides : run.targets) {
+    refraction::Known there;
+    for (std::size_t i = 0; i < sides.size(); ++i) there = better(there, windows.at_target(place++));
+    give(there, true, field.target_distance.emplace_back(), field.target_lower.emplace_back(),
+         field.target_source.emplace_back());
+  }
+  field.max_error_bound = most;
+  field.mean_error_bound = count > 0 ? sum / static_cast<double>(count) : 0;
+  return true;
+}
+
 WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, const WeightedOptions& options,
                                              unsigned doublings) {
   if (!mesh) mesh = std::make_shared<WeightedMesh>(domain, weights);
   auto run = std::make_shared<Run>();
   run->mesh = mesh;
   run->towards = options.towards;
-  run->layout = points_for(Costs::Real, options, doublings);
-  locate(sources, options, *run);
-  WeightedField field;
-  std::shared_ptr<const PointLayout> below;
   const bool from_curves =
       std::any_of(sources.begin(), sources.end(), [](const Source& s) { return s.curve != nullptr; });
-  if (options.lower && !weights.pace && !from_curves) below = points_for(Costs::Below, options, doublings);
+  const bool lower = options.lower && !from_curves;
+  if (from_curves) run->layout = points_for(Costs::Real, options, doublings);
+  locate(sources, options, *run);
+  WeightedField field;
+  if (lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
+  run->layout = points_for(Costs::Real, options, doublings);
+  std::shared_ptr<const PointLayout> below;
+  if (lower && !weights.pace) below = points_for(Costs::Below, options, doublings);
   search(*run, options, below.get(), field);
   field.points = run->layout->size() + (below ? below->size() : 0);
   field.run = std::move(run);

@@ -15,14 +15,11 @@ const Fans& Points::fans() {
 
 void Points::add_face(Index f, const std::array<double, 3>& weights) {
   for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-    const double length = mesh_.length(h);
-    if (length == 0) {
+    if (mesh_.length(h) == 0) {
       near_.push_back({mesh_.from(h), mesh_.length(Mesh::previous(h)) * weights[Mesh::previous(h) % 3], {}, false, 0});
       continue;
     }
-    const Vec2 apex = apex_over(mesh_, h, h);
-    const double ahead = weights[Mesh::next(h) % 3], third = weights[Mesh::previous(h) % 3];
-    const Vec2 at{ahead * length + third * apex.x, third * apex.y};
+    const Vec2 at = point_over(mesh_, h, weights);
     const FanCorner& corner = fans().corner(h);
     const double turn = std::atan2(at.y, at.x), distance = norm(at);
     const double angle = corner.mirrored ? corner.high - turn : corner.low + turn;
@@ -36,21 +33,7 @@ PointLocation Points::by_lowest_halfedge(const PointLocation& at) const {
   const Index h = at.halfedge;
   Index lowest = h;
   for (Index g = mesh_.opposite(h); g != h; g = mesh_.opposite(g)) lowest = std::min(lowest, g);
-  return at_edge(at, lowest);
-}
-
-// The same point in the face of another halfedge of the edge.
-PointLocation Points::at_edge(const PointLocation& at, Index g) const {
-  const Index h = at.halfedge;
-  const bool same_way = mesh_.from(g) == mesh_.from(h);
-  PointLocation there = at;
-  there.halfedge = g;
-  there.face = Mesh::face_of(g);
-  there.weights = {0, 0, 0};
-  there.weights[g % 3] = at.weights[(same_way ? h : Mesh::next(h)) % 3];
-  there.weights[Mesh::next(g) % 3] = at.weights[(same_way ? Mesh::next(h) : h) % 3];
-  there.t = there.weights[Mesh::next(g) % 3];
-  return there;
+  return on_other_halfedge(mesh_, at, lowest);
 }
 
 std::span<const Points::Near> Points::around(const PointLocation& named, int crossings, double limit) {
@@ -66,7 +49,7 @@ std::span<const Points::Near> Points::around(const PointLocation& named, int cro
   } else {
     Index g = at.halfedge;
     do {
-      add_face(Mesh::face_of(g), at_edge(at, g).weights);
+      add_face(Mesh::face_of(g), on_other_halfedge(mesh_, at, g).weights);
       g = mesh_.opposite(g);
     } while (g != at.halfedge);
   }

@@ -25,10 +25,10 @@ class Points {
     bool seen = true;  // false: the direction has no meaning, the vertex becomes a source of its own
     Index sector = 0;
   };
-  // The corners of its faces (a vertex: itself), and those that it sees across up to `crossings` edges, not farther
-  // than `limit`: an obtuse corner is offered nothing over its own edge, behind which the point may lie. Lasts until
-  // the next call.
-  std::span<const Near> around(const PointLocation& at, int crossings, double limit);
+  // The corners of its faces; of a point that is no vertex also those that it sees across up to `crossings` edges, not
+  // farther than `limit`: an obtuse corner is offered nothing over its own edge, behind which the point may lie. Lasts
+  // until the next call.
+  std::span<const Near> around(const PointLocation& named, int crossings, double limit);
 
   // The vertices at the corners of all faces that hold the point, and how far they are.
   std::span<const detail::Seed> corners(const PointLocation& at) { return seeds_.in_own_faces(mesh_, at); }
@@ -51,7 +51,6 @@ class Points {
   Lights below_edge(Index h, const Known& from, const Known& to);
   const Fans& fans();
   PointLocation by_lowest_halfedge(const PointLocation& at) const;
-  PointLocation at_edge(const PointLocation& at, Index g) const;
   void add_face(Index f, const std::array<double, 3>& weights);
   SourceAt<double> see(Index v, const Known& known, const Direction& side, Hand hand, double length);
 

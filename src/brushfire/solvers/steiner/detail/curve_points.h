@@ -18,8 +18,9 @@ struct PointSource {
 // The points among the sources, and in the place of every curve its places; of each segment along an edge the layout's
 // points on it; of one through a face as many as the face's densest edge has, less the shorter it is; and of every
 // segment the feet of the corners of its faces. What is found from these are costs of real paths from the curve. Throws
-// Error(InvalidArgument) where the offset changes along a curve, and what locate() throws.
-std::vector<PointSource> with_points_of_curves(const WeightedMesh& mesh, const PointLayout& layout,
+// Error(InvalidArgument) where the offset changes along a curve, and what locate() throws. `layout` may be null where
+// there are no curves.
+std::vector<PointSource> with_points_of_curves(const WeightedMesh& mesh, const PointLayout* layout,
                                                std::span<const Source> sources);
 
 }  // namespace brushfire::steiner
