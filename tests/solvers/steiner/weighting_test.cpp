@@ -74,14 +74,15 @@ TEST(Weighting, AFieldIsThatOfTheWeightedSolver) {
   const DistanceField found = distance(mesh, sources, options);
   EXPECT_EQ(found.target_distance, truth.target_distance);
   options.targets.clear();
-  const WeightedField whole = weighted_distance(mesh, weights, sources);
+  const WeightedField whole = weighted_distance(mesh, weights, sources, {.lower = false});
   EXPECT_EQ(distance(mesh, sources, options).distance, whole.distance);
   EXPECT_EQ(distance(mesh, sources, options).source, whole.source);
   EXPECT_EQ(DistanceSolver(mesh).distance_sparse(sources, options).distance, whole.distance);
   options.bound = Bound::Lower;
   const DistanceField low = distance(mesh, sources, options);
-  EXPECT_EQ(low.distance, whole.lower);
-  for (Index v = 0; v < mesh.vertex_count(); ++v) EXPECT_EQ(low.error_bound[v], whole.distance[v] - whole.lower[v]);
+  const WeightedField both = weighted_distance(mesh, weights, sources);
+  EXPECT_EQ(low.distance, both.lower);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) EXPECT_EQ(low.error_bound[v], both.distance[v] - both.lower[v]);
 }
 
 TEST(Weighting, RowsOfAMatrixAreFieldsForAnyNumberOfThreads) {
@@ -94,7 +95,7 @@ TEST(Weighting, RowsOfAMatrixAreFieldsForAnyNumberOfThreads) {
   const std::vector<double> one = distance_matrix<double>(mesh, Places(rows), std::nullopt, options);
   options.threads = 3;
   EXPECT_EQ(distance_matrix<double>(mesh, Places(rows), std::nullopt, options), one);
-  const std::vector<double> last = weighted_distance(mesh, weights, vertices(mesh, {48})).distance;
+  const std::vector<double> last = weighted_distance(mesh, weights, vertices(mesh, {48}), {.lower = false}).distance;
   EXPECT_TRUE(std::equal(last.begin(), last.end(), one.end() - mesh.vertex_count()));
   const SparseMatrix<double> near = distances_within<double>(mesh, 4.0, Places(rows), options);
   const auto within = std::count_if(one.begin(), one.end(), [](double d) { return d <= 4; });
@@ -123,7 +124,7 @@ TEST(Weighting, FarthestPointsAreFarthestByCost) {
   const Mesh mesh = squares(10);
   const Weights weights = by_place(mesh, [](Vec3 p) { return p.x < 8 ? 1.0 : 9.0; });
   const Samples samples = farthest_points(mesh, 2, std::vector<Index>{0}, costs(mesh, weights));
-  const std::vector<double> truth = weighted_distance(mesh, weights, vertices(mesh, {0})).distance;
+  const std::vector<double> truth = weighted_distance(mesh, weights, vertices(mesh, {0}), {.lower = false}).distance;
   EXPECT_EQ(samples.vertices[1], std::max_element(truth.begin(), truth.end()) - truth.begin());
   EXPECT_EQ(samples.separation[1], *std::max_element(truth.begin(), truth.end()));
 }
