@@ -30,6 +30,7 @@
 #include <brushfire/solvers/signed_heat.h>
 #include <brushfire/solvers/steiner/slope_pace.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/steiner/weighting.h>
 #include <brushfire/solvers/steiner/weights.h>
 #include <brushfire/solvers/vector_heat.h>
 #include <brushfire/solvers/window_field.h>
@@ -67,6 +68,7 @@
 #include <brushfire/io/byte_stream.h>
 #include <brushfire/io/formats.h>
 #include <brushfire/io/npy.h>
+#include <brushfire/io/read_face_values.h>
 #include <brushfire/io/read_field.h>
 #include <brushfire/io/read_grid.h>
 #include <brushfire/io/read_lines.h>
