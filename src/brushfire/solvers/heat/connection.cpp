@@ -82,6 +82,7 @@ VectorSystem::VectorSystem(const Mesh& mesh, bool delaunay, double time_factor, 
   time_ = time > 0 ? time / mesh.unit() / mesh.unit() : time_factor * mean * mean;
   if (!(time_ > 0 && time_ < kInfinity)) time_ = 1;
   operators_ = operators_of(triangulation_);
+  components_ = detail::components_of(mesh);
   connection_ = heat::connection_laplacian(triangulation_, spaces_, operators_);
 }
 

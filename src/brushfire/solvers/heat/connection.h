@@ -3,6 +3,7 @@
 // Based on: Knoppel, Crane, Pinkall, Schroder, "Globally optimal direction fields", 2013.
 #pragma once
 
+#include <brushfire/mesh/detail/components.h>
 #include <brushfire/solvers/heat/operators.h>
 #include <brushfire/solvers/heat/triangulation.h>
 
@@ -44,6 +45,7 @@ class VectorSystem {
   const Triangulation& triangulation() const { return triangulation_; }
   const TangentSpaces& spaces() const { return spaces_; }
   const Operators& operators() const { return operators_; }
+  const detail::Components& components() const { return components_; }
   double time() const { return time_; }  // in mesh.unit() squared
   // The bearings of the mesh's own halfedges, which are those before any flip.
   const std::vector<double>& mesh_bearings() const { return mesh_bearings_; }
@@ -58,6 +60,7 @@ class VectorSystem {
   TangentSpaces spaces_;
   std::vector<double> mesh_bearings_;
   Operators operators_;
+  detail::Components components_;
   std::vector<Complex> connection_;
   double time_ = 0;
   std::vector<Factors<double>> scalar_;  // none or one

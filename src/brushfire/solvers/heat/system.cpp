@@ -162,7 +162,7 @@ std::vector<double> System::potentials(std::span<const Sparks> columns) const {
     if (now == 2) add_divergence<2>(u, b);
     if (now == 1) add_divergence<1>(u, b);
     for (std::size_t j = 0; j < now; ++j) {
-      if (!starves(columns[first + j], now, j, u)) continue;
+      if (!starves(lit_by(columns[first + j]), std::span(u).subspan(j), now)) continue;
       for (Index v = 0; v < vertex_count(); ++v) b[now * v + j] = 0;
       add_divergence(diffuse(columns[first + j]), now, j, b);
     }

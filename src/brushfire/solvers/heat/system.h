@@ -5,6 +5,7 @@
 #pragma once
 
 #include <brushfire/solvers/heat/operators.h>
+#include <brushfire/solvers/heat/relay.h>
 #include <brushfire/solvers/heat/triangulation.h>
 #include <brushfire/solvers/heat_options.h>
 
@@ -23,13 +24,6 @@ struct Spark {
   double delay = 0;  // >= 0
 };
 using Sparks = std::vector<Spark>;
-
-// Positive numbers, far below the least double too: value * kStep^level.
-struct Heat {
-  static constexpr double kStep = 1e-200;
-  std::vector<double> value;         // [vertex_count] 0 where no heat comes
-  std::vector<std::uint32_t> level;  // [vertex_count] ascends away from the sparks
-};
 
 // Throws Error(InvalidArgument) for options out of range.
 void check(const HeatOptions& options);
@@ -70,9 +64,8 @@ class System {
   std::vector<double> heat_matrix(bool cold_border) const;
   std::vector<double> heat_by(std::size_t matrix, std::size_t width, std::span<const Sparks> columns) const;
   std::vector<double> heat_of(std::size_t width, std::span<const Sparks> columns) const;
-  bool starves(const Sparks& sparks, std::size_t width, std::size_t column, std::span<const double> u) const;
-  std::vector<double> relay(std::size_t matrix, const Sparks& sparks, std::uint32_t level,
-                            const std::vector<std::uint8_t>& beyond, const std::vector<double>& last) const;
+  // The vertices that heat can come to.
+  std::vector<std::uint8_t> lit_by(const Sparks& sparks) const;
   template <std::size_t kWidth>
   void add_divergence(std::span<const double> u, std::span<double> b) const;
   void add_divergence(const Heat& heat, std::size_t width, std::size_t column, std::span<double> b) const;
