@@ -26,8 +26,7 @@ class Carrier {
 
  private:
   template <class Scalar>
-  void spread(const Factors<Scalar>& factors, std::span<const Scalar> laplacian, std::size_t width,
-              std::span<Scalar> x) const;
+  void spread(const HeatEquation<Scalar>& equation, std::size_t width, std::span<Scalar> x) const;
 
   VectorSystem& system_;
   Heat heat_;

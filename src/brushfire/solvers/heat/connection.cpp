@@ -74,40 +74,40 @@ std::vector<Complex> connection_laplacian(const Triangulation& t, const TangentS
 VectorSystem::VectorSystem(const Mesh& mesh, bool delaunay, double time_factor, double time) {
   require_factorization();
   triangulation_ = triangulation_of(mesh, Cover::Single);
-  mollify(triangulation_);
+  components_ = detail::components_of(mesh);
+  is_point_ = points_among(triangulation_, components_);
+  mollify(triangulation_, components_);
   spaces_ = lay_out_tangents(triangulation_);
   mesh_bearings_ = triangulation_.bearing;
   if (delaunay) flip_to_delaunay(triangulation_);
-  const double mean = mean_edge_length(triangulation_);
-  time_ = time > 0 ? time / mesh.unit() / mesh.unit() : time_factor * mean * mean;
-  if (!(time_ > 0 && time_ < kInfinity)) time_ = 1;
+  times_ = times_of(triangulation_, components_, time_factor, time / mesh.unit() / mesh.unit());
   operators_ = operators_of(triangulation_);
-  components_ = detail::components_of(mesh);
   connection_ = heat::connection_laplacian(triangulation_, spaces_, operators_);
 }
 
 namespace {
 
-// M + t L, and 1 where there is nothing.
+// t L, and with the masses M + t L; 1 where there is nothing.
 template <class Scalar>
-Factors<Scalar> heat_factors(const Operators& o, std::vector<Scalar> laplacian, double time) {
-  for (Scalar& entry : laplacian) entry *= time;
-  for (std::size_t v = 0; v < o.mass.size(); ++v) {
+std::vector<Scalar> spreading(const Operators& o, std::vector<Scalar> laplacian, const VectorSystem& system) {
+  for (int v = 0; v < o.pattern.columns(); ++v) {
+    const double time = system.time_at(static_cast<Index>(v));
+    for (int e = o.pattern.start[v]; e < o.pattern.start[v + 1]; ++e) laplacian[e] *= time;
     laplacian[o.pattern.start[v]] += o.mass[v] > 0 ? o.mass[v] : 1;
   }
-  return Factors<Scalar>(o.pattern, {&laplacian, 1});
+  return laplacian;
 }
 
 }  // namespace
 
-const Factors<double>& VectorSystem::scalar_heat() {
-  if (scalar_.empty()) scalar_.push_back(heat_factors(operators_, operators_.laplacian, time_));
-  return scalar_.front();
+const HeatEquation<double>& VectorSystem::scalar_heat() {
+  if (!scalar_) scalar_.emplace(operators_.pattern, spreading(operators_, operators_.laplacian, *this));
+  return *scalar_;
 }
 
-const Factors<Complex>& VectorSystem::vector_heat() {
-  if (vector_.empty()) vector_.push_back(heat_factors(operators_, connection_, time_));
-  return vector_.front();
+const HeatEquation<Complex>& VectorSystem::vector_heat() {
+  if (!vector_) vector_.emplace(operators_.pattern, spreading(operators_, connection_, *this));
+  return *vector_;
 }
 
 }  // namespace brushfire::heat

@@ -26,7 +26,7 @@ Heat System::diffuse(const Sparks& sparks) const {
   };
   return relayed(mean(), lit_by(sparks), [&](std::uint32_t level, const std::vector<std::uint8_t>& beyond) {
     for (std::size_t m = 0; m < heat_.size(); ++m) {
-      std::vector<double> next = sent_over<double>(operators_.pattern, heat_[m], 1, beyond, last[m]);
+      std::vector<double> next = sent_over<double>(operators_.pattern, heat_[m], beyond, last[m]);
       for (const Spark& s : sparks) {  // those that are so late that they count only here
         if (beyond[s.vertex]) next[s.vertex] += s.weight * std::exp(-s.delay - level * std::log(Heat::kStep));
       }

@@ -36,9 +36,9 @@ using SendOn = std::function<std::vector<double>(std::uint32_t level, const std:
 Heat relayed(std::vector<double> value, std::vector<std::uint8_t> lit, const SendOn& send_on);
 
 // The right-hand side whose solution is `last` / kStep at the vertices beyond and 0 at the others, but for what is put
-// in there: what the matrix, `factor * entries`, couples over their edge. Columns side by side.
+// in there: what the matrix couples over their edge. Columns side by side.
 template <class Scalar>
-std::vector<Scalar> sent_over(const Pattern& pattern, std::span<const Scalar> entries, double factor,
+std::vector<Scalar> sent_over(const Pattern& pattern, std::span<const Scalar> matrix,
                               const std::vector<std::uint8_t>& beyond, std::span<const Scalar> last,
                               std::size_t width = 1) {
   std::vector<Scalar> next(last.size(), Scalar{});
@@ -46,9 +46,9 @@ std::vector<Scalar> sent_over(const Pattern& pattern, std::span<const Scalar> en
     for (int e = pattern.start[column] + 1; e < pattern.start[column + 1]; ++e) {
       const int row = pattern.row[e];
       if (beyond[column] == beyond[row]) continue;
-      const double sign = beyond[row] ? factor : -factor;
+      const double sign = beyond[row] ? 1 : -1;
       for (std::size_t j = 0; j < width; ++j) {
-        const Scalar to_row = sign * entries[e], to_column = -sign * conjugate(entries[e]);
+        const Scalar to_row = sign * matrix[e], to_column = -sign * conjugate(matrix[e]);
         next[width * row + j] -= to_row * (last[width * column + j] / Heat::kStep);
         next[width * column + j] -= to_column * (last[width * row + j] / Heat::kStep);
       }

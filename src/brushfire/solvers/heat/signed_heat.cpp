@@ -5,6 +5,7 @@
 #include <brushfire/solvers/heat/carrier.h>
 #include <brushfire/solvers/heat/connection.h>
 #include <brushfire/solvers/heat/level_sets.h>
+#include <brushfire/solvers/heat/scales.h>
 #include <brushfire/solvers/heat/system.h>
 
 #include <algorithm>
@@ -57,7 +58,7 @@ struct SignedHeatSolver::State {
         system(given, how.delaunay, how.time_factor, how.time),
         levels(system.operators(), system.components()) {
     flat = heat::triangulation_of(mesh, heat::Cover::Single);
-    heat::mollify(flat);
+    heat::mollify(flat, system.components());
     flat.bearing = system.mesh_bearings();
   }
 

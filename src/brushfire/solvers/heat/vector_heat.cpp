@@ -135,7 +135,7 @@ std::vector<Complex> VectorHeatSolver::State::affine(Index source, bool adaptive
   for (Index h = 0; h < t.tail.size(); ++h) {
     const Index a = t.tail[h], b = t.tail[Mesh::next(h)];
     if (!(heat.value[a] > 0 && heat.value[b] > 0)) continue;
-    const double weight = system.time() * heat::half_cotangent(t, h) * t.length[h];
+    const double weight = system.time_at(a) * heat::half_cotangent(t, h) * t.length[h];
     const auto in_frame = [&](Complex z, Index v) { return adaptive ? z / parallel[v] : z; };
     x[a] -= weight * heat.value[b] * heat.unit(b, heat.level[a]) * in_frame(heat::direction(t, system.spaces(), h), a);
     x[b] -=
@@ -198,7 +198,8 @@ std::vector<Complex> VectorHeatSolver::log_map(Index source, LogMapStrategy stra
                                ? state_->polar(source)
                                : state_->affine(source, strategy == LogMapStrategy::AffineAdaptive);
   const Complex origin = strategy == LogMapStrategy::VectorHeat ? Complex() : x[source];
-  for (Complex& z : x) z = (z - origin) * state_->mesh.unit();
+  const double unit = state_->system.is_point(state_->system.components().of_vertex[source]) ? 0 : state_->mesh.unit();
+  for (Complex& z : x) z = (z - origin) * unit;
   x[source] = 0;
   return x;
 }
