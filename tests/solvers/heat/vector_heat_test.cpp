@@ -176,6 +176,23 @@ TEST_F(VectorHeat, WhatIsCarriedGoesFartherThanNumbersReach) {
   }
 }
 
+// Border edges opposite of obtuse angles have negative weights, which flips cannot mend: heat would be negative, and
+// the equation of vectors indefinite.
+TEST_F(VectorHeat, BordersOfObtuseTrianglesAreLikeOthers) {
+  Shape shape = shapes::noise_terrain(10, 10, 2);
+  for (Vec3& p : shape.positions) p = {p.x + 6 * p.y, p.y, p.z};
+  const Mesh mesh = shape.mesh();
+  VectorHeatSolver solver(mesh);
+  const Index from = 60;
+  const Complex z(3, 4);
+  for (const double value : solver.extend({&from, 1}, std::vector<double>{7})) EXPECT_EQ(value, 7);
+  for (const Complex& all : solver.transport({&from, 1}, {&z, 1})) EXPECT_NEAR(std::abs(all), 5, 1e-9);
+  for (const LogMapStrategy strategy :
+       {LogMapStrategy::VectorHeat, LogMapStrategy::AffineLocal, LogMapStrategy::AffineAdaptive}) {
+    for (const Complex& at : solver.log_map(from, strategy)) EXPECT_LT(std::abs(at), 200);
+  }
+}
+
 TEST_F(VectorHeat, VectorsThatCancelLeaveNone) {
   const Mesh mesh = flat_torus(8);
   VectorHeatSolver solver(mesh);

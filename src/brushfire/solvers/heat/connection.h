@@ -35,10 +35,6 @@ Complex direction_back(const Triangulation& t, const TangentSpaces& spaces, Inde
 // The direction of halfedge k of a triangle laid flat.
 Complex direction_in(const FlatTriangle& flat, int k);
 
-// The entries of the connection Laplacian, below the diagonal: entry (i, j) takes a vector from the frame of j to that
-// of i along the edge, times minus its weight.
-std::vector<Complex> connection_laplacian(const Triangulation& t, const TangentSpaces& spaces, const Operators& o);
-
 // A matrix M + t L, below the diagonal, and its factors.
 template <class Scalar>
 struct HeatEquation {
@@ -68,8 +64,13 @@ class VectorSystem {
   bool is_point(Index component) const { return is_point_[component]; }
   // The bearings of the mesh's own halfedges, which are those before any flip.
   const std::vector<double>& mesh_bearings() const { return mesh_bearings_; }
-  // The Laplacian of vectors is kept: it is asked for by itself, too.
-  const std::vector<Complex>& laplacian_of_vectors() const { return connection_; }
+  // [halfedges] of each edge its own triangle's share, as the heat equations have it: half a cotangent; but 0 where an
+  // edge, on a border opposite of an obtuse angle, would have less. With no negative weight heat is positive, and the
+  // equation of vectors, whose frames need not agree around a triangle, is positive definite.
+  const std::vector<double>& weights() const { return weights_; }
+  // The entries of the connection Laplacian below the diagonal, of cotangents as they are: entry (i, j) takes a vector
+  // from the frame of j to that of i along the edge, times minus its weight.
+  std::vector<Complex> connection_laplacian() const;
 
   const HeatEquation<double>& scalar_heat();
   const HeatEquation<Complex>& vector_heat();
@@ -80,7 +81,7 @@ class VectorSystem {
   std::vector<double> mesh_bearings_;
   Operators operators_;
   detail::Components components_;
-  std::vector<Complex> connection_;
+  std::vector<double> weights_;
   Times times_;
   std::vector<bool> is_point_;  // [components]
   std::optional<HeatEquation<double>> scalar_;

@@ -135,7 +135,7 @@ std::vector<Complex> VectorHeatSolver::State::affine(Index source, bool adaptive
   for (Index h = 0; h < t.tail.size(); ++h) {
     const Index a = t.tail[h], b = t.tail[Mesh::next(h)];
     if (!(heat.value[a] > 0 && heat.value[b] > 0)) continue;
-    const double weight = system.time_at(a) * heat::half_cotangent(t, h) * t.length[h];
+    const double weight = system.time_at(a) * system.weights()[h] * t.length[h];
     const auto in_frame = [&](Complex z, Index v) { return adaptive ? z / parallel[v] : z; };
     x[a] -= weight * heat.value[b] * heat.unit(b, heat.level[a]) * in_frame(heat::direction(t, system.spaces(), h), a);
     x[b] -=
@@ -228,7 +228,7 @@ VectorHeatSolver::Frames VectorHeatSolver::tangent_frames() const {
 
 VectorHeatSolver::SparseComplex VectorHeatSolver::connection_laplacian() const {
   const heat::Pattern& p = state_->system.operators().pattern;
-  const std::vector<Complex>& lower = state_->system.laplacian_of_vectors();
+  const std::vector<Complex> lower = state_->system.connection_laplacian();
   SparseComplex all;
   const auto add = [&](int row, int column, Complex value) {
     all.row.push_back(static_cast<Index>(row));
