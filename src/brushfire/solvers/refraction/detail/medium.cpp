@@ -1,7 +1,9 @@
 // Weights by inner numbers.
 #include <brushfire/solvers/refraction/detail/medium.h>
+#include <brushfire/solvers/refraction/detail/refract.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace brushfire::refraction {
 namespace {
@@ -9,6 +11,8 @@ namespace {
 constexpr unsigned kOnePart = 31;
 // Where lengths are known worse than this, as a share of the shortest edge, doubles do not do.
 constexpr double kDoubtAllowed = 1e-6;
+// What refractions along a path may add up to: roundings of either sign grow with the root of their number.
+constexpr double kRefractions = 64;
 
 }  // namespace
 
@@ -42,10 +46,12 @@ Medium::Medium(const steiner::WeightedMesh& weighted) : structure(weighted.mesh(
     if (border) is_pivot[f.vertex[h % 3]] = is_pivot[f.vertex[windows::next3(h % 3)]] = 1;
   }
   bucket_width = structure.bucket_width * weighted.mean_weight();
-  const windows::Rounding known = windows::rounding_of(structure.unevenness);
-  rounding = known.absolute * most;
-  followable = faces > 0 && weighted.all_bridges().empty() && weighted.pace() == nullptr &&
-               most <= kMostContrast * least && known.doubt <= kDoubtAllowed;
+  rounding = windows::rounding_of(structure.unevenness);
+  rounding.absolute *= most;
+  rounding.relative +=
+      kRefractions * std::numeric_limits<double>::epsilon() * farthest_source(most > 0 ? least / most : 1);
+  followable = faces > 0 && weighted.all_bridges().empty() && weighted.pace() == nullptr && most < kInfinity &&
+               rounding.doubt <= kDoubtAllowed;
 }
 
 }  // namespace brushfire::refraction

@@ -1,8 +1,6 @@
 // The flattest circular front below a refracted one, in closed form, and what it loses at most.
 #include <brushfire/solvers/refraction/detail/refract.h>
 
-#include <brushfire/core/detail/planar.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +15,8 @@ using windows::WindowKind;
 constexpr int kHalvings = 12;
 // What is not worth halving a window for, as a share of all that may be spent.
 constexpr double kLittle = 1e-2;
+// As far as this many values, sources are known to epsilons that are no more than the sums of a path are off by anyway.
+constexpr double kFar = 1e5;
 
 // A point source below the edge whose light costs `speed` for a unit of length.
 struct Front {
@@ -37,18 +37,27 @@ struct Piece {
   double x0, x1, f0, f1;
 };
 
-// How far below `front` the window is, at most. Both are smooth: between two places the difference is above its chord
-// by no more than its least second derivative makes it.
+// How far below `front` the window is, at most. Between two places the difference is above its chord by no more than
+// its least second derivative makes it; and beside the foot of its source, where that is large, by no more than the
+// window is above the two lines that it is between, which the source's height bounds: to either side of the foot the
+// front less such a line is convex.
 double loss_of(const Front& front, const Front& below, const Piece& p) {
-  if (below.source.y == 0) return std::max(0.0, front.value(below.source.x) - below.sigma);  // convex on both sides
+  const double foot = below.source.x, height = -below.source.y;
+  const bool over_foot = p.x0 < foot && foot < p.x1;
+  double loss = over_foot ? std::max(0.0, front.value(foot) - below.value(foot)) : 0;
+  if (height == 0) return loss;
   constexpr int kSteps = 4;
   const double step = (p.x1 - p.x0) / kSteps;
-  double loss = 0, before = 0;
+  double before = 0;
   for (int i = 1; i <= kSteps; ++i) {
     const double a = p.x0 + (i - 1) * step, b = i == kSteps ? p.x1 : p.x0 + i * step;
     const double here = i == kSteps ? 0 : front.value(b) - below.value(b);
     const double arch = std::max(0.0, below.most_bend(a, b) - front.least_bend(a, b)) * step * step / 8;
-    loss = std::max(loss, std::max(before, here) + arch);
+    if (a < foot && foot < b && height < arch) {
+      loss = std::max({loss, before, here}) + height;
+    } else {
+      loss = std::max(loss, std::max(before, here) + arch);
+    }
     before = here;
   }
   return loss;
@@ -56,7 +65,7 @@ double loss_of(const Front& front, const Front& below, const Piece& p) {
 
 // The window through the piece's ends that is nowhere above the front and as near to it as that allows.
 Front below(const Front& front, const Piece& p) {
-  const double length = p.x1 - p.x0, rise = p.f1 - p.f0, n = front.speed;
+  const double length = p.x1 - p.x0, rise = p.f1 - p.f0, n = front.speed, highest = std::max(p.f0, p.f1);
   const double wide = (n * length - rise) * (n * length + rise), steep = (length - rise) * (length + rise);
   const double cap = 0.5 * (p.f0 + p.f1 - length);  // its source is on the edge; nothing that refracts is below
   double sigma = cap;
@@ -64,18 +73,19 @@ Front below(const Front& front, const Piece& p) {
     const double nu = steep / wide;
     double most;  // of the mean of front and chord where nu < 1, its least elsewhere
     if (nu < 1) {
-      most = std::max(p.f0, p.f1);
+      most = highest;
     } else {
       const double slope = rise / (n * length);
       const double x =
           std::clamp(front.source.x + front.source.y * slope / std::sqrt((1 - slope) * (1 + slope)), p.x0, p.x1);
       most = 0.5 * (p.f0 + rise * ((x - p.x0) / length) + front.value(x));
     }
-    sigma = std::min(cap, nu * front.sigma + (1 - nu) * most);
+    sigma = std::min(cap, std::max(nu * front.sigma + (1 - nu) * most, highest * (1 - farthest_source(n))));
   }
-  const double r0 = p.f0 - sigma, r1 = p.f1 - sigma, q = sigma < cap ? heron(length, r0, r1) : 0;
-  if (!(q > 0)) return {{p.x0 + (p.f0 - cap), 0}, cap, 1};
-  return {{p.x0 + 0.5 * (length + (r0 - r1) * (r0 + r1) / length), -0.5 * std::sqrt(q) / length}, sigma, 1};
+  const double r0 = p.f0 - sigma, r1 = p.f1 - sigma, apart = sigma < cap ? (r0 + r1 - length) * (r0 + r1 + length) : 0;
+  if (!(apart > 0)) return {{p.x0 + (p.f0 - cap), 0}, cap, 1};
+  // r1 - r0 is the rise; of far sources it would lose all its digits.
+  return {{p.x0 + 0.5 * (length - rise * (r0 + r1) / length), -0.5 * std::sqrt(apart * steep) / length}, sigma, 1};
 }
 
 void refract_piece(const Window& w, const Front& front, const Piece& p, const RefractionBudget& budget, int halvings,
@@ -122,6 +132,8 @@ void refract_on_edge(const Window& w, double n, std::vector<Window>& out) {
 }
 
 }  // namespace
+
+double farthest_source(double n) { return std::max(kFar, 4 / (n * n)); }
 
 void refract(const Window& w, double n, const RefractionBudget& budget, std::vector<Window>& out) {
   if (w.kind == WindowKind::Linear) return refract_parallel(w, n, out);

@@ -23,9 +23,6 @@ constexpr double kMergePace = 0.06;
 // Surfaces take some three windows a face, needles with weights of their own twenty. On large meshes with a weight of
 // its own for every face it may be any number (docs/decisions/weights.md).
 constexpr std::uint64_t kMostPerFace = 60, kMostAnyway = 200000;
-// Sums and roots along a path, and the solutions of refract(): far more than the 1e-12 that windows need without
-// weights, and next to nothing beside what they are cut for.
-constexpr double kAlong = 1e-9;
 
 }  // namespace
 
@@ -67,7 +64,7 @@ void Run::narrow() {
     farthest =
         std::max(farthest, vertex ? vertices_[medium_.structure.inner_vertex(at.vertex)].upper : targets_[i].upper);
   }
-  radius_ = std::min(radius_, farthest * (1 + kAlong));
+  radius_ = std::min(radius_, farthest + medium_.rounding.of(farthest));
 }
 
 // ---- what is seen
@@ -279,13 +276,11 @@ void Run::pass_along(Index h, const windows::Frame& frame, const Window& w) {
 
 // ---- results
 
-double Run::rounding_of(double cost) const { return kAlong * cost + medium_.rounding; }
-
 Known Run::at_vertex(Index outer) const {
   const Vertex& v = vertices_[medium_.structure.inner_vertex(outer)];
   if (v.upper == kInfinity) return {};
   if (v.upper == start_of(v.source)) return {v.upper, v.upper, v.source};  // a source itself
-  return {std::max(0.0, v.lower - rounding_of(v.lower)), v.upper + rounding_of(v.upper), v.source};
+  return {std::max(0.0, v.lower - medium_.rounding.of(v.lower)), v.upper + medium_.rounding.of(v.upper), v.source};
 }
 
 Known Run::at_target(std::size_t target) const {
@@ -293,7 +288,7 @@ Known Run::at_target(std::size_t target) const {
   if (at.on == PointLocation::On::Vertex) return at_vertex(at.vertex);
   const windows::TargetState& t = targets_[static_cast<Index>(target)];
   if (t.upper == kInfinity) return {};
-  return {std::max(0.0, t.lower - rounding_of(t.lower)), t.upper + rounding_of(t.upper), t.ray.pseudo_source};
+  return {std::max(0.0, t.lower - medium_.rounding.of(t.lower)), t.upper + medium_.rounding.of(t.upper), t.ray.pseudo_source};
 }
 
 }  // namespace brushfire::refraction

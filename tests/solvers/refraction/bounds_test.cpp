@@ -1,0 +1,2 @@
+// Bounds by windows on whole surfaces.
+#include <gtest/gtest.h>
