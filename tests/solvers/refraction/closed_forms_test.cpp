@@ -89,10 +89,16 @@ struct HalfPlanes {
 
 void expect_enclosed(const Mesh& mesh, const Weights& weights, const SurfacePoint& from, double tolerance,
                      const std::function<double(Vec3)>& truth) {
-  const WeightedField field =
-      weighted_distance(mesh, weights, std::vector<Source>{{from}}, {.tolerance = tolerance});
+  const WeightedField field = weighted_distance(mesh, weights, std::vector<Source>{{from}}, {.tolerance = tolerance});
   ASSERT_EQ(field.points, 0U);  // windows answered
-  if (field.max_error_bound > tolerance) for (Index v = 0; v < mesh.vertex_count(); ++v) { const Vec3 p=mesh.positions()[v]; double e=(field.distance[v]-field.lower[v])/field.lower[v]; if (e>tolerance) printf("v %d (%g %g) %g lower off %g upper off %g truth %g\n", static_cast<int>(v),p.x,p.y,e, 1-field.lower[v]/truth(p), field.distance[v]/truth(p)-1, truth(p)); }
+  if (field.max_error_bound > tolerance)
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Vec3 p = mesh.positions()[v];
+      double e = (field.distance[v] - field.lower[v]) / field.lower[v];
+      if (e > tolerance)
+        printf("v %d (%g %g) %g lower off %g upper off %g truth %g\n", static_cast<int>(v), p.x, p.y, e,
+               1 - field.lower[v] / truth(p), field.distance[v] / truth(p) - 1, truth(p));
+    }
   ASSERT_LE(field.max_error_bound, 1.05 * tolerance);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const double cost = truth(mesh.positions()[v]);
@@ -148,7 +154,8 @@ TEST(WeightedWindows, EncloseWhatARoadCosts) {
 // may leave it to the other.
 TEST(WeightedWindows, EncloseCostsWhereTheCriticalAngleLiesBetweenTwoWindows) {
   const Mesh mesh = shapes::plane(10, 6, 10, 6).mesh();
-  for (const double ratio : {std::sqrt(2.0), std::sqrt(5.0), std::sqrt(5.0) / 2, std::sqrt(10.0), std::sqrt(13.0) / 2}) {
+  for (const double ratio :
+       {std::sqrt(2.0), std::sqrt(5.0), std::sqrt(5.0) / 2, std::sqrt(10.0), std::sqrt(13.0) / 2}) {
     for (const bool is_road : {false, true}) {
       const HalfPlanes planes{.line = 3, .below = is_road ? ratio : 1, .above = ratio, .along = 1};
       for (Index v = 0; v < mesh.vertex_count(); v += is_road ? 7 : 3) {

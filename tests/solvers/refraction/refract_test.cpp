@@ -16,7 +16,7 @@ namespace {
 using windows::WindowKind;
 
 constexpr double kRounding = 1e-10;  // a few epsilons of the farthest source
-constexpr int kPlaces = 64;  // of an interval that are looked at
+constexpr int kPlaces = 64;          // of an interval that are looked at
 
 double log_uniform(Random& random, double a, double b) { return std::exp(random.uniform(std::log(a), std::log(b))); }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace brushfire::refraction {
 namespace {
@@ -15,6 +16,8 @@ using windows::WindowKind;
 constexpr int kHalvings = 12;
 // What is not worth halving a window for, as a share of all that may be spent.
 constexpr double kLittle = 1e-2;
+// What rounding makes of values anyway, as a share of them.
+constexpr double kStraight = 4 * std::numeric_limits<double>::epsilon();
 // As far as this many values, sources are known to epsilons that are no more than the sums of a path are off by anyway.
 constexpr double kFar = 1e5;
 
@@ -38,26 +41,19 @@ struct Piece {
 };
 
 // How far below `front` the window is, at most. Between two places the difference is above its chord by no more than
-// its least second derivative makes it; and beside the foot of its source, where that is large, by no more than the
-// window is above the two lines that it is between, which the source's height bounds: to either side of the foot the
-// front less such a line is convex.
+// its least second derivative makes it. It is also no more than the front less the two lines that meet at the foot of
+// the window's source, which is convex on either side of that; the window is over these lines most at the place that is
+// nearest to the foot.
 double loss_of(const Front& front, const Front& below, const Piece& p) {
-  const double foot = below.source.x, height = -below.source.y;
-  const bool over_foot = p.x0 < foot && foot < p.x1;
-  double loss = over_foot ? std::max(0.0, front.value(foot) - below.value(foot)) : 0;
-  if (height == 0) return loss;
   constexpr int kSteps = 4;
-  const double step = (p.x1 - p.x0) / kSteps;
-  double before = 0;
+  const double foot = below.source.x, step = (p.x1 - p.x0) / kSteps;
+  double loss = p.x0 < foot && foot < p.x1 ? std::max(0.0, front.value(foot) - below.value(foot)) : 0, before = 0;
   for (int i = 1; i <= kSteps; ++i) {
-    const double a = p.x0 + (i - 1) * step, b = i == kSteps ? p.x1 : p.x0 + i * step;
+    const double a = p.x0 + (i - 1) * step, b = i == kSteps ? p.x1 : p.x0 + i * step, near = std::clamp(foot, a, b);
     const double here = i == kSteps ? 0 : front.value(b) - below.value(b);
+    const double over_lines = below.radius(near) - std::abs(near - foot);
     const double arch = std::max(0.0, below.most_bend(a, b) - front.least_bend(a, b)) * step * step / 8;
-    if (a < foot && foot < b && height < arch) {
-      loss = std::max({loss, before, here}) + height;
-    } else {
-      loss = std::max(loss, std::max(before, here) + arch);
-    }
+    loss = std::max(loss, std::max(before, here) + std::min(arch, over_lines));
     before = here;
   }
   return loss;
@@ -88,10 +84,28 @@ Front below(const Front& front, const Piece& p) {
   return {{p.x0 + 0.5 * (length - rise * (r0 + r1) / length), -0.5 * std::sqrt(apart * steep) / length}, sigma, 1};
 }
 
+// Seen from far away, or along the edge, a front is straight to rounding, and its light parallel.
+bool is_straight(const Front& front, const Piece& p) {
+  const double length = p.x1 - p.x0;
+  return front.most_bend(p.x0, p.x1) * length * length / 8 <= kStraight * std::min(p.f0, p.f1);
+}
+
+Window straight(Window w, const Piece& p, double slack) {
+  const double slope = (p.f1 - p.f0) / (p.x1 - p.x0);
+  w.kind = WindowKind::Linear;
+  w.b0 = p.x0, w.b1 = p.x1;
+  w.d0 = p.f0, w.d1 = p.f1;
+  w.source = {-slope, -std::sqrt((1 - slope) * (1 + slope))};
+  w.sigma = p.f0 - slope * p.x0;
+  w.slack = slack;
+  return w;
+}
+
 void refract_piece(const Window& w, const Front& front, const Piece& p, const RefractionBudget& budget, int halvings,
                    std::vector<Window>& out) {
   const double length = p.x1 - p.x0;
   if (!(length > std::abs(p.f1 - p.f0))) return;  // grazes the edge: its light runs along it
+  if (is_straight(front, p)) return out.push_back(straight(w, p, front.speed * w.slack));
   const Front found = below(front, p);
   Window g = w;
   g.b0 = p.x0, g.b1 = p.x1;

@@ -288,7 +288,8 @@ Known Run::at_target(std::size_t target) const {
   if (at.on == PointLocation::On::Vertex) return at_vertex(at.vertex);
   const windows::TargetState& t = targets_[static_cast<Index>(target)];
   if (t.upper == kInfinity) return {};
-  return {std::max(0.0, t.lower - medium_.rounding.of(t.lower)), t.upper + medium_.rounding.of(t.upper), t.ray.pseudo_source};
+  return {std::max(0.0, t.lower - medium_.rounding.of(t.lower)), t.upper + medium_.rounding.of(t.upper),
+          t.ray.pseudo_source};
 }
 
 }  // namespace brushfire::refraction
