@@ -175,6 +175,23 @@ TEST(Refract, TurnsParallelLightAsSnellSaysAndLosesNothing) {
   });
 }
 
+// As behind a face without area.
+TEST(Refract, StartsAnewFromAPointOfTheEdge) {
+  Window w;
+  w.source = {0.4, 0};
+  w.sigma = 2, w.slack = 0.01;
+  w.b0 = 0.1, w.b1 = 1;
+  w.d0 = value_at(w, w.b0), w.d1 = value_at(w, w.b1);
+  for (const double n : {3.0, 0.25}) {
+    std::vector<Window> behind;
+    refract(w, n, {.share = 0.01}, behind);
+    ASSERT_EQ(behind.size(), 1U);
+    EXPECT_EQ(behind[0].sigma, n * w.sigma);
+    EXPECT_EQ(behind[0].slack, n * w.slack);
+    EXPECT_EQ(behind[0].d1, n * w.sigma + 0.6);
+  }
+}
+
 // All is spent by no refraction: a pace of what is left, and where nothing is left, a hundredth.
 TEST(Refract, KeepsToItsBudgetWhereHalvesAreSmallEnough) {
   std::size_t within = 0, all = 0;

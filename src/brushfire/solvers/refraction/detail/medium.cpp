@@ -22,18 +22,12 @@ Medium::Medium(const steiner::WeightedMesh& weighted) : structure(weighted.mesh(
   along.resize(std::size_t{3} * faces);
   is_border.assign(std::size_t{3} * faces, 0);
   is_pivot.assign(structure.vertex_count(), 0);
-  std::vector<double> weight_at(structure.vertex_count(), 0);
   double least = kInfinity, most = 0;
   for (Index f = 0; f < faces; ++f) {
     const Index outer = structure.outer_face(f);
     weight[f] = weighted.face_weight(outer);
     least = std::min(least, weight[f]);
     most = std::max(most, weight[f]);
-    for (const Index v : structure.faces[f].vertex) {
-      double& seen = weight_at[v];
-      if (seen != 0 && seen != weight[f]) is_pivot[v] = 1;
-      seen = weight[f];
-    }
     for (Index k = 0; k < 3; ++k) along[3 * f + k] = weighted.edge_weight(weighted.edges().edge(3 * outer + k));
   }
   for (Index h = 0; h < 3 * faces; ++h) {

@@ -27,7 +27,7 @@ struct Medium {
   std::vector<double> weight;           // [faces]
   std::vector<double> along;            // [halfedges] of the edge, no more than in its faces
   std::vector<std::uint8_t> is_border;  // [halfedges] another weight beyond, or the edge is cheaper than its face
-  std::vector<std::uint8_t> is_pivot;   // [vertices] paths may bend there in any direction: not all is one weight
+  std::vector<std::uint8_t> is_pivot;   // [vertices] paths may bend there in any direction: a border ends there
   double bucket_width = 1;              // of the queue, in costs
   windows::Rounding rounding;           // of costs
   bool followable = true;

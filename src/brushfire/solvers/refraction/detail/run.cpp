@@ -18,6 +18,9 @@ namespace {
 
 // A vertex this little (relative) off a window's limit ray counts as seen, as in solvers/windows/.
 constexpr double kSeen = 1e-10;
+// A place this little (of what it is computed from) beyond the end of an interval counts as in it: where windows meet,
+// rounding must not leave the light of the critical angle to neither. The way by the end itself is a real one.
+constexpr double kTouching = 1e-10;
 // The part of what is left that one merge may spend (MergeBudget::pace).
 constexpr double kMergePace = 0.06;
 // Surfaces take some three windows a face, needles with weights of their own twenty. On large meshes with a weight of
@@ -147,8 +150,8 @@ void Run::run_from_critical(Index h, const Window& w) {
   const double reach = depth > 0 ? depth * ratio / std::sqrt((1 - ratio) * (1 + ratio)) : 0;
   const double length = face(h).length[h % 3];
   for (const double side : {-1.0, 1.0}) {
-    const double x = w.source.x + side * reach;
-    if (x < w.b0 || x > w.b1) continue;
+    const double meets = w.source.x + side * reach, x = std::clamp(meets, w.b0, w.b1);
+    if (std::abs(meets - x) > kTouching * (std::abs(w.source.x) + reach)) continue;
     // In the frame of h places count from its start.
     run_along({from * value_at(w, x), from * w.slack, w.pseudo_source}, h, length - x, side < 0);
   }
