@@ -14,8 +14,10 @@ using windows::WindowKind;
 // A window that would lose too much is halved this many times at most: one of third order in its length is then lost
 // 30,000 times less.
 constexpr int kHalvings = 12;
-// What is not worth halving a window for, as a share of all that may be spent.
-constexpr double kLittle = 1e-2;
+// What a piece may always lose, as a share of what a path of its length earns: its light goes about as far until it
+// refracts again, so that slack stays a share of the path even where none is left. A share of the whole path instead
+// would let light that winds round a vertex become cheaper with every turn.
+constexpr double kEarned = 0.5;
 // What rounding makes of values anyway, as a share of them.
 constexpr double kStraight = 4 * std::numeric_limits<double>::epsilon();
 // As far as this many values, sources are known to epsilons that are no more than the sums of a path are off by anyway.
@@ -114,7 +116,7 @@ void refract_piece(const Window& w, const Front& front, const Piece& p, const Re
   g.sigma = found.sigma;
   const double loss = loss_of(front, found, p), slack = front.speed * w.slack;
   const double all = budget.share * (minimum_of(g) - budget.start);
-  const double allowed = std::max(budget.pace * (all - slack), kLittle * all);
+  const double allowed = std::max(budget.pace * (all - slack), kEarned * budget.share * length);
   const double middle = 0.5 * (p.x0 + p.x1);
   if (loss > allowed && halvings > 0 && middle > p.x0 && middle < p.x1) {
     const double f = front.value(middle);
