@@ -251,7 +251,7 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
 // Both bounds by windows. False, and the field is empty, where they cannot be followed.
 bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field) {
   if (!medium) medium = std::make_unique<refraction::Medium>(*mesh);
-  if (!medium->is_followable()) return false;
+  if (!medium->is_followable(options.tolerance)) return false;
   std::vector<PointLocation> places;
   for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
   const double unit = mesh->mesh().unit();
