@@ -9,8 +9,7 @@
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
-Results::Results(RunState& run, std::span<Part> parts, DistanceField& field)
-    : run_(run), parts_(parts), field_(field) {
+Results::Results(RunState& run, std::span<Part> parts, DistanceField& field) : run_(run), parts_(parts), field_(field) {
   for (const detail::LocatedSource& s : run_.problem->sources) {
     if (!s.curve) continue;
     for (const CurvePlace& p : s.curve->places) {

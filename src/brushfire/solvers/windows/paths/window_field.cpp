@@ -90,8 +90,8 @@ class Look {
   const Mesh& mesh_;
 };
 
-// Whether the source is at a vertex, and what paths begin with there explains the value: a curve may pass it with another
-// one.
+// Whether the source is at a vertex, and what paths begin with there explains the value: a curve may pass it with
+// another one.
 bool is_at_vertex(const windows::WindowFieldData& data, const PointRecord& record, Index source, Index vertex) {
   const detail::LocatedSource& s = data.sources[source];
   const auto is_it = [&](const PointLocation& at) { return at.on == PointLocation::On::Vertex && at.vertex == vertex; };

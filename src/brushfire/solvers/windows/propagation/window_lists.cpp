@@ -51,8 +51,7 @@ void reach_targets(PartState& part, Index h, const Frame& frame, const WindowCol
     const Vec2 p = in_frame(frame, h % 3, t.weights);
     for (Index i = 0; i < count; ++i) {
       const Arrival there = arrival(w.window(i), p);
-      reach_target(part, t.target, there.value, 0, 0, {w.source(i), h, w.pseudo_source[i], w.kind(i)},
-                   is_seen(there));
+      reach_target(part, t.target, there.value, 0, 0, {w.source(i), h, w.pseudo_source[i], w.kind(i)}, is_seen(there));
     }
   });
 }

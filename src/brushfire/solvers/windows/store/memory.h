@@ -33,8 +33,8 @@ class WindowMemory {
   void clear() { known_.clear(); }
 
  private:
-  // What has moved() must not look like an improvement, or light would go round for ever and improve each time; dropping
-  // a true one of that size costs no more than that.
+  // What has moved() must not look like an improvement, or light would go round for ever and improve each time;
+  // dropping a true one of that size costs no more than that.
   static bool covers(const Window& k, const Window& w) {
     const Real m = moved(w);
     if (k.b0 > w.b0 + m || k.b1 < w.b1 - m) return false;
