@@ -70,8 +70,8 @@ void from_writers(const Seeds& seeds) {
   write_mesh(seeds.path("freesurfer", "written"), mesh, "white");
   write_mesh(seeds.path("freesurfer_text", "written"), mesh, "asc");
   write_mesh(seeds.path("medit_binary", "written"), mesh, "meshb");
-  const std::vector<SurfaceLine> lines{{{{0, {1, 0, 0}}, {0, {0.5, 0, 0.5}}, {1, {0.25, 0.5, 0.25}}}, false, 0.75},
-                                       {{{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}}, true, 3.5}};
+  const std::vector<SurfacePath> lines{{{{0, {1, 0, 0}}, {0, {0.5, 0, 0.5}}, {1, {0.25, 0.5, 0.25}}}, 0.75, false},
+                                       {{{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}}, 3.5, true}};
   for (const char* format : {"csv", "json", "obj", "ply", "vtp"}) {
     write_lines(seeds.path(format, "curves"), mesh, lines, "length", format);
   }

@@ -3,7 +3,7 @@
 
 #include "surface.h"
 
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 
 #include <span>
 

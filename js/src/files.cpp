@@ -98,14 +98,14 @@ Reply* curves_write(const Surface* surface, const char* format, std::size_t form
     if (start_count == 0 || closed_count + 1 != start_count || value_count + 1 != start_count) {
       throw Error(ErrorCode::InvalidArgument, "one value per curve is needed");
     }
-    std::vector<SurfaceLine> lines;
+    std::vector<SurfacePath> lines;
     for (std::size_t k = 0; k + 1 < start_count; ++k) {
       if (starts[k] > starts[k + 1] || starts[k + 1] > points.size()) {
         throw Error(ErrorCode::InvalidArgument, "curves begin where the one before ends");
       }
-      lines.push_back({{points.begin() + starts[k], points.begin() + starts[k + 1]}, closed[k] != 0, values[k]});
+      lines.push_back({{points.begin() + starts[k], points.begin() + starts[k + 1]}, values[k], closed[k] != 0});
     }
-    LinesOptions options{millimetres, std::string(view, view_size), outline != 0};
+    LinesOptions options{millimetres, std::string(view, view_size), outline != 0, {values, value_count}};
     reply.add(encode_lines(surface->mesh(), lines, std::string(value_name, value_name_size),
                            std::string(format, format_size), options));
   });

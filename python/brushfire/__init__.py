@@ -16,25 +16,29 @@ Everything computes without the GIL, so that threads overlap; Ctrl-C stops it; m
 """
 
 from brushfire._any import from_any
-from brushfire._cells import Boundary, Centroidal, Discs, Extent, Mean, Medoids, Parcels, k_medoids
+from brushfire._boundaries import Boundary
+from brushfire._cells import Centroidal, Medoids, Parcels, k_medoids
 from brushfire._certify import Certificate
 from brushfire._core import version as __version__
 from brushfire._curves import LogMap, Path
 from brushfire._derivatives import DifferentiableDistance, DistanceGradient
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
+from brushfire._extent import Discs, Extent, Mean
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
 from brushfire._files import write
-from brushfire._heat import HeatSolver, SignedHeatSolver, VectorHeatSolver, laplacian
 from brushfire._flatten import Distortion, Flattening, decal, distortion, flatten
+from brushfire._heat import HeatSolver, SignedHeatSolver, VectorHeatSolver, laplacian
 from brushfire._io import FileInfo, read
 from brushfire._lines import read_lines
-from brushfire._mesh import Mesh, MeshReport, Solver, methods
+from brushfire._mesh import Mesh, methods
 from brushfire._patches import Patches, patches
 from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._reeb import ReebGraph, reeb_graph
 from brushfire._regions import Border, Cut, Samples, Voronoi
+from brushfire._report import MeshReport
 from brushfire._sets import distance_matrices
+from brushfire._solver import Solver
 from brushfire._sources import Curve
 from brushfire._terrain import Terrain, terrain
 from brushfire._weighted import Costs, Weighted, WeightedPath
@@ -108,8 +112,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    """``brushfire.torch`` and ``brushfire.jax`` are imported when they are asked for: they need PyTorch and JAX."""
-    if name in ("torch", "jax"):
+    """``brushfire.torch``, ``jax`` and ``pyvista`` are imported when they are asked for: they need those packages."""
+    if name in ("torch", "jax", "pyvista"):
         import importlib
 
         return importlib.import_module(f"brushfire.{name}")

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats, number
-from brushfire._curves import OnMesh
 from brushfire._errors import BrushfireError
 from brushfire._options import Tolerance, thread_count, tolerance_of
 from brushfire._progress import Progress, shown
 from brushfire._sources import Sources, sources_of
+
+if TYPE_CHECKING:
+    from brushfire._mesh import Mesh
 
 
 @dataclass(frozen=True)
@@ -60,58 +63,55 @@ class Certificate:
         return f"proven wrong: {self.proven_wrong} of {self.proven_wrong + self.possible} vertices cannot be right"
 
 
-class Certificates(OnMesh):
-    """What a Mesh proves about fields."""
+def certify(
+    mesh: Mesh,
+    values: npt.ArrayLike,
+    sources: Sources,
+    *,
+    within: float = 0.0,
+    tolerance: Tolerance = 0.0,
+    offset: npt.ArrayLike = 0.0,
+    radius: float = np.inf,
+    threads: int = 1,
+    progress: Progress = None,
+) -> Certificate:
+    """Judges values as the distances from the sources: proven bounds of each, and those that cannot be right.
 
-    def certify(
-        self,
-        values: npt.ArrayLike,
-        sources: Sources,
-        *,
-        within: float = 0.0,
-        tolerance: Tolerance = 0.0,
-        offset: npt.ArrayLike = 0.0,
-        radius: float = np.inf,
-        threads: int = 1,
-        progress: Progress = None,
-    ) -> Certificate:
-        """Judges values as the distances from the sources: proven bounds of each, and those that cannot be right.
+    :param values: one per vertex, from any program, (vertex_count,); NaN is allowed, and wrong.
+    :param sources, offset, threads, progress: as for :meth:`distance`.
+    :param within: what is claimed of the values: they may be off by this share of the distance.
+    :param tolerance: how tight the bounds are: within rounding of each other with 0, up to twice the tolerance apart
+        otherwise, which is quicker on large meshes; in [0, 0.1].
+    :param radius: what is farther than this may read +inf.
+    :raises BrushfireError: for values of another number than the vertices, options out of range, and as
+        :meth:`distance` does.
 
-        :param values: one per vertex, from any program, (vertex_count,); NaN is allowed, and wrong.
-        :param sources, offset, threads, progress: as for :meth:`distance`.
-        :param within: what is claimed of the values: they may be off by this share of the distance.
-        :param tolerance: how tight the bounds are: within rounding of each other with 0, up to twice the tolerance apart
-            otherwise, which is quicker on large meshes; in [0, 0.1].
-        :param radius: what is farther than this may read +inf.
-        :raises BrushfireError: for values of another number than the vertices, options out of range, and as
-            :meth:`distance` does.
+    A value is called wrong only where it is proven: a field that passes may be off by ``within`` and the gap of the
+    bounds. Costs one run of :meth:`distance`.
 
-        A value is called wrong only where it is proven: a field that passes may be off by ``within`` and the gap of the
-        bounds. Costs one run of :meth:`distance`.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> print(mesh.certify([0, 3, 5, 4], 0))
-        nothing is proven wrong: 4 vertices may be right
-        >>> found = mesh.certify([0, 3, 5.01, 4], 0)
-        >>> found.wrong_vertices.tolist(), found.findings[found.finding[2]], round(float(found.proven_error[2]), 9)
-        ([2], 'too long', 0.01)
-        >>> mesh.certify([0, 3, 5.01, 4], 0, within=0.01).proven_wrong
-        0
-        """
-        array = _arrays.floats(values, "values")
-        if array.ndim != 1:
-            raise BrushfireError(f"values: shape (k,) is needed, not {array.shape}")
-        start = sources_of(self, sources, offset)
-        with shown(progress, "certify") as report:
-            found = _core.certify(
-                self._space,
-                array,
-                start,
-                tolerance_of(tolerance),
-                number(within, "within"),
-                number(radius, "radius"),
-                thread_count(threads),
-                report,
-            )
-        return Certificate(**found)
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> print(mesh.certify([0, 3, 5, 4], 0))
+    nothing is proven wrong: 4 vertices may be right
+    >>> found = mesh.certify([0, 3, 5.01, 4], 0)
+    >>> found.wrong_vertices.tolist(), found.findings[found.finding[2]], round(float(found.proven_error[2]), 9)
+    ([2], 'too long', 0.01)
+    >>> mesh.certify([0, 3, 5.01, 4], 0, within=0.01).proven_wrong
+    0
+    """
+    array = _arrays.floats(values, "values")
+    if array.ndim != 1:
+        raise BrushfireError(f"values: shape (k,) is needed, not {array.shape}")
+    start = sources_of(mesh, sources, offset)
+    with shown(progress, "certify") as report:
+        found = _core.certify(
+            mesh._space,
+            array,
+            start,
+            tolerance_of(tolerance),
+            number(within, "within"),
+            number(radius, "radius"),
+            thread_count(threads),
+            report,
+        )
+    return Certificate(**found)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -12,8 +12,11 @@ from brushfire import _core
 from brushfire._arrays import Floats, Labels, any_array, floats, number, offsets
 from brushfire._errors import BrushfireError
 from brushfire._options import options
-from brushfire._places import PlaceArrays, Places
+from brushfire._places import Places
 from brushfire._progress import Progress, shown
+
+if TYPE_CHECKING:
+    from brushfire._mesh import Mesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,48 +68,39 @@ class DifferentiableDistance:
         return self._field.one_sided(number(tie, "tie")).astype(bool)
 
 
-class Derivatives:
-    """The derivatives of a Mesh's distances."""
+def distance_vjp(
+    mesh: Mesh,
+    sources: Places,
+    *,
+    offset: npt.ArrayLike = 0.0,
+    radius: float = np.inf,
+    threads: int = 1,
+    progress: Progress = None,
+) -> DifferentiableDistance:
+    """Exact distances, and a backward pass through them: as learning and optimisation want it.
 
-    def _run(self) -> _core.Solver:
-        raise NotImplementedError
+    :param sources, offset, radius, threads, progress: as for :meth:`Mesh.distance`. Beyond the radius nothing counts.
+    :return: :class:`DifferentiableDistance`: ``distance``, and ``vjp(upstream)``, the gradient of a weighted sum by
+        the positions of all vertices, the places of the sources and their offsets.
+    :raises BrushfireError: as :meth:`Mesh.distance` does; and, by ``vjp``, for a mesh from lengths.
 
-    def _arrays(self, places: Any, what: str) -> PlaceArrays:
-        raise NotImplementedError
+    ``brushfire.torch`` and ``brushfire.jax`` build on this.
 
-    def distance_vjp(
-        self,
-        sources: Places,
-        *,
-        offset: npt.ArrayLike = 0.0,
-        radius: float = np.inf,
-        threads: int = 1,
-        progress: Progress = None,
-    ) -> DifferentiableDistance:
-        """Exact distances, and a backward pass through them: as learning and optimisation want it.
-
-        :param sources, offset, radius, threads, progress: as for :meth:`Mesh.distance`. Beyond the radius nothing counts.
-        :return: :class:`DifferentiableDistance`: ``distance``, and ``vjp(upstream)``, the gradient of a weighted sum by
-            the positions of all vertices, the places of the sources and their offsets.
-        :raises BrushfireError: as :meth:`Mesh.distance` does; and, by ``vjp``, for a mesh from lengths.
-
-        ``brushfire.torch`` and ``brushfire.jax`` build on this.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0, 0], [3, 0, 0], [3, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]])
-        >>> field = mesh.distance_vjp(1)
-        >>> field.distance.tolist()
-        [3.0, 0.0, 4.0, 5.0]
-        >>> (field.vjp([0, 0, 0, 5]).vertices.round(12) + 0.0).tolist()
-        [[0.0, 0.0, 0.0], [3.0, -4.0, 0.0], [0.0, 0.0, 0.0], [-3.0, 4.0, 0.0]]
-        """
-        start = self._arrays(sources, "sources")
-        chosen = options("exact", None, radius, threads=threads)
-        with shown(progress, "distance") as report:
-            found = _core.traced_field(
-                self._run(), start.index, start.weights, offsets(offset, len(start.index)), chosen, report
-            )
-        return DifferentiableDistance(*found)
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0, 0], [3, 0, 0], [3, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]])
+    >>> field = mesh.distance_vjp(1)
+    >>> field.distance.tolist()
+    [3.0, 0.0, 4.0, 5.0]
+    >>> (field.vjp([0, 0, 0, 5]).vertices.round(12) + 0.0).tolist()
+    [[0.0, 0.0, 0.0], [3.0, -4.0, 0.0], [0.0, 0.0, 0.0], [-3.0, 4.0, 0.0]]
+    """
+    start = mesh._arrays(sources, "sources")
+    chosen = options("exact", None, radius, threads=threads)
+    with shown(progress, "distance") as report:
+        found = _core.traced_field(
+            mesh._run(), start.index, start.weights, offsets(offset, len(start.index)), chosen, report
+        )
+    return DifferentiableDistance(*found)
 
 
 def weighted_places(sources: Any, weights: Any) -> tuple[npt.NDArray[np.int64], Floats | None]:

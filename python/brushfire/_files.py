@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats, Labels
-from brushfire._curves import LogMap, OnMesh, Path
+from brushfire._curves import LogMap, Path
 from brushfire._errors import BrushfireError, BrushfireTypeError
 
 if TYPE_CHECKING:
@@ -25,49 +25,59 @@ _SPARSE = (".npz", ".mtx")
 _UNITS = {"mm": 1.0, "um": 1e-3, "cm": 10.0, "m": 1000.0, "in": 25.4}
 
 
-class Files(OnMesh):
-    """How a Mesh gets into files."""
+def save(
+    mesh: Mesh,
+    path: str | os.PathLike[str],
+    field: npt.ArrayLike | None = None,
+    *,
+    labels: npt.ArrayLike | None = None,
+    name: str = "distance",
+    label_name: str = "source",
+    format: str | None = None,
+    structure: str | None = None,
+) -> None:
+    """The mesh, and what it carries, into a file: complete or not at all.
 
-    def save(
-        self,
-        path: str | os.PathLike[str],
-        field: npt.ArrayLike | None = None,
-        *,
-        labels: npt.ArrayLike | None = None,
-        name: str = "distance",
-        label_name: str = "source",
-        format: str | None = None,
-        structure: str | None = None,
-    ) -> None:
-        """The mesh, and what it carries, into a file: complete or not at all.
+    :param path: whose extension decides: ply vtk vtp obj hold the mesh too; gii curv npy csv json and CIFTI-2
+        (``.dscalar.nii``, written by nibabel) hold the values only. A mesh without values also goes into off stl
+        ``surf.gii`` glb msh mesh meshb and FreeSurfer's formats.
+    :param field: one value per vertex, +inf where there is none, (vertex_count,).
+    :param labels: one integer per vertex, -1 for none: the sources of :meth:`distance`, (vertex_count,).
+    :param name, label_name: what the file calls the two.
+    :param format: an extension, for names that have none; ``"-"`` as the path is standard output.
+    :param structure: for CIFTI-2 and GIFTI, the part of the brain that this is: ``"cortex_left"``, ... In CIFTI-2 only
+        vertices with finite values are in the file.
+    :raises BrushfireError: codes ``unknown_format``, ``file_not_writable``; ``invalid_argument`` for arrays that do not
+        fit the mesh and for what a format has no place for.
 
-        :param path: whose extension decides: ply vtk vtp obj hold the mesh too; gii curv npy csv json and CIFTI-2
-            (``.dscalar.nii``, written by nibabel) hold the values only. A mesh without values also goes into off stl
-            ``surf.gii`` glb msh mesh meshb and FreeSurfer's formats.
-        :param field: one value per vertex, +inf where there is none, (vertex_count,).
-        :param labels: one integer per vertex, -1 for none: the sources of :meth:`distance`, (vertex_count,).
-        :param name, label_name: what the file calls the two.
-        :param format: an extension, for names that have none; ``"-"`` as the path is standard output.
-        :param structure: for CIFTI-2 and GIFTI, the part of the brain that this is: ``"cortex_left"``, ... In CIFTI-2 only
-            vertices with finite values are in the file.
-        :raises BrushfireError: codes ``unknown_format``, ``file_not_writable``; ``invalid_argument`` for arrays that do not
-            fit the mesh and for what a format has no place for.
+    >>> import brushfire as bf, os, tempfile
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = os.path.join(folder, "distance.ply")
+    ...     mesh.save(path, mesh.distance(0))
+    ...     bf.read(path)
+    Mesh(4 vertices, 2 faces)
+    """
+    _save(mesh._mesh, path, field, labels, name, label_name, format, structure)
 
-        >>> import brushfire as bf, os, tempfile
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     path = os.path.join(folder, "distance.ply")
-        ...     mesh.save(path, mesh.distance(0))
-        ...     bf.read(path)
-        Mesh(4 vertices, 2 faces)
-        """
-        values = None if field is None else _one_each(_arrays.floats(field, "field"), "field")
-        numbers = None if labels is None else _labels(labels)
-        place, kind = _arrays.path_text(path), format or ""
-        if place.endswith(_DSCALAR) or kind == _DSCALAR[1:]:
-            _write_dscalar(place, self._mesh.vertex_count, values, numbers, (name, label_name), structure)
-        else:
-            _core.write_field(place, self._mesh, values, numbers, name, label_name, _gifti_name(structure), kind)
+
+def _save(
+    core: _core.Mesh,
+    path: str | os.PathLike[str],
+    field: npt.ArrayLike | None,
+    labels: npt.ArrayLike | None,
+    name: str,
+    label_name: str,
+    format: str | None,
+    structure: str | None,
+) -> None:
+    values = None if field is None else _one_each(_arrays.floats(field, "field"), "field")
+    numbers = None if labels is None else _labels(labels)
+    place, kind = _arrays.path_text(path), format or ""
+    if place.endswith(_DSCALAR) or kind == _DSCALAR[1:]:
+        _write_dscalar(place, core.vertex_count, values, numbers, (name, label_name), structure)
+    else:
+        _core.write_field(place, core, values, numbers, name, label_name, _gifti_name(structure), kind)
 
 
 def write(
@@ -112,13 +122,15 @@ def write(
     ...     print(open(path).read().splitlines()[-1])
     l 1 2 3
     """
+    from brushfire._mesh import Mesh
+
     place, kind = _arrays.path_text(path), format or ""
     curves = _curves(what)
     if curves is not None:
         _write_curves(place, curves, mesh, name, kind, (_millimetres(unit), _view(view), bool(outline)))
     elif isinstance(what, LogMap):
         _write_map(place, what, mesh, kind)
-    elif isinstance(what, Files):
+    elif isinstance(what, Mesh):
         what.save(path, labels=labels, label_name=label_name, format=format, structure=structure)
     elif hasattr(what, "tocsr"):
         _write_sparse(place, what, kind)
@@ -127,12 +139,9 @@ def write(
         if values.ndim == 2:
             _write_dense(place, _arrays.any_array(what, "what"), kind)
         else:
-            owner = _standing_alone(len(_one_each(values, "what"))) if mesh is None else mesh
+            core = _without_faces(len(_one_each(values, "what"))) if mesh is None else mesh._mesh
             try:
-                Files.save(
-                    owner, path, values, labels=labels, name=name or "distance", label_name=label_name, format=format,
-                    structure=structure,
-                )  # fmt: skip
+                _save(core, path, values, labels, name or "distance", label_name, format, structure)
             except BrushfireError as error:
                 if mesh is None and "positions" in str(error):
                     raise BrushfireError(f"{place}: this format holds a mesh, too: give it as mesh=") from None
@@ -163,15 +172,9 @@ def _labels(values: npt.ArrayLike) -> Labels:
     return numbers.astype(np.int32)
 
 
-class _Alone(Files):
+def _without_faces(count: int) -> _core.Mesh:
     """As many vertices as a field has values, for formats that hold values only."""
-
-    def __init__(self, core: _core.Mesh) -> None:
-        self._mesh = core
-
-
-def _standing_alone(count: int) -> _Alone:
-    return _Alone(_core.make_from_lengths(count, np.zeros((0, 3), dtype=np.uint32), np.zeros((0, 3))))
+    return _core.make_from_lengths(count, np.zeros((0, 3), dtype=np.uint32), np.zeros((0, 3)))
 
 
 # ---- curves

@@ -10,7 +10,6 @@ import numpy.typing as npt
 
 from brushfire import _core
 from brushfire._arrays import floating_type, number, path_text, whole
-from brushfire._curves import OnMesh
 from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._options import Options, Tolerance, options, thread_count
 from brushfire._places import PlaceArrays, Places
@@ -19,201 +18,208 @@ from brushfire._progress import Progress, Reporter, shown
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
 
+    from brushfire._mesh import Mesh
+
 Symmetric = Literal["mean", "min"]
 
 _BLOCK_BYTES = 1 << 26
 _SYMMETRIC_BLOCK = 1024
 
 
-class Matrices(OnMesh):
-    """The distance matrices of a Mesh."""
+def distance_matrix(
+    mesh: Mesh,
+    rows: Places | None = None,
+    columns: Places | None = None,
+    *,
+    method: str | None = None,
+    tolerance: Tolerance | None = None,
+    bound: str | None = None,
+    radius: float = np.inf,
+    precision: str | None = None,
+    dtype: npt.DTypeLike = np.float32,
+    out: Any = None,
+    symmetric: Symmetric | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Any:
+    """Distances from every row's place to every column's place.
 
-    def distance_matrix(
-        self,
-        rows: Places | None = None,
-        columns: Places | None = None,
-        *,
-        method: str | None = None,
-        tolerance: Tolerance | None = None,
-        bound: str | None = None,
-        radius: float = np.inf,
-        precision: str | None = None,
-        dtype: npt.DTypeLike = np.float32,
-        out: Any = None,
-        symmetric: Symmetric | None = None,
-        threads: int = 0,
-        progress: Progress = None,
-    ) -> Any:
-        """Distances from every row's place to every column's place.
+    :param rows: places: vertices, points or a mask; all vertices if none are given.
+    :param columns: likewise.
+    :param method, tolerance, bound, precision: as for :meth:`distance`.
+    :param radius: what is farther reads +inf.
+    :param dtype: float32 (rounded from float64, 7 digits), float64, or float16 (3 digits, up to 65504: what does not
+        fit is an error).
+    :param out: of shape (rows, columns), to be filled instead of a new array, its dtype is what counts: a
+        C-contiguous, writable numpy array (a ``numpy.memmap`` for instance) or torch tensor of the CPU; or a zarr array
+        or another one that takes ``out[i:j] = rows``, which gets a block of rows at a time.
+    :param symmetric: where rows and columns are the same places: ``"mean"`` or ``"min"`` of both directions, which
+        approximate methods and rounding leave a little apart. ``scipy.spatial.distance.squareform`` takes the result.
+    :param threads: 0 means one per processor. The numbers are the same to the bit for any number of threads.
+    :return: (rows, columns). Rows and columns of vertices in no face are +inf throughout.
+    :raises BrushfireError: code ``too_large`` before anything is computed where the result does not fit into memory.
 
-        :param rows: places: vertices, points or a mask; all vertices if none are given.
-        :param columns: likewise.
-        :param method, tolerance, bound, precision: as for :meth:`distance`.
-        :param radius: what is farther reads +inf.
-        :param dtype: float32 (rounded from float64, 7 digits), float64, or float16 (3 digits, up to 65504: what does not
-            fit is an error).
-        :param out: of shape (rows, columns), to be filled instead of a new array, its dtype is what counts: a
-            C-contiguous, writable numpy array (a ``numpy.memmap`` for instance) or torch tensor of the CPU; or a zarr array
-            or another one that takes ``out[i:j] = rows``, which gets a block of rows at a time.
-        :param symmetric: where rows and columns are the same places: ``"mean"`` or ``"min"`` of both directions, which
-            approximate methods and rounding leave a little apart. ``scipy.spatial.distance.squareform`` takes the result.
-        :param threads: 0 means one per processor. The numbers are the same to the bit for any number of threads.
-        :return: (rows, columns). Rows and columns of vertices in no face are +inf throughout.
-        :raises BrushfireError: code ``too_large`` before anything is computed where the result does not fit into memory.
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> mesh.distance_matrix([0, 1], method="dijkstra").tolist()
+    [[0.0, 3.0, 5.0, 4.0], [3.0, 0.0, 4.0, 7.0]]
+    """
+    row, column = _optional(mesh, rows, "rows"), _optional(mesh, columns, "columns")
+    if symmetric is not None:
+        _check_symmetric(symmetric, row, column)
+    shape = (_count(mesh, row), _count(mesh, column))
+    chosen = options(method, tolerance, radius, bound, precision)
+    team = thread_count(threads)
+    result = _new_matrix(shape, dtype) if out is None else out
+    array = _memory_of(result)
+    _check_out(array, shape)
+    with shown(progress, "matrix") as report:
+        if 0 in shape:
+            pass
+        elif _fits_core(array):
+            _fill(mesh, array, row, column, chosen, team, report)
+        else:
+            _fill_by_blocks(mesh, array, row, column, chosen, team, report)
+    if symmetric is not None:
+        _symmetrize(array, symmetric)
+    return result
 
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> mesh.distance_matrix([0, 1], method="dijkstra").tolist()
-        [[0.0, 3.0, 5.0, 4.0], [3.0, 0.0, 4.0, 7.0]]
-        """
-        row, column = self._optional(rows, "rows"), self._optional(columns, "columns")
-        if symmetric is not None:
-            _check_symmetric(symmetric, row, column)
-        shape = (self._count(row), self._count(column))
-        chosen = options(method, tolerance, radius, bound, precision)
-        team = thread_count(threads)
-        result = _new_matrix(shape, dtype) if out is None else out
-        array = _memory_of(result)
-        _check_out(array, shape)
-        with shown(progress, "matrix") as report:
-            if 0 in shape:
-                pass
-            elif _fits_core(array):
-                self._fill(array, row, column, chosen, team, report)
-            else:
-                self._fill_by_blocks(array, row, column, chosen, team, report)
-        if symmetric is not None:
-            _symmetrize(array, symmetric)
-        return result
 
-    def _fill(
-        self,
-        array: npt.NDArray[Any],
-        row: PlaceArrays | None,
-        column: PlaceArrays | None,
-        chosen: Options,
-        threads: int,
-        report: Reporter | None,
-    ) -> None:
-        _core.fill_matrix(self._space, array, *_pair(row), *_pair(column), chosen, threads, report)
+def _fill(
+    mesh: Mesh,
+    array: npt.NDArray[Any],
+    row: PlaceArrays | None,
+    column: PlaceArrays | None,
+    chosen: Options,
+    threads: int,
+    report: Reporter | None,
+) -> None:
+    _core.fill_matrix(mesh._space, array, *_pair(row), *_pair(column), chosen, threads, report)
 
-    def _fill_by_blocks(
-        self,
-        array: Any,
-        row: PlaceArrays | None,
-        column: PlaceArrays | None,
-        chosen: Options,
-        threads: int,
-        report: Reporter | None,
-    ) -> None:
-        """What the core does not write to itself: rows by blocks of its chunks, in the type that is wanted."""
-        rows, columns = array.shape
-        wanted = np.dtype(array.dtype)
-        single = wanted != np.float64
-        chunk = getattr(array, "chunks", None) or (1,)
-        step = max(1, _BLOCK_BYTES // max(1, columns * (4 if single else 8)) // chunk[0]) * chunk[0]
-        for begin in range(0, rows, step):
-            end = min(rows, begin + step)
-            block = np.empty((end - begin, columns), dtype=np.float32 if single else np.float64)
-            self._fill(block, self._some(row, begin, end), column, chosen, threads, _part(report, begin, end, rows))
-            array[begin:end] = _as_type(block, wanted)
 
-    def _some(self, row: PlaceArrays | None, begin: int, end: int) -> PlaceArrays:
-        if row is None:
-            return PlaceArrays(np.arange(begin, end), None)
-        return PlaceArrays(row.index[begin:end], None if row.weights is None else row.weights[begin:end])
+def _fill_by_blocks(
+    mesh: Mesh,
+    array: Any,
+    row: PlaceArrays | None,
+    column: PlaceArrays | None,
+    chosen: Options,
+    threads: int,
+    report: Reporter | None,
+) -> None:
+    """What the core does not write to itself: rows by blocks of its chunks, in the type that is wanted."""
+    rows, columns = array.shape
+    wanted = np.dtype(array.dtype)
+    single = wanted != np.float64
+    chunk = getattr(array, "chunks", None) or (1,)
+    step = max(1, _BLOCK_BYTES // max(1, columns * (4 if single else 8)) // chunk[0]) * chunk[0]
+    for begin in range(0, rows, step):
+        end = min(rows, begin + step)
+        block = np.empty((end - begin, columns), dtype=np.float32 if single else np.float64)
+        _fill(mesh, block, _some(row, begin, end), column, chosen, threads, _part(report, begin, end, rows))
+        array[begin:end] = _as_type(block, wanted)
 
-    def distances_within(
-        self,
-        radius: float,
-        rows: Places | None = None,
-        *,
-        method: str | None = None,
-        tolerance: Tolerance | None = None,
-        bound: str | None = None,
-        precision: str | None = None,
-        dtype: npt.DTypeLike = np.float32,
-        symmetric: Symmetric | None = None,
-        threads: int = 0,
-        memory_limit: int = 0,
-        progress: Progress = None,
-    ) -> csr_matrix:
-        """All distances up to a radius, as a ``scipy.sparse.csr_matrix`` of shape (rows, vertex_count).
 
-        A row costs what it reaches, whatever the size of the mesh. A place's distance to itself is a stored zero: what is
-        not stored is farther than the radius. Columns ascend within a row.
+def _some(row: PlaceArrays | None, begin: int, end: int) -> PlaceArrays:
+    if row is None:
+        return PlaceArrays(np.arange(begin, end), None)
+    return PlaceArrays(row.index[begin:end], None if row.weights is None else row.weights[begin:end])
 
-        :param radius: finite, >= 0.
-        :param rows: vertices, points or a mask; all vertices if none are given.
-        :param method, tolerance, bound, precision: as for :meth:`distance`.
-        :param symmetric: for all vertices as rows: ``"mean"`` or ``"min"`` of both directions, of the one that is within
-            the radius where the other is not.
-        :param memory_limit: bytes that the result may take; 0 means what the machine has left.
-        :raises BrushfireError: code ``too_large`` where the result will not fit.
-        :raises ImportError: where scipy is not installed.
 
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> near = mesh.distances_within(3.5, method="dijkstra")
-        >>> near.nnz, near[0].indices.tolist(), near[0].data.tolist()
-        (8, [0, 1], [0.0, 3.0])
-        """
-        row = self._optional(rows, "rows")
-        if symmetric is not None:
-            _check_symmetric(symmetric, row, None)
-        compute = _core.sparse_float32 if float_type(dtype) == np.float32 else _core.sparse_float64
-        most = whole(memory_limit, "memory_limit", np.iinfo(np.int64).max)
-        _scipy_sparse()  # before anything is computed
-        chosen = options(method, tolerance, np.inf, bound, precision)
-        limit, team = number(radius, "radius"), thread_count(threads)
-        with shown(progress, "rows") as report:
-            data, indices, starts = compute(self._space, limit, *_pair(row), chosen, team, most, report)
-        if symmetric is not None:
-            data, indices, starts = _symmetric_rows(data, indices, starts, symmetric)
-        return sparse_matrix(data, indices, starts, self._mesh.vertex_count)
+def distances_within(
+    mesh: Mesh,
+    radius: float,
+    rows: Places | None = None,
+    *,
+    method: str | None = None,
+    tolerance: Tolerance | None = None,
+    bound: str | None = None,
+    precision: str | None = None,
+    dtype: npt.DTypeLike = np.float32,
+    symmetric: Symmetric | None = None,
+    threads: int = 0,
+    memory_limit: int = 0,
+    progress: Progress = None,
+) -> csr_matrix:
+    """All distances up to a radius, as a ``scipy.sparse.csr_matrix`` of shape (rows, vertex_count).
 
-    def write_distance_matrix(
-        self,
-        path: str | os.PathLike[str],
-        rows: Places | None = None,
-        columns: Places | None = None,
-        *,
-        method: str | None = None,
-        tolerance: Tolerance | None = None,
-        bound: str | None = None,
-        radius: float = np.inf,
-        precision: str | None = None,
-        dtype: npt.DTypeLike = np.float32,
-        threads: int = 0,
-        progress: Progress = None,
-    ) -> None:
-        """``distance_matrix()`` into a .npy file, a row at a time, for what is larger than memory.
+    A row costs what it reaches, whatever the size of the mesh. A place's distance to itself is a stored zero: what is
+    not stored is farther than the radius. Columns ascend within a row. Rows of ``carried-source`` in single precision are
+    computed in groups: they differ from :meth:`distance` by as much as that differs from the truth.
 
-        Interrupted, it goes on where it stopped when it is called again with the same arguments; until it is complete
-        the rows stand in ``path + ".part"``. Open the result with ``numpy.load(path, mmap_mode="r")``.
+    :param radius: finite, >= 0.
+    :param rows: vertices, points or a mask; all vertices if none are given.
+    :param method, tolerance, bound, precision: as for :meth:`distance`.
+    :param symmetric: for all vertices as rows: ``"mean"`` or ``"min"`` of both directions, of the one that is within
+        the radius where the other is not.
+    :param memory_limit: bytes that the result may take; 0 means what the machine has left.
+    :raises BrushfireError: code ``too_large`` where the result will not fit.
+    :raises ImportError: where scipy is not installed.
 
-        :raises BrushfireError: code ``file_not_writable``, also where the disk has not enough room left.
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> near = mesh.distances_within(3.5, method="dijkstra")
+    >>> near.nnz, near[0].indices.tolist(), near[0].data.tolist()
+    (8, [0, 1], [0.0, 3.0])
+    """
+    row = _optional(mesh, rows, "rows")
+    if symmetric is not None:
+        _check_symmetric(symmetric, row, None)
+    compute = _core.sparse_float32 if float_type(dtype) == np.float32 else _core.sparse_float64
+    most = whole(memory_limit, "memory_limit", np.iinfo(np.int64).max)
+    _scipy_sparse()  # before anything is computed
+    chosen = options(method, tolerance, np.inf, bound, precision)
+    limit, team = number(radius, "radius"), thread_count(threads)
+    with shown(progress, "rows") as report:
+        data, indices, starts = compute(mesh._space, limit, *_pair(row), chosen, team, most, report)
+    if symmetric is not None:
+        data, indices, starts = _symmetric_rows(data, indices, starts, symmetric)
+    return sparse_matrix(data, indices, starts, mesh._mesh.vertex_count)
 
-        >>> import brushfire as bf, numpy as np, tempfile, os
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     mesh.write_distance_matrix(os.path.join(folder, "d.npy"), [1], method="dijkstra")
-        ...     np.load(os.path.join(folder, "d.npy")).tolist()
-        [[3.0, 0.0, 4.0, 7.0]]
-        """
-        row, column = self._optional(rows, "rows"), self._optional(columns, "columns")
-        chosen = options(method, tolerance, radius, bound, precision)
-        single = bool(float_type(dtype) == np.float32)
-        team = thread_count(threads)
-        with shown(progress, "matrix") as report:
-            _core.write_matrix(self._space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
 
-    def _optional(self, places: Any, what: str) -> PlaceArrays | None:
-        """None for all vertices."""
-        return None if places is None else self._arrays(places, what)
+def write_distance_matrix(
+    mesh: Mesh,
+    path: str | os.PathLike[str],
+    rows: Places | None = None,
+    columns: Places | None = None,
+    *,
+    method: str | None = None,
+    tolerance: Tolerance | None = None,
+    bound: str | None = None,
+    radius: float = np.inf,
+    precision: str | None = None,
+    dtype: npt.DTypeLike = np.float32,
+    threads: int = 0,
+    progress: Progress = None,
+) -> None:
+    """``distance_matrix()`` into a .npy file, a row at a time, for what is larger than memory.
 
-    def _count(self, places: PlaceArrays | None) -> int:
-        return self._mesh.vertex_count if places is None else len(places.index)
+    Interrupted, it goes on where it stopped when it is called again with the same arguments; until it is complete
+    the rows stand in ``path + ".part"``. Open the result with ``numpy.load(path, mmap_mode="r")``.
+
+    :raises BrushfireError: code ``file_not_writable``, also where the disk has not enough room left.
+
+    >>> import brushfire as bf, numpy as np, tempfile, os
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     mesh.write_distance_matrix(os.path.join(folder, "d.npy"), [1], method="dijkstra")
+    ...     np.load(os.path.join(folder, "d.npy")).tolist()
+    [[3.0, 0.0, 4.0, 7.0]]
+    """
+    row, column = _optional(mesh, rows, "rows"), _optional(mesh, columns, "columns")
+    chosen = options(method, tolerance, radius, bound, precision)
+    single = bool(float_type(dtype) == np.float32)
+    team = thread_count(threads)
+    with shown(progress, "matrix") as report:
+        _core.write_matrix(mesh._space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
+
+
+def _optional(mesh: Mesh, places: Any, what: str) -> PlaceArrays | None:
+    """None for all vertices."""
+    return None if places is None else mesh._arrays(places, what)
+
+
+def _count(mesh: Mesh, places: PlaceArrays | None) -> int:
+    return mesh._mesh.vertex_count if places is None else len(places.index)
 
 
 def _pair(places: PlaceArrays | None) -> tuple[Any, Any]:

@@ -1,43 +1,43 @@
-"""Mesh and Solver."""
+"""Mesh: what it is made of; what it can do stands in the modules of functions that it names."""
 
 from __future__ import annotations
 
 import contextlib
-import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from brushfire import _arrays, _core, _viewer
+from brushfire import (
+    _arrays,
+    _barriers,
+    _boundaries,
+    _cells,
+    _certify,
+    _core,
+    _curves,
+    _derivatives,
+    _distance,
+    _extent,
+    _fields,
+    _files,
+    _matrices,
+    _panel,
+    _regions,
+    _sets,
+    _smoothing,
+    _snapping,
+    _viewer,
+    _weighted,
+)
 from brushfire._arrays import Floats, Ints, number
-from brushfire._cells import Cells
-from brushfire._certify import Certificates
-from brushfire._curves import Curves
-from brushfire._derivatives import Derivatives
-from brushfire._distance import Distances
-from brushfire._errors import BrushfireError, BrushfireWarning
-from brushfire._fields import Fields
-from brushfire._files import Files
-from brushfire._matrices import Matrices, float_type, sparse_matrix
+from brushfire._errors import BrushfireError
 from brushfire._notebook import mesh_table
-from brushfire._options import Options, Tolerance, options
-from brushfire._picture import Pictures
-from brushfire._places import At, PlaceArrays, Places, Points, at, is_one, place_arrays
-from brushfire._progress import Progress, shown
-from brushfire._regions import Regions
-from brushfire._sources import Sources, sources_of
-from brushfire._sets import Pairs
-from brushfire._weighted import WithWeights
-
-if TYPE_CHECKING:
-    from scipy.sparse import csr_matrix
-
-
-# Beyond this share of the mesh's size a position is far off its surface.
-_FAR = 0.1
+from brushfire._options import Tolerance
+from brushfire._places import At, PlaceArrays, Places, Points, at, place_arrays
+from brushfire._report import MeshReport
+from brushfire._solver import Solver
 
 
 @contextlib.contextmanager
@@ -60,41 +60,7 @@ def methods() -> tuple[str, ...]:
     return _core.method_names()
 
 
-@dataclass(frozen=True)
-class MeshReport:
-    """What is in a mesh. ``remarks`` says in sentences what is unusual about it; empty for a clean closed mesh."""
-
-    vertices: int
-    faces: int
-    edges: int
-    components: int
-    boundary_edges: int
-    nonmanifold_edges: int
-    misoriented_edges: int
-    nonmanifold_vertices: int
-    isolated_vertices: int
-    repeated_index_faces: int
-    zero_area_faces: int
-    zero_length_edges: int
-    duplicate_faces: int
-    duplicate_positions: int
-    looks_like_soup: bool
-    min_edge_length: float
-    mean_edge_length: float
-    max_edge_length: float
-    area: float
-    euler_characteristic: int
-    length_precision: float
-    remarks: tuple[str, ...]
-
-    def __str__(self) -> str:
-        head = f"{self.vertices} vertices, {self.faces} faces, {self.components} component(s)"
-        return "\n".join([head, *self.remarks])
-
-
-class Mesh(
-    Distances, Derivatives, Curves, Fields, Certificates, Regions, Cells, Matrices, Pairs, Pictures, Files, WithWeights
-):
+class Mesh:
     """An immutable triangle mesh: closed or not, manifold or not, with whatever is degenerate in it.
 
     :param vertices: (n, 3) positions, or (n, 2) for a flat mesh. Kept as float64.
@@ -116,6 +82,35 @@ class Mesh(
     _finder: _core.NearestPointFinder | None = None
     _walls: tuple[Ints, Ints, Ints] | None = None  # blocked vertices and faces, and the ends of blocked edges
     _domain: _core.Domain | None = None
+
+    distance, signed_distance = _distance.distance, _distance.signed_distance
+    distance_vjp = _derivatives.distance_vjp
+    pair_distances = _sets.pair_distances
+    distance_matrix, distances_within = _matrices.distance_matrix, _matrices.distances_within
+    write_distance_matrix = _matrices.write_distance_matrix
+    certify = _certify.certify
+    weighted, isochrones = _weighted.weighted, _weighted.isochrones
+
+    path, paths, edge_path = _curves.path, _curves.paths, _curves.edge_path
+    shorten, length_of = _curves.shorten, _curves.length_of
+    trace, angle_of, log_map = _curves.trace, _curves.angle_of, _curves.log_map
+    boundaries, region = _boundaries.boundaries, _boundaries.region
+    curve_along, project_curve = _boundaries.curve_along, _boundaries.project_curve
+
+    isolines, curved_isolines = _fields.isolines, _fields.curved_isolines
+    gradient, steepest_descent, vertex_areas = _fields.gradient, _fields.steepest_descent, _fields.vertex_areas
+    smoothing_kernel, smooth = _smoothing.smoothing_kernel, _smoothing.smooth
+
+    voronoi, farthest_points = _regions.voronoi, _regions.farthest_points
+    nearest_sources, centroidal_voronoi, parcels = _cells.nearest_sources, _cells.centroidal_voronoi, _cells.parcels
+    extent, eccentricity, average_distance = _extent.extent, _extent.eccentricity, _extent.average_distance
+    discs, karcher_mean = _extent.discs, _extent.karcher_mean
+
+    position, nearest = _snapping.position, _snapping.nearest
+    cut, walled, masked = _regions.cut, _barriers.walled, _barriers.masked
+
+    panel, render, ambient_occlusion = _panel.panel, _panel.render, _panel.ambient_occlusion
+    save = _files.save
 
     def __init__(self, vertices: npt.ArrayLike, faces: npt.ArrayLike) -> None:
         f = _arrays.faces(faces)
@@ -185,123 +180,8 @@ class Mesh(
         """
         return MeshReport(**self._mesh.report())  # type: ignore[arg-type]
 
-    def position(self, places: Places) -> Floats:
-        """Where places are, in coordinates: (3,) for one, (k, 3) for several.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
-        >>> mesh.position([1, bf.Point(0, (0, 0.5, 0.5))]).tolist()
-        [[2.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
-        """
-        arrays = self._arrays(places, "places")
-        xyz = self._mesh.positions(arrays.index, arrays.weights)
-        return xyz[0] if is_one(places) else xyz
-
-    def nearest(self, xyz: npt.ArrayLike, *, snap_within: float = np.inf) -> tuple[Points, Floats]:
-        """The points of the surface nearest to positions in space, and how far away they are.
-
-        :param xyz: (k, 3), or (3,) for a single one.
-        :param snap_within: farther than this from the surface no position may be.
-        :return: :class:`Points` and distances, (k,) each.
-        :raises BrushfireError: for a mesh from lengths or without faces, for positions that are not finite, and for those
-            that are farther away than ``snap_within``.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
-        >>> points, distance = mesh.nearest([[0.5, 0.5, 3]])
-        >>> points.face.tolist(), points.weights.tolist(), distance.tolist()
-        ([0], [[0.5, 0.25, 0.25]], [3.0])
-        """
-        if self._finder is None:
-            self._finder = _core.NearestPointFinder(self._mesh)
-        positions = at(xyz, snap_within=snap_within)
-        face, weights, distance = self._finder.nearest(positions.xyz)
-        too_far = distance > positions.snap_within
-        if too_far.any():
-            bad = int(np.argmax(too_far))
-            raise BrushfireError(
-                f"position {bad} is {distance[bad]:.6g} from the surface, farther than snap_within={positions.snap_within:.6g}"
-            )
-        return Points(face, weights), distance
-
-    def _snapped(self, positions: At) -> Points:
-        """Not without a word where that is far, for the size of the mesh."""
-        points, distance = self.nearest(positions.xyz, snap_within=positions.snap_within)
-        size = self._mesh.size
-        if np.isinf(positions.snap_within) and distance.size and distance.max() > _FAR * size:
-            far = int(np.argmax(distance))
-            warnings.warn(
-                f"position {far} is {distance[far]:.6g} from the surface (the mesh is {size:.6g} across): its nearest "
-                "point was taken; at(..., snap_within=...) says how far is near enough",
-                BrushfireWarning,
-                stacklevel=4,
-            )
-        return points
-
     def _snapped_all(self, xyz: Floats) -> Points:
-        return self._snapped(at(xyz))
-
-    def walled(
-        self,
-        *,
-        mask: npt.ArrayLike | None = None,
-        vertices: npt.ArrayLike = (),
-        faces: npt.ArrayLike = (),
-        edges: npt.ArrayLike = (),
-    ) -> Mesh:
-        """The same mesh with walls in it: the same vertices and faces, through which no distance and no path goes.
-
-        :param mask: one bool per vertex: open are the faces whose three vertices are.
-        :param vertices: numbers, or a mask with one bool per vertex: nothing passes them, all their faces are blocked.
-        :param faces: numbers, or a mask with one bool per face: nothing enters them.
-        :param edges: (k, 2) vertex numbers: both sides can be reached, nothing crosses.
-        :return: a mesh whose every method keeps to what is open, in the numbers of this one. What lies behind a wall reads
-            +inf; a vertex on a wall has the least distance of its sides.
-        :raises BrushfireError: for arrays of another shape, and two vertices that no edge joins.
-        :raises BrushfireIndexError: for what does not exist.
-
-        Walls add to those that are there. A wall is tight, also where blocked faces touch at a vertex only.
-        :meth:`cut` gives the open part as a mesh of its own.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> walled = mesh.walled(edges=[(0, 2)])
-        >>> mesh.distance(1, method="exact").tolist(), walled.distance(1, method="exact").tolist()
-        ([3.0, 0.0, 4.0, 5.0], [3.0, 0.0, 4.0, inf])
-        >>> walled
-        Mesh(4 vertices, 2 faces, walls)
-        """
-        blocked = self._barriers(vertices, faces, edges)
-        if mask is not None:
-            closed = self._closed_faces(mask)
-            blocked = blocked[0], np.concatenate([blocked[1], closed]), blocked[2]
-        if self._walls is not None:
-            old = self._walls
-            blocked = tuple(np.concatenate(pair) for pair in zip(old, blocked, strict=True))  # type: ignore[assignment]
-        walled = self._of(self._mesh)
-        walled._walls, walled._domain = blocked, _core.make_domain(self._mesh, *blocked)
-        return walled
-
-    def _closed_faces(self, open_vertices: npt.ArrayLike) -> Ints:
-        mask = np.asarray(open_vertices)
-        if mask.dtype != np.bool_ or mask.shape != (self.vertex_count,):
-            raise BrushfireError(
-                f"open_vertices: one bool per vertex is needed, not {mask.dtype} of shape {mask.shape}"
-            )
-        closed = ~mask[self.faces].all(axis=1) if self.face_count else np.zeros(0, dtype=bool)
-        return np.flatnonzero(closed).astype(np.int64)
-
-    def masked(self, open_vertices: npt.ArrayLike) -> Mesh:
-        """:meth:`walled` by a mask: only the faces whose three vertices are all open.
-
-        :param open_vertices: one bool per vertex. Closed vertices, and those left without a face, read +inf.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> mesh.masked([True, True, True, False]).distance(0, method="exact").tolist()
-        [0.0, 3.0, 5.0, inf]
-        """
-        return self.walled(faces=self._closed_faces(open_vertices))
+        return _snapping.snapped(self, at(xyz))
 
     @property
     def open_vertices(self) -> npt.NDArray[np.bool_]:
@@ -369,33 +249,6 @@ class Mesh(
         """A solver for many calls on this mesh: see :class:`Solver`, which takes the same arguments."""
         return Solver(self, method, tolerance=tolerance, bound=bound, precision=precision)
 
-    def signed_distance(
-        self, curves: Sources, *, radius: float = np.inf, threads: int = 1, progress: Progress = None
-    ) -> Floats:
-        """Exact distance with a sign: negative on the left of the nearest curve, positive on its right.
-
-        Left is seen along the curve, the faces lying counter-clockwise: the inside of a closed curve that runs
-        counter-clockwise is negative, and curves that nest with opposite senses bound what lies between them. On which
-        side a vertex is, its shortest path says, by where it arrives (docs/curve-sources.md); where there is no side, as on
-        the curve, the distance is positive.
-
-        :param curves: one or several, as :meth:`distance` takes them, without offsets.
-        :param radius, threads, progress: as for :meth:`distance`.
-        :return: float64 (vertex_count,); +inf where nothing is reached.
-        :raises BrushfireError: for points among the curves, offsets, a mesh with walls, and as :meth:`distance` does.
-
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> mesh.signed_distance(bf.Curve([0, 2])).round(9).tolist()
-        [0.0, 2.4, 0.0, -2.4]
-        """
-        if self._walls is not None:
-            raise BrushfireError("signed_distance: a mesh with walls has no sides; cut() it")
-        chosen = options("exact", None, radius, threads=threads)
-        start = sources_of(self, curves)
-        with shown(progress, "distance") as report:
-            return _core.signed_distance(self._mesh, start, chosen, report)
-
     def page(
         self,
         values: npt.ArrayLike | None = None,
@@ -449,12 +302,15 @@ class Mesh(
     def _run(self) -> _core.Solver:
         return _core.Solver(self._space)
 
-    def _whole(self) -> Mesh:
-        return self
+    def _or_defaults(
+        self, method: Any, tolerance: Any, bound: Any, precision: Any, *, limit: Any
+    ) -> tuple[Any, Any, Any, Any, Any]:
+        """As options() takes them; a solver has defaults."""
+        return method, tolerance, limit, bound, precision
 
     def _arrays(self, places: Any, what: str) -> PlaceArrays:
         if isinstance(places, At):
-            places = self._snapped(places)
+            places = _snapping.snapped(self, places)
         return place_arrays(places, self.vertex_count, what)
 
     def __repr__(self) -> str:
@@ -478,104 +334,6 @@ class Mesh(
         return self
 
 
-class Solver(Distances, Curves, Fields):
-    """Everything that reads a field, again and again on one mesh: what has to be built for that is built once.
-
-    :param mesh: of which; ``solver.mesh`` from then on.
-    :param method, tolerance, bound, precision: as for :meth:`Mesh.distance`: what calls take that say none of them. With
-        a method its workspace is built at once, else by the first call.
-
-    Distances, paths, logarithmic maps, curved isolines and sparse rows share the workspace. What is limited to a radius
-    or to targets then costs what it reaches, however large the mesh is: :meth:`distances_within`, :meth:`path`,
-    :meth:`paths`, and :meth:`log_map` with ``sparse=True``; what gives an array of all vertices costs that array.
-
-    Safe to share between threads, which then wait for each other; give every thread a solver of its own where they
-    should not.
-
-    >>> import brushfire as bf
-    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-    >>> solver = mesh.solver("dijkstra")
-    >>> [solver.distance(v).max().item() for v in range(4)]
-    [5.0, 7.0, 5.0, 7.0]
-    >>> solver.path(1, 3).length, solver.log_map(0, 3.5, sparse=True).vertices.tolist()
-    (5.0, [0, 1])
-    """
-
-    def __init__(
-        self,
-        mesh: Mesh,
-        method: str | None = None,
-        *,
-        tolerance: Tolerance | None = None,
-        bound: str | None = None,
-        precision: str | None = None,
-    ) -> None:
-        self.mesh = mesh
-        self._mesh = mesh._mesh
-        self._solver = _core.Solver(mesh._space)
-        self._defaults = (method, tolerance, bound, precision)
-        chosen = options(method, tolerance, np.inf, bound, precision)
-        if "method" in chosen:
-            self._solver.set_up(chosen)
-
-    def distances_within(
-        self,
-        radius: float,
-        rows: Places,
-        *,
-        method: str | None = None,
-        tolerance: Tolerance | None = None,
-        bound: str | None = None,
-        precision: str | None = None,
-        dtype: npt.DTypeLike = np.float32,
-        progress: Progress = None,
-    ) -> csr_matrix:
-        """Rows of :meth:`Mesh.distances_within`, computed one after the other: for few of them at a time.
-
-        :param radius, rows, method, tolerance, bound, precision, dtype, progress: as there; many rows are faster there.
-
-        >>> import brushfire as bf
-        >>> solver = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]]).solver()
-        >>> solver.distances_within(3.5, 1, method="dijkstra").toarray().tolist()
-        [[3.0, 0.0, 0.0, 0.0]]
-        """
-        row = self._arrays(rows, "rows")
-        chosen = options(*self._or_defaults(method, tolerance, bound, precision, limit=np.inf))
-        wanted = float_type(dtype)
-        limit = number(radius, "radius")
-        with shown(progress, "rows") as report:
-            data, indices, starts = self._solver_rows(limit, row, chosen, report)
-        return sparse_matrix(data.astype(wanted, copy=False), indices, starts, self._mesh.vertex_count)
-
-    def _solver_rows(self, radius: float, row: PlaceArrays, chosen: Options, report: Any) -> Any:
-        return _core.sparse_rows(self._solver, radius, row.index, row.weights, chosen, report)
-
-    def _or_defaults(
-        self, method: Any, tolerance: Any, bound: Any, precision: Any, *, limit: Any
-    ) -> tuple[Any, Any, Any, Any, Any]:
-        if method is None and tolerance is None and bound is None:
-            method, tolerance, bound, usual = self._defaults
-            precision = usual if precision is None else precision
-        return method, tolerance, limit, bound, precision
-
-    def _run(self) -> _core.Solver:
-        return self._solver
-
-    def _arrays(self, places: Any, what: str) -> PlaceArrays:
-        return self.mesh._arrays(places, what)
-
-    def __repr__(self) -> str:
-        return f"Solver({self.mesh!r})"
-
-    def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
-        return _solver, (self.mesh, *self._defaults)
-
-
 def _walled(mesh: Mesh, vertices: Ints, faces: Ints, ends: Ints) -> Mesh:
     """One that was pickled."""
     return mesh.walled(vertices=vertices, faces=faces, edges=ends.reshape(-1, 2))
-
-
-def _solver(mesh: Mesh, method: Any, tolerance: Any, bound: Any, precision: Any) -> Solver:
-    """One that was pickled."""
-    return Solver(mesh, method, tolerance=tolerance, bound=bound, precision=precision)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from brushfire import _arrays, _core
 from brushfire._arrays import Floats, Ints, Labels, whole
-from brushfire._curves import OnMesh, Path
+from brushfire._curves import Path, path_of
 from brushfire._errors import BrushfireError
 from brushfire._options import Tolerance, options
 from brushfire._places import Places, Points
@@ -128,112 +128,103 @@ class Cut:
         return Points(face, weights), origin
 
 
-class Regions(OnMesh):
-    """The parts of a Mesh."""
+def voronoi(
+    mesh: Mesh,
+    sources: Sources,
+    *,
+    method: str | None = None,
+    tolerance: Tolerance | None = None,
+    bound: str | None = None,
+    precision: str | None = None,
+    threads: int = 1,
+    offset: npt.ArrayLike = 0.0,
+    radius: float = np.inf,
+    progress: Progress = None,
+) -> Voronoi:
+    """The geodesic Voronoi diagram: which source is nearest where, the borders in between, the area of each cell.
 
-    def voronoi(
-        self,
-        sources: Sources,
-        *,
-        method: str | None = None,
-        tolerance: Tolerance | None = None,
-        bound: str | None = None,
-        precision: str | None = None,
-        threads: int = 1,
-        offset: npt.ArrayLike = 0.0,
-        radius: float = np.inf,
-        progress: Progress = None,
-    ) -> Voronoi:
-        """The geodesic Voronoi diagram: which source is nearest where, the borders in between, the area of each cell.
+    :param sources, method, tolerance, bound, precision, threads, offset, radius, progress: as for :meth:`distance`.
+    :raises BrushfireError: as :meth:`distance` does.
 
-        :param sources, method, tolerance, bound, precision, threads, offset, radius, progress: as for :meth:`distance`.
-        :raises BrushfireError: as :meth:`distance` does.
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [2, 0], [2, 2], [0, 2]], [[0, 1, 2], [0, 2, 3]])
+    >>> cells = mesh.voronoi([0, 1], method="exact")
+    >>> cells.source.tolist(), cells.area.sum().item(), cells.borders[0].sources
+    ([0, 1, 1, 0], 4.0, (0, 1))
+    """
+    start = sources_of(mesh, sources, offset)
+    chosen = options(method, tolerance, radius, bound, precision, threads)
+    with shown(progress, "voronoi") as report:
+        found = _core.voronoi(mesh._space, start, chosen, report)
+    distance, source, area, borders, dual = found
+    return Voronoi(distance, source, area, [Border((a, b), path_of(mesh, line)) for a, b, line in borders], dual)
 
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [2, 0], [2, 2], [0, 2]], [[0, 1, 2], [0, 2, 3]])
-        >>> cells = mesh.voronoi([0, 1], method="exact")
-        >>> cells.source.tolist(), cells.area.sum().item(), cells.borders[0].sources
-        ([0, 1, 1, 0], 4.0, (0, 1))
-        """
-        start = sources_of(self, sources, offset)
-        chosen = options(method, tolerance, radius, bound, precision, threads)
-        with shown(progress, "voronoi") as report:
-            found = _core.voronoi(self._space, start, chosen, report)
-        distance, source, area, borders, dual = found
-        return Voronoi(distance, source, area, [Border((a, b), self._path(line)) for a, b, line in borders], dual)
 
-    def farthest_points(
-        self,
-        count: int,
-        first: Places | None = None,
-        *,
-        method: str | None = None,
-        tolerance: Tolerance | None = None,
-        bound: str | None = None,
-        precision: str | None = None,
-        threads: int = 1,
-        radius: float = np.inf,
-        progress: Progress = None,
-    ) -> Samples:
-        """Farthest-point sampling: again and again the vertex that is farthest from all samples so far.
+def farthest_points(
+    mesh: Mesh,
+    count: int,
+    first: Places | None = None,
+    *,
+    method: str | None = None,
+    tolerance: Tolerance | None = None,
+    bound: str | None = None,
+    precision: str | None = None,
+    threads: int = 1,
+    radius: float = np.inf,
+    progress: Progress = None,
+) -> Samples:
+    """Farthest-point sampling: again and again the vertex that is farthest from all samples so far.
 
-        :param count: how many; fewer where every vertex is a sample before.
-        :param first: vertices to begin with; the lowest vertex that is in a face if none are given.
-        :param method, tolerance, bound, precision, threads, radius, progress: as for :meth:`distance`.
-        :raises BrushfireError: for a first vertex that is in no face or repeats, and for more of them than ``count``.
+    :param count: how many; fewer where every vertex is a sample before.
+    :param first: vertices to begin with; the lowest vertex that is in a face if none are given.
+    :param method, tolerance, bound, precision, threads, radius, progress: as for :meth:`distance`.
+    :raises BrushfireError: for a first vertex that is in no face or repeats, and for more of them than ``count``.
 
-        Runs are limited to what still matters: all together they cost about log(count) whole fields.
+    Runs are limited to what still matters: all together they cost about log(count) whole fields.
 
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> samples = mesh.farthest_points(3, method="exact")
-        >>> samples.vertices.tolist(), samples.separation.tolist(), samples.covering_radius
-        ([0, 2, 1], [inf, 5.0, 3.0], 3.0)
-        """
-        index = np.zeros(0, dtype=np.int64)
-        if first is not None:
-            arrays = self._arrays(first, "first")
-            if arrays.weights is not None and arrays.weights.any():
-                raise BrushfireError("first: vertices are needed, not points of faces")
-            index = arrays.index
-        taken = whole(count, "count", np.iinfo(np.int32).max)
-        chosen = options(method, tolerance, radius, bound, precision, threads)
-        with shown(progress, "farthest points") as report:
-            return Samples(*_core.farthest_points(self._space, taken, index, chosen, report))
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> samples = mesh.farthest_points(3, method="exact")
+    >>> samples.vertices.tolist(), samples.separation.tolist(), samples.covering_radius
+    ([0, 2, 1], [inf, 5.0, 3.0], 3.0)
+    """
+    index = np.zeros(0, dtype=np.int64)
+    if first is not None:
+        arrays = mesh._arrays(first, "first")
+        if arrays.weights is not None and arrays.weights.any():
+            raise BrushfireError("first: vertices are needed, not points of faces")
+        index = arrays.index
+    taken = whole(count, "count", np.iinfo(np.int32).max)
+    chosen = options(method, tolerance, radius, bound, precision, threads)
+    with shown(progress, "farthest points") as report:
+        return Samples(*_core.farthest_points(mesh._space, taken, index, chosen, report))
 
-    def cut(self, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), edges: npt.ArrayLike = ()) -> Cut:
-        """The mesh with barriers cut out, through which no distance and no path goes.
 
-        :param vertices: numbers, or a mask with one bool per vertex: nothing passes them, all their faces are blocked.
-        :param faces: numbers, or a mask with one bool per face: nothing enters them.
-        :param edges: (k, 2) vertex numbers: both sides can be reached, nothing crosses.
-        :return: a :class:`Cut`, whose ``mesh`` is the rest.
-        :raises BrushfireIndexError: for what does not exist.
-        :raises BrushfireError: for two vertices that no edge joins.
+def cut(mesh: Mesh, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), edges: npt.ArrayLike = ()) -> Cut:
+    """The mesh with barriers cut out, through which no distance and no path goes.
 
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> mesh.cut(edges=[(0, 2)]).mesh, mesh.cut(faces=[0]).mesh
-        (Mesh(6 vertices, 2 faces), Mesh(4 vertices, 1 faces))
-        """
-        made = _core.cut(self._mesh, *self._barriers(vertices, faces, edges))
-        return Cut(
-            self._of(made.mesh), made.original_vertex(), made.original_face(), made.cut_face(), self._whole(), made
-        )
+    :param vertices: numbers, or a mask with one bool per vertex: nothing passes them, all their faces are blocked.
+    :param faces: numbers, or a mask with one bool per face: nothing enters them.
+    :param edges: (k, 2) vertex numbers: both sides can be reached, nothing crosses.
+    :return: a :class:`Cut`, whose ``mesh`` is the rest.
+    :raises BrushfireIndexError: for what does not exist.
+    :raises BrushfireError: for two vertices that no edge joins.
 
-    def _barriers(self, vertices: Any, faces: Any, edges: Any) -> tuple[Ints, Ints, Ints]:
-        ends = _arrays.integers(edges, "edges")
-        if ends.size and (ends.ndim != 2 or ends.shape[1] != 2):
-            raise BrushfireError(f"edges: shape (k, 2) is needed, not {ends.shape}")
-        return (
-            _arrays.numbers(vertices, self._mesh.vertex_count, "vertices"),
-            _arrays.numbers(faces, self._mesh.face_count, "faces"),
-            ends.reshape(-1),
-        )
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> mesh.cut(edges=[(0, 2)]).mesh, mesh.cut(faces=[0]).mesh
+    (Mesh(6 vertices, 2 faces), Mesh(4 vertices, 1 faces))
+    """
+    made = _core.cut(mesh._mesh, *barriers(mesh, vertices, faces, edges))
+    return Cut(mesh._of(made.mesh), made.original_vertex(), made.original_face(), made.cut_face(), mesh, made)
 
-    @classmethod
-    def _of(cls, core: _core.Mesh) -> Mesh:
-        raise NotImplementedError
 
-    def _whole(self) -> Mesh:
-        raise NotImplementedError
+def barriers(mesh: Mesh, vertices: Any, faces: Any, edges: Any) -> tuple[Ints, Ints, Ints]:
+    ends = _arrays.integers(edges, "edges")
+    if ends.size and (ends.ndim != 2 or ends.shape[1] != 2):
+        raise BrushfireError(f"edges: shape (k, 2) is needed, not {ends.shape}")
+    return (
+        _arrays.numbers(vertices, mesh._mesh.vertex_count, "vertices"),
+        _arrays.numbers(faces, mesh._mesh.face_count, "faces"),
+        ends.reshape(-1),
+    )

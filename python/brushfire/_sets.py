@@ -12,10 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire._arrays import Floats, any_array, floating_type
-from brushfire._curves import OnMesh
 from brushfire._errors import BrushfireError
 from brushfire._options import thread_count
-from brushfire._places import Places
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -27,59 +25,55 @@ def _workers(threads: int) -> int:
     return thread_count(threads) or os.cpu_count() or 1
 
 
-class Pairs(OnMesh):
-    """Distances between pairs of places of a Mesh."""
+def pair_distances(
+    mesh: Mesh,
+    pairs: npt.ArrayLike,
+    *,
+    method: str | None = None,
+    tolerance: float | None = None,
+    precision: str | None = None,
+    normalise: bool = False,
+    threads: int = 0,
+) -> Floats:
+    """The distance of each of many pairs of vertices: (k,) float64; +inf where nothing leads.
 
-    def pair_distances(
-        self,
-        pairs: npt.ArrayLike,
-        *,
-        method: str | None = None,
-        tolerance: float | None = None,
-        precision: str | None = None,
-        normalise: bool = False,
-        threads: int = 0,
-    ) -> Floats:
-        """The distance of each of many pairs of vertices: (k,) float64; +inf where nothing leads.
+    :param pairs: (k, 2) vertex numbers.
+    :param method, tolerance, precision: as for :meth:`distance`. The exact method is symmetric to rounding; the
+        others start at whichever side of all pairs has fewer vertices.
+    :param normalise: in units of the square root of the surface's area, as shape matching reports errors.
+    :param threads: 0 means one per processor. The numbers do not depend on it.
+    :raises BrushfireError: for an array of another shape.
 
-        :param pairs: (k, 2) vertex numbers.
-        :param method, tolerance, precision: as for :meth:`distance`. The exact method is symmetric to rounding; the
-            others start at whichever side of all pairs has fewer vertices.
-        :param normalise: in units of the square root of the surface's area, as shape matching reports errors.
-        :param threads: 0 means one per processor. The numbers do not depend on it.
-        :raises BrushfireError: for an array of another shape.
+    Pairs are grouped by where they start: one run for each such vertex, which stops at the farthest of its ends. The
+    geodesic error of a correspondence is one call.
 
-        Pairs are grouped by where they start: one run for each such vertex, which stops at the farthest of its ends. The
-        geodesic error of a correspondence is one call.
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> mesh.pair_distances([[0, 2], [1, 3], [0, 1]], method="exact").tolist()
+    [5.0, 5.0, 3.0]
+    """
+    array = any_array(pairs, "pairs")
+    if array.size == 0:
+        return np.zeros(0)
+    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
+        raise BrushfireError(f"pairs: whole numbers of shape (k, 2) are needed, not {array.dtype} {array.shape}")
+    if len(np.unique(array[:, 1])) < len(np.unique(array[:, 0])):
+        array = array[:, ::-1]
+    order = np.argsort(array[:, 0], kind="stable")
+    sources, starts = np.unique(array[order, 0], return_index=True)
+    groups = np.split(order, starts[1:])
+    result = np.empty(len(array))
 
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> mesh.pair_distances([[0, 2], [1, 3], [0, 1]], method="exact").tolist()
-        [5.0, 5.0, 3.0]
-        """
-        array = any_array(pairs, "pairs")
-        if array.size == 0:
-            return np.zeros(0)
-        if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
-            raise BrushfireError(f"pairs: whole numbers of shape (k, 2) are needed, not {array.dtype} {array.shape}")
-        if len(np.unique(array[:, 1])) < len(np.unique(array[:, 0])):
-            array = array[:, ::-1]
-        order = np.argsort(array[:, 0], kind="stable")
-        sources, starts = np.unique(array[order, 0], return_index=True)
-        groups = np.split(order, starts[1:])
-        result = np.empty(len(array))
-        mesh: Any = self
+    def work(share: Sequence[int]) -> None:
+        solver = mesh.solver(method, tolerance=tolerance, precision=precision)
+        for g in share:
+            result[groups[g]] = solver.distance(int(sources[g]), targets=array[groups[g], 1])
 
-        def work(share: Sequence[int]) -> None:
-            solver = mesh.solver(method, tolerance=tolerance, precision=precision)
-            for g in share:
-                result[groups[g]] = solver.distance(int(sources[g]), targets=array[groups[g], 1])
-
-        team = min(_workers(threads), len(groups))
-        shares = [range(k, len(groups), team) for k in range(team)]
-        with ThreadPoolExecutor(team) as pool:
-            list(pool.map(work, shares))
-        return result / np.sqrt(mesh.area) if normalise else result
+    team = min(_workers(threads), len(groups))
+    shares = [range(k, len(groups), team) for k in range(team)]
+    with ThreadPoolExecutor(team) as pool:
+        list(pool.map(work, shares))
+    return result / np.sqrt(mesh.area) if normalise else result
 
 
 def _named_meshes(meshes: Any) -> list[tuple[str, Any]]:

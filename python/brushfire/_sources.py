@@ -10,13 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, Ints, floats, offsets
+from brushfire._arrays import Floats, Ints, floats, integers, offsets
 from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._foreign import is_loose, listed
 from brushfire._places import PlaceArrays, Places, Points, is_one
 
 if TYPE_CHECKING:
-    from brushfire._cells import Boundary
+    from brushfire._boundaries import Boundary
     from brushfire._curves import Path
     from brushfire._fields import Isoline
     from brushfire._regions import Border
@@ -33,6 +33,7 @@ class Curve:
     :param offset: values that the front starts with, linear in between: one for each place, or one number. Neighbours
         differ by no more than they are apart.
     :param starts: where in ``places`` pieces begin that are not joined to what stands before them.
+    :param inside: faces that belong to the source with all their points: of a region (:meth:`Mesh.region`).
 
     Among several sources a curve is one, with one number in ``return_source``. What is not on the mesh, or shares no face
     with the next, is an error where the curve is used.
@@ -50,6 +51,7 @@ class Curve:
     closed: bool = False
     offset: npt.ArrayLike = 0.0
     starts: npt.ArrayLike = (0,)
+    inside: npt.ArrayLike = ()
 
     def __repr__(self) -> str:
         places: Any = self.places
@@ -120,15 +122,16 @@ def _made(owner: Any, places: PlaceArrays, curves: list[tuple[int, Curve]], offs
     return _core.make_sources(owner._mesh, places.index, places.weights, given, arrays)
 
 
-def _curve_arrays(owner: Any, curve: Curve) -> tuple[Ints, Floats | None, Ints, bool, Floats | None]:
+def _curve_arrays(owner: Any, curve: Curve) -> tuple[Ints, Floats | None, Ints, bool, Floats | None, Ints]:
     places = owner._arrays(curve.places, "Curve: places")
     starts = np.unique(np.asarray(curve.starts, dtype=np.int64).reshape(-1))
     if len(starts) == 0 or starts[0] != 0 or starts[-1] >= max(1, len(places.index)):
         raise BrushfireError(f"Curve: starts run from 0 to less than the number of places, {len(places.index)}")
     value = floats(curve.offset, "Curve: offset")
+    inside = integers(curve.inside, "Curve: inside").reshape(-1)
     if value.ndim == 0 and value == 0:
-        return places.index, places.weights, starts, bool(curve.closed), None
+        return places.index, places.weights, starts, bool(curve.closed), None, inside
     each = np.full(len(places.index), value) if value.ndim == 0 else value
     if each.shape != (len(places.index),):
         raise BrushfireError(f"Curve: offset: one per place is needed, shape ({len(places.index)},), not {each.shape}")
-    return places.index, places.weights, starts, bool(curve.closed), np.ascontiguousarray(each)
+    return places.index, places.weights, starts, bool(curve.closed), np.ascontiguousarray(each), inside

@@ -5,17 +5,20 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
 from brushfire._arrays import Floats, Labels, floats, number, offsets
-from brushfire._curves import OnMesh, Path
+from brushfire._curves import Path, path_of
 from brushfire._errors import BrushfireError
 from brushfire._places import Places
 from brushfire._progress import Progress, shown
+
+if TYPE_CHECKING:
+    from brushfire._mesh import Mesh
 
 _TOLERANCE = 0.01
 
@@ -104,7 +107,7 @@ class Weighted:
     True
     """
 
-    def __init__(self, mesh: OnMesh, weights: Any, edge_weights: Any, slope: Slope | None, steepest: float) -> None:
+    def __init__(self, mesh: Mesh, weights: Any, edge_weights: Any, slope: Slope | None, steepest: float) -> None:
         face = None if weights is None else floats(weights, "weights")
         if face is not None and face.ndim != 1:
             raise BrushfireError(f"weights: one per face is needed, not an array of shape {face.shape}")
@@ -251,55 +254,53 @@ class Weighted:
 
     def _weighted_path(self, path: _core.PathArrays, cost: float, lower: float, *legs: Any) -> WeightedPath:
         face, length, weight, toll, edge = legs
-        return WeightedPath(self._on._path(path), cost, lower, face, length, weight, toll, edge.reshape(-1, 2))
+        return WeightedPath(path_of(self._on, path), cost, lower, face, length, weight, toll, edge.reshape(-1, 2))
 
 
-class WithWeights(OnMesh):
-    """The weights of a Mesh."""
+def weighted(
+    mesh: Mesh,
+    weights: npt.ArrayLike | None = None,
+    edge_weights: npt.ArrayLike | Iterable[Any] | None = None,
+    *,
+    slope: Slope | None = None,
+    steepest: float = np.inf,
+) -> Weighted:
+    """This mesh, with what it costs to cross its faces and edges.
 
-    def weighted(
-        self,
-        weights: npt.ArrayLike | None = None,
-        edge_weights: npt.ArrayLike | Iterable[Any] | None = None,
-        *,
-        slope: Slope | None = None,
-        steepest: float = np.inf,
-    ) -> Weighted:
-        """This mesh, with what it costs to cross its faces and edges.
+    :param weights: per unit of length in each face, > 0; inf is a wall. None: 1 everywhere.
+    :param edge_weights: rows of two vertices, the cost along the edge that joins them (inf: as in its faces) and, if
+        wanted, the cost to cross it (inf: a wall).
+    :param slope: what slopes cost, up and down (z is up): ``"tobler"`` and ``"naismith"`` in seconds per metre on the
+        map, ``"energy"`` in J/kg per metre, or two arrays, slopes and the paces there, linear between; times the weights.
+        Upper bounds only, then.
+    :param steepest: with a slope: no step is steeper than this; steeper ground can still be traversed.
+    :return: :class:`Weighted`, whose ``costs()``, ``distance()``, ``path()`` and ``paths()`` are those of the weights.
+    :raises BrushfireError: for weights that are not > 0, as many as faces; for edges that do not exist.
 
-        :param weights: per unit of length in each face, > 0; inf is a wall. None: 1 everywhere.
-        :param edge_weights: rows of two vertices, the cost along the edge that joins them (inf: as in its faces) and, if
-            wanted, the cost to cross it (inf: a wall).
-        :param slope: what slopes cost, up and down (z is up): ``"tobler"`` and ``"naismith"`` in seconds per metre on the
-            map, ``"energy"`` in J/kg per metre, or two arrays, slopes and the paces there, linear between; times the weights.
-            Upper bounds only, then.
-        :param steepest: with a slope: no step is steeper than this; steeper ground can still be traversed.
-        :return: :class:`Weighted`, whose ``costs()``, ``distance()``, ``path()`` and ``paths()`` are those of the weights.
-        :raises BrushfireError: for weights that are not > 0, as many as faces; for edges that do not exist.
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> mesh.weighted(edge_weights=[[0, 2, 0.5]]).distance(0, targets=2).tolist()
+    [2.5]
+    >>> road = mesh.weighted(edge_weights=[[0, 2, 0.5]]).path(0, 2)
+    >>> road.cost, road.edge.tolist()
+    (2.5, [[2, 0]])
+    """
+    return Weighted(mesh, weights, edge_weights, slope, steepest)
 
-        >>> import brushfire as bf
-        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
-        >>> mesh.weighted(edge_weights=[[0, 2, 0.5]]).distance(0, targets=2).tolist()
-        [2.5]
-        >>> road = mesh.weighted(edge_weights=[[0, 2, 0.5]]).path(0, 2)
-        >>> road.cost, road.edge.tolist()
-        (2.5, [[2, 0]])
-        """
-        return Weighted(self, weights, edge_weights, slope, steepest)
 
-    def isochrones(self, values: npt.ArrayLike, levels: npt.ArrayLike) -> dict[str, Any]:
-        """Where the values are below each level, as polygons on the map: a GeoJSON FeatureCollection of MultiPolygons.
+def isochrones(mesh: Mesh, values: npt.ArrayLike, levels: npt.ArrayLike) -> dict[str, Any]:
+    """Where the values are below each level, as polygons on the map: a GeoJSON FeatureCollection of MultiPolygons.
 
-        :param values: one per vertex, +inf where there is none, (vertex_count,): what it takes to get there.
-        :param levels: (k,); each one's polygons have it as their property ``level``.
-        :return: what ``json.dump`` writes; in the mesh's x and y. For terrain: no two faces over one another.
+    :param values: one per vertex, +inf where there is none, (vertex_count,): what it takes to get there.
+    :param levels: (k,); each one's polygons have it as their property ``level``.
+    :return: what ``json.dump`` writes; in the mesh's x and y. For terrain: no two faces over one another.
 
-        >>> import brushfire as bf
-        >>> ground = bf.terrain([[0, 0], [0, 0]])
-        >>> region = ground.mesh.isochrones([0, 1, 0, 1], [0.5])["features"][0]
-        >>> region["properties"], region["geometry"]["type"]
-        ({'level': 0.5}, 'MultiPolygon')
-        """
-        field = floats(values, "values").ravel()
-        found: dict[str, Any] = json.loads(_core.isochrones(self._mesh, field, np.atleast_1d(floats(levels, "levels"))))
-        return found
+    >>> import brushfire as bf
+    >>> ground = bf.terrain([[0, 0], [0, 0]])
+    >>> region = ground.mesh.isochrones([0, 1, 0, 1], [0.5])["features"][0]
+    >>> region["properties"], region["geometry"]["type"]
+    ({'level': 0.5}, 'MultiPolygon')
+    """
+    field = floats(values, "values").ravel()
+    found: dict[str, Any] = json.loads(_core.isochrones(mesh._mesh, field, np.atleast_1d(floats(levels, "levels"))))
+    return found

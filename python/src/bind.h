@@ -3,9 +3,9 @@
 
 #include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_path.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/queries/distance_matrix.h>
-#include <brushfire/queries/surface_path.h>
 #include <brushfire/solvers/distance.h>
 
 #include <nanobind/nanobind.h>

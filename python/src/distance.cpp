@@ -5,6 +5,9 @@
 #include <brushfire/core/error.h>
 #include <brushfire/queries/curve_sides.h>
 
+#include <algorithm>
+#include <string>
+
 namespace brushfire::python {
 namespace {
 
@@ -66,16 +69,36 @@ Precision precision_named(std::string_view name) {
 
 }  // namespace
 
+Error unknown_key(std::string_view name) {
+  return {ErrorCode::Internal, "the Python files pass an option '" + std::string(name) + "' that the module has not"};
+}
+
+void require_known(const nb::dict& given, std::initializer_list<std::string_view> known) {
+  for (const auto [key, value] : given) {
+    const auto name = nb::cast<std::string>(key);
+    if (std::find(known.begin(), known.end(), name) == known.end()) throw unknown_key(name);
+  }
+}
+
 DistanceOptions options_from(const nb::dict& given, Computation& computation) {
   DistanceOptions options;
   for (const auto [key, value] : given) {
     const auto name = nb::cast<std::string>(key);
-    if (name == "method") options.method = method_named(nb::cast<std::string>(value));
-    if (name == "bound") options.bound = bound_named(nb::cast<std::string>(value));
-    if (name == "precision") options.precision = precision_named(nb::cast<std::string>(value));
-    if (name == "tolerance") options.tolerance = nb::cast<double>(value);
-    if (name == "threads") options.threads = nb::cast<unsigned>(value);
-    if (name == "max_distance") options.max_distance = nb::cast<double>(value);
+    if (name == "method") {
+      options.method = method_named(nb::cast<std::string>(value));
+    } else if (name == "bound") {
+      options.bound = bound_named(nb::cast<std::string>(value));
+    } else if (name == "precision") {
+      options.precision = precision_named(nb::cast<std::string>(value));
+    } else if (name == "tolerance") {
+      options.tolerance = nb::cast<double>(value);
+    } else if (name == "threads") {
+      options.threads = nb::cast<unsigned>(value);
+    } else if (name == "max_distance") {
+      options.max_distance = nb::cast<double>(value);
+    } else {
+      throw unknown_key(name);
+    }
   }
   options.cancel = computation.cancel();
   options.progress = computation.progress();

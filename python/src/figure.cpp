@@ -1,5 +1,6 @@
 // Pictures: meshes with fields, lines and dots, as pixels, SVG or frames.
 #include "interrupt.h"
+#include "options.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/figure/ambient_occlusion.h>
@@ -39,6 +40,7 @@ Camera camera_from(const nb::dict& given) {
 }
 
 ColorScale scale_from(const nb::dict& given) {
+  require_known(given, {"colormap", "low", "high", "bar_title"});
   ColorScale scale;
   if (given.contains("colormap")) scale.colormap = colormap_named(nb::cast<std::string>(given["colormap"]));
   if (given.contains("low")) scale.low = nb::cast<double>(given["low"]);
@@ -48,6 +50,10 @@ ColorScale scale_from(const nb::dict& given) {
 }
 
 RenderOptions render_options_from(const nb::dict& given) {
+  require_known(given,
+                {"up",          "view",       "azimuth",    "turn",     "elevation", "perspective", "zoom",
+                 "width",       "height",     "scales",     "bands",    "bar",       "wireframe",   "silhouettes",
+                 "transparent", "line_width", "path_width", "dot_size", "samples",   "threads",     "font"});
   RenderOptions o;
   o.width = value_or(given, "width", o.width);
   o.height = value_or(given, "height", o.height);
@@ -89,6 +95,8 @@ std::vector<Polyline> polylines_from(const nb::dict& given, const char* key) {
 using OpennessArray = nb::ndarray<const float, nb::shape<-1, 3, 2>, nb::c_contig, nb::device::cpu>;
 
 Panel panel_from(const Mesh& mesh, const nb::dict& given) {
+  require_known(given, {"scalar", "isolines", "labels", "label_names", "scale", "front", "title", "dots", "paths",
+                        "lines", "openness"});
   Panel panel;
   panel.mesh = mesh;
   const auto doubles = [&](const char* key) {

@@ -52,14 +52,17 @@ void write_values(const std::string& path, const Mesh& mesh, const std::optional
 // Each curve: (index, weights, closed, value).
 void write_curves(const std::string& path, const Mesh& mesh, const nb::list& curves, const std::string& value_name,
                   const std::string& format, double millimetres, const std::string& view, bool outline) {
-  std::vector<SurfaceLine> lines;
+  std::vector<SurfacePath> lines;
+  std::vector<double> values;
   for (const nb::handle curve : curves) {
     const auto c = nb::cast<nb::tuple>(curve);
-    lines.push_back({points_from(mesh, {nb::cast<Vector<std::int64_t>>(c[0]), nb::cast<Triples<double>>(c[1])}),
-                     nb::cast<bool>(c[2]), nb::cast<double>(c[3])});
+    const auto value = nb::cast<double>(c[3]);
+    lines.push_back({points_from(mesh, {nb::cast<Vector<std::int64_t>>(c[0]), nb::cast<Triples<double>>(c[1])}), value,
+                     nb::cast<bool>(c[2])});
+    values.push_back(value);
   }
   const nb::gil_scoped_release release;
-  write_lines(path, mesh, lines, value_name, format, {millimetres, view, outline});
+  write_lines(path, mesh, lines, value_name, format, {millimetres, view, outline, values});
 }
 
 // (value name, format, [(positions, (face, weights) or None, closed, value)]).

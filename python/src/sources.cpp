@@ -16,11 +16,21 @@ namespace {
 using Indices = Vector<std::int64_t>;
 using OptionalWeights = std::optional<Triples<double>>;
 // A curve: its position in the list of sources; its places, and where in them its pieces begin; whether these are
-// closed; an offset for each place, or None.
-using CurveArrays = std::tuple<std::size_t, Indices, OptionalWeights, Indices, bool, std::optional<Vector<double>>>;
+// closed; an offset for each place, or None; faces inside.
+using CurveArrays =
+    std::tuple<std::size_t, Indices, OptionalWeights, Indices, bool, std::optional<Vector<double>>, Indices>;
+
+std::vector<Index> face_numbers(const Indices& faces) {
+  std::vector<Index> numbers;
+  for (std::size_t i = 0; i < faces.shape(0); ++i) {
+    const std::int64_t f = faces.data()[i];
+    numbers.push_back(f >= 0 && f < std::int64_t{kNoIndex} ? static_cast<Index>(f) : kNoIndex);
+  }
+  return numbers;
+}
 
 CurveSource curve_from(const Mesh& mesh, const CurveArrays& arrays) {
-  const auto& [position, index, weights, starts, closed, offsets] = arrays;
+  const auto& [position, index, weights, starts, closed, offsets, inside] = arrays;
   const std::vector<SurfacePoint> places = points_from(mesh, {index, weights});
   if (offsets && offsets->shape(0) != places.size()) {
     throw Error(ErrorCode::InvalidArgument, std::to_string(offsets->shape(0)) + " offsets for a curve of " +
@@ -39,10 +49,11 @@ CurveSource curve_from(const Mesh& mesh, const CurveArrays& arrays) {
     curve.places.push_back(places[i]);
     if (offsets) curve.offsets.push_back(offsets->data()[i]);
   }
+  curve.inside = face_numbers(inside);
   return curve;
 }
 
-// As bf.Curve keeps it: faces, weights, starts of pieces.
+// As bf.Curve keeps it: faces, weights, starts of pieces, faces inside.
 nb::tuple curve_to_numpy(const CurveSource& curve) {
   std::vector<SurfacePoint> places;
   std::vector<std::int64_t> starts{0};
@@ -54,7 +65,8 @@ nb::tuple curve_to_numpy(const CurveSource& curve) {
     }
   }
   const nb::tuple arrays = points_to_numpy(places);
-  return nb::make_tuple(arrays[0], arrays[1], to_numpy(std::move(starts)));
+  return nb::make_tuple(arrays[0], arrays[1], to_numpy(std::move(starts)),
+                        to_numpy(std::vector<std::int64_t>(curve.inside.begin(), curve.inside.end())));
 }
 
 // The points, and between them the curves, each at its position in the list of all; an offset for each of all.
@@ -80,12 +92,7 @@ nb::tuple region_of_vertex_mask(const Mesh& mesh, const Vector<std::uint8_t>& ve
 }
 
 nb::tuple region_of_face_numbers(const Mesh& mesh, const Indices& faces) {
-  std::vector<Index> numbers;
-  for (std::size_t i = 0; i < faces.shape(0); ++i) {
-    const std::int64_t f = faces.data()[i];
-    numbers.push_back(f >= 0 && f < std::int64_t{kNoIndex} ? static_cast<Index>(f) : kNoIndex);
-  }
-  return curve_to_numpy(region_of_faces(mesh, numbers));
+  return curve_to_numpy(region_of_faces(mesh, face_numbers(faces)));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import brushfire as bf
+from brushfire import _core
 from conftest import grid
 
 V, F = grid(4)
@@ -359,3 +360,14 @@ def test_errors_survive_pickling():
         again = pickle.loads(pickle.dumps(error))
         assert type(again) is type(error)
         assert (str(again), again.code) == (str(error), error.code)
+
+
+def test_options_that_only_one_side_knows_are_errors():
+    """The Python files name options to the compiled module in dicts: a key that nothing reads is a fault, not ignored."""
+    mesh = bf.Mesh([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]])
+    with pytest.raises(bf.BrushfireError, match="'speed'") as error:
+        _core.Solver(mesh._space).set_up({"speed": 1.0})
+    assert error.value.code == "internal"
+    for shown, look in [({"glow": 1.0}, {}), ({}, {"glow": 1.0}), ({}, {"scales": [{"glow": 1.0}]})]:
+        with pytest.raises(bf.BrushfireError, match="'glow'"):
+            _core.render([(mesh._mesh, shown)], {"scales": [{}], **look})

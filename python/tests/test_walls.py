@@ -176,3 +176,11 @@ def test_gradients_know_what_is_blocked(strip: bf.Mesh) -> None:
     assert uphill[0] == pytest.approx([1, 0, 0]) and (uphill[[6, 7]] == 0).all()
     assert walled.gradient(V[:, 0], on="vertices")[4] == pytest.approx([0, 0, 0])
     assert strip.gradient(V[:, 0], on="vertices")[4] == pytest.approx([1, 0, 0])
+
+
+def test_a_solver_keeps_to_the_walls_of_its_mesh_in_all_that_it_gives():
+    walled = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]]).walled(faces=[1])
+    solver = walled.solver()
+    assert solver.vertex_areas().sum() == walled.vertex_areas().sum() == 6.0
+    assert np.array_equal(solver.gradient([0, 1, 2, 3]), walled.gradient([0, 1, 2, 3]))
+    assert solver.trace(0, [0.1, 1, 0], 4.0)[0].length == walled.trace(0, [0.1, 1, 0], 4.0)[0].length

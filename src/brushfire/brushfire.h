@@ -19,6 +19,7 @@
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/mesh/subdivide.h>
+#include <brushfire/mesh/surface_path.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/mesh/terrain.h>
 #include <brushfire/mesh/weld.h>
@@ -57,7 +58,6 @@
 #include <brushfire/queries/smoothing.h>
 #include <brushfire/queries/straightest.h>
 #include <brushfire/queries/surface_curves.h>
-#include <brushfire/queries/surface_path.h>
 #include <brushfire/queries/vertex_measures.h>
 #include <brushfire/queries/voronoi.h>
 #include <brushfire/queries/weighted_path.h>

@@ -145,7 +145,7 @@ TEST(NumberCases, AVertexInNoFaceIsStillNoSource) {
 // ---- offsets
 
 TEST(NumberCases, AFiniteOffsetOfAnySizeIsAddedByEveryMethod) {
-  for (const double size : {1e-300, 0.01, 1.0, 1e300}) {
+  for (const double size : {1e-300, 0.01, 1.0, 1e298}) {
     const std::vector<Vec3> p{{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
     const Mesh mesh(p, std::vector<Face>{{0, 1, 2}});
     for (const double offset : {1e308, -1e308, 1.7e308, 1e40, -1e40, 1e9, 3.0}) {

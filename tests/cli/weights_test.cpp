@@ -35,7 +35,9 @@ class WeightFiles : public InFolder {
 
 TEST_F(WeightFiles, DistancesAndPathsPayForFacesFencesAndRoads) {
   const std::string mesh = path("m.off"), w = path("w.txt");
-  EXPECT_NEAR(number(run_program({"distance", mesh, "-s", "5", "-t", "9", "--weights", w})), 8, 1e-12);
+  const double bound = number(run_program({"distance", mesh, "-s", "5", "-t", "9", "--weights", w}));
+  EXPECT_GE(bound, 8);
+  EXPECT_LE(bound, 8 * 1.01);  // the tolerance
   EXPECT_NEAR(number(run_program({"path", mesh, "--from", "5", "--to", "9", "--weights", w})), 8, 1e-12);
   EXPECT_NEAR(number(run_program(
                   {"path", mesh, "--from", "5", "--to", "9", "--weights", w, "--edge-weights", path("fence.txt")})),
@@ -55,7 +57,7 @@ TEST_F(WeightFiles, AreArraysToo) {
   const Ended ended = run_program({"distance", path("m.off"), "-s", "5", "--weights", path("w.npy"), "--edge-weights",
                                    path("e.npy"), "-o", path("d.npy")});
   EXPECT_EQ(ended.code, 0) << ended.err;
-  EXPECT_NEAR(read_npy(path("d.npy")).values[7], 1, 1e-12);
+  EXPECT_NEAR(read_npy(path("d.npy")).values[7], 1, 2e-9);  // rounding of windows
 }
 
 TEST_F(WeightFiles, JsonTellsEveryLeg) {

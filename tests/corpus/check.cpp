@@ -1,6 +1,8 @@
 // Answers of the solvers beside those of the oracle.
 #include "corpus/check.h"
 
+#include "corpus/curves.h"
+
 #include <brushfire/core/error.h>
 #include <brushfire/queries/path.h>
 
@@ -17,6 +19,8 @@ using oracle::kFar;
 using oracle::Real;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// What is smaller has no number of its own.
+constexpr double kLeastStep = std::numeric_limits<double>::denorm_min();
 // The truth itself is rounded, to 64 bits.
 constexpr Real kTruthRounding = 0x1p-63L;
 // Quad was right where 237 bits say the same to this share.
@@ -65,17 +69,18 @@ void hold_exact(const Value& v, const std::string& where, Outcome& out) {
   if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(error / v.length));
   if (error > room) ++out.beyond;
   // The factor of the bound's law is measured: half of it is an early warning (docs/tolerance.md, "The factor").
-  const bool nearly_broken = error > kWarning * v.bound + kTruthRounding * std::abs(v.truth);
+  const bool nearly_broken = error > kWarning * v.bound + kTruthRounding * std::abs(v.truth) + kLeastStep;
   if (nearly_broken) ++out.unbound;
   if (error > room || nearly_broken) out.complain(off(v, where));
 }
 
-// A bound's promise. `offsets`: the largest of the sources, whose rounding a bound may hold.
-void hold_bound(const Value& v, double tolerance, double offsets, const std::string& where, Outcome& out) {
+// A bound's promise. `offsets`: the largest of the sources, whose rounding a bound may hold; `more`: what else it may.
+void hold_bound(const Value& v, double tolerance, double offsets, Real more, const std::string& where, Outcome& out) {
   if (!same_reach(v, where, out)) return;
   const Real error = std::abs(v.got - v.truth);
   if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(error / v.length));
-  const bool too_wide = v.bound > tolerance * v.length + 16 * kEpsilon * (std::abs(v.got) + offsets);
+  const bool too_wide =
+      v.bound > tolerance * v.length + 16 * kEpsilon * (std::abs(v.got) + offsets) + more + 2 * kLeastStep;
   if (error > v.bound + kTruthRounding * std::abs(v.truth)) {
     ++out.unbound;
     out.complain(off(v, where));
@@ -188,6 +193,14 @@ void Examination::turn_to(std::uint64_t index, std::size_t start) {
   if (index != index_ || start != start_) has_truth_ = false;
   index_ = index;
   start_ = start;
+  offsets_.clear();
+  curves_ = sloped_ = false;
+  if (start >= case_.starts.size()) return;
+  for (const Source& s : case_.starts[start]) {
+    offsets_.push_back(least_offset(case_.mesh, s));
+    curves_ = curves_ || s.curve != nullptr;
+    sloped_ = sloped_ || (s.curve != nullptr && !s.curve->offsets.empty());
+  }
 }
 
 const oracle::Truth& Examination::truth() {
@@ -214,9 +227,15 @@ bool Examination::more_digits_differ(std::uint64_t most_windows) {
   return false;
 }
 
+// Heat starts at points, and marching methods where a curve has one value; tests/curves/ holds the words.
+bool Examination::takes_sources(const Task& task) const {
+  if (task.kind != Task::Kind::Other || task.method == Method::Dijkstra) return true;
+  return task.method == Method::Heat ? !curves_ : !sloped_;
+}
+
 Outcome Examination::run(std::uint64_t index, std::size_t start, const Task& task) {
   turn_to(index, start);
-  if (start >= case_.starts.size()) return {};
+  if (start >= case_.starts.size() || !takes_sources(task)) return {};
   truth();
   const auto once = [&] {
     switch (task.kind) {
@@ -255,8 +274,8 @@ Outcome Examination::run(std::uint64_t index, std::size_t start, const Task& tas
 namespace {
 
 // What the value at v is made of: the path's length is what remains without the offset of its source.
-Value value_at(const DistanceField& field, std::span<const Source> sources, const std::vector<Real>& truth, Index v) {
-  const double offset = field.source[v] < sources.size() ? sources[field.source[v]].offset : 0;
+Value value_at(const DistanceField& field, std::span<const double> offsets, const std::vector<Real>& truth, Index v) {
+  const double offset = field.source[v] < offsets.size() ? offsets[field.source[v]] : 0;
   return {field.distance[v], truth[v], std::abs(truth[v] - offset), bound_of(field, v)};
 }
 
@@ -267,7 +286,7 @@ Outcome Examination::exact(const DistanceOptions& options) {
   const std::vector<Source>& sources = case_.starts[start_];
   const DistanceField field = distance(case_.mesh, sources, options);
   for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
-    hold_exact(value_at(field, sources, truth().distance, v), vertex_text(v), out);
+    hold_exact(value_at(field, offsets_, truth().distance, v), vertex_text(v), out);
   }
   return out;
 }
@@ -292,6 +311,17 @@ static Real rounding_of(const Mesh& mesh, const SurfacePath& path) {
   return sum;
 }
 
+// What frames of doubles may be off by, of which "absolute" in "Rounding" of docs/tolerance.md is made.
+static Real lever_rounding(const Mesh& mesh) {
+  Real lever = 0;
+  for (Index h = 0; h < mesh.halfedge_count(); h += 3) {
+    const std::array<double, 3> l{mesh.length(h), mesh.length(h + 1), mesh.length(h + 2)};
+    const Real longest = *std::max_element(l.begin(), l.end()), shortest = *std::min_element(l.begin(), l.end());
+    lever = std::max(lever, shortest > 0 ? longest * longest / shortest : longest);
+  }
+  return kEpsilon * lever * mesh.unit();
+}
+
 Outcome Examination::targets() {
   Outcome out;
   DistanceOptions options;
@@ -301,9 +331,11 @@ Outcome Examination::targets() {
   const DistanceField field = distance(case_.mesh, sources, options);
   for (std::size_t i = 0; i < case_.targets.size(); ++i) {
     const Index source = field.target_source[i];
-    const double offset = source < sources.size() ? sources[source].offset : 0;
+    const double offset = source < offsets_.size() ? offsets_[source] : 0;
     const Real truth = truth_.target[i];
-    const Real room = largest_bound(field) + rounding_of(case_.mesh, case_.targets[i]);
+    // Where the run ended before any vertex off the curve was reached, no vertex has a bound to go by.
+    const Real beside = curves_ ? 32 * lever_rounding(case_.mesh) : 0;
+    const Real room = std::max(Real{largest_bound(field)}, beside) + rounding_of(case_.mesh, case_.targets[i]);
     const Real length = std::abs(truth - offset);
     const bool wrong = same_reach({field.target_distance[i], truth, length, kInfinity}, "", out) &&
                        std::abs(field.target_distance[i] - truth) > room + Real{kExactPromise} * length;
@@ -328,9 +360,9 @@ Outcome Examination::radius() {
   const std::vector<Source>& sources = case_.starts[start_];
   const DistanceField field = distance(case_.mesh, sources, options);
   for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
-    Value value = value_at(field, sources, truth().distance, v);
+    Value value = value_at(field, offsets_, truth().distance, v);
     // What is at the radius itself may fall on either side.
-    const Real room = std::max(Real{1e-8} * std::abs(middle), Real{1e-12} * value.length);
+    const Real room = std::max(Real{1e-8} * std::abs(middle), Real{1e-12} * value.length) + 2 * kLeastStep;
     if (std::abs(value.truth - options.max_distance) <= room) continue;
     if (value.truth > options.max_distance) value.truth = kFar;
     hold_exact(value, vertex_text(v), out);
@@ -342,14 +374,16 @@ Outcome Examination::windows(const Task& task) {
   Outcome out;
   const std::vector<Source>& sources = case_.starts[start_];
   double offsets = 0;
-  for (const Source& s : sources) offsets = std::max(offsets, std::abs(s.offset));
+  for (const double o : offsets_) offsets = std::max(offsets, std::abs(o));
   const DistanceField field = distance(case_.mesh, sources, options_of(task));
   for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
-    const Value value = value_at(field, sources, truth().distance, v);
+    const Value value = value_at(field, offsets_, truth().distance, v);
     if (task.kind == Task::Kind::Windows) {
       // From lengths alone nothing is known of what lies next to a source but through frames: see error_bound.
       const bool blind = !case_.mesh.has_positions() && value.length < 1e-6 * case_.mesh.unit();
-      hold_bound(value, blind ? kInfinity : task.tolerance, offsets, vertex_text(v), out);
+      // And beside a curve no vertex is known better than rounding, which is counted twice.
+      const Real beside = curves_ ? 2 * 32 * lever_rounding(case_.mesh) : 0;
+      hold_bound(value, blind ? kInfinity : task.tolerance, offsets, beside, vertex_text(v), out);
     } else {
       hold_side(value, task.kind == Task::Kind::Lower, vertex_text(v), out);
     }
@@ -357,29 +391,19 @@ Outcome Examination::windows(const Task& task) {
   return out;
 }
 
-// Dijkstra begins with what a source sees across an edge, in frames of doubles: see "Rounding" in docs/tolerance.md.
-static Real frame_rounding(const Mesh& mesh) {
-  constexpr Real kFrames = 4;  // two faces, laid side by side
-  Real lever = 0;
-  for (Index h = 0; h < mesh.halfedge_count(); h += 3) {
-    const std::array<double, 3> l{mesh.length(h), mesh.length(h + 1), mesh.length(h + 2)};
-    const Real longest = *std::max_element(l.begin(), l.end()), shortest = *std::min_element(l.begin(), l.end());
-    lever = std::max(lever, shortest > 0 ? longest * longest / shortest : longest);
-  }
-  return kFrames * kEpsilon * lever * mesh.unit();
-}
-
 Outcome Examination::other(const Task& task) {
   Outcome out;
   const std::vector<Source>& sources = case_.starts[start_];
   const DistanceField field = distance(case_.mesh, sources, options_of(task));
-  const Real frames = frame_rounding(case_.mesh);
+  // Dijkstra begins with what a source sees across an edge, in frames of two faces.
+  const Real frames = 4 * lever_rounding(case_.mesh);
   for (Index v = 0; v < case_.mesh.vertex_count(); ++v) {
-    const Value value = value_at(field, sources, truth().distance, v);
+    const Value value = value_at(field, offsets_, truth().distance, v);
     if (!same_reach(value, vertex_text(v), out)) continue;
-    const bool too_short =
-        task.method == Method::Dijkstra &&
-        value.got < value.truth - kExactPromise * value.length - 2 * kEpsilon * std::abs(value.truth) - frames;
+    const bool too_short = task.method == Method::Dijkstra && value.got < value.truth - kExactPromise * value.length -
+                                                                              2 * kEpsilon * std::abs(value.truth) -
+                                                                              frames -
+                                                                              kLeastStep * case_.mesh.vertex_count();
     if (!too_short) continue;
     ++out.beyond;
     out.complain(off(value, vertex_text(v)));
@@ -425,9 +449,19 @@ void Examination::hold_path(const WindowField& field, const SurfacePoint& to, Re
     return out.complain(where + ": no way, and the field says " + std::to_string(value.distance));
   }
   if (path.length == kInfinity) return;
-  const Real offset = case_.starts[start_][value.source].offset, length = path.length;
-  const Real rounding = 2 * kEpsilon * (std::abs(truth) + std::abs(offset));  // of adding the offset
-  const Real room = std::max(Real{kPathPromise} * length, Real{bound}) + rounding + rounding_of(case_.mesh, path);
+  const Real length = path.length;
+  const Source& source = case_.starts[start_][value.source];
+  Real room = std::max(Real{kPathPromise} * length, Real{bound}) + rounding_of(case_.mesh, path);
+  const auto begin =
+      offset_at(case_.mesh, source, path.points.front(), static_cast<double>(room), value.distance - path.length);
+  if (!begin) {
+    ++out.lost;
+    return out.complain(where + ": begins beside the curve, at " + place_text(path.points.front()));
+  }
+  const Real offset = *begin;
+  // Of adding the offset; where it changes along the curve, places that values do not tell apart are one.
+  const Real same = sloped_ ? 1024 : 2;
+  room += same * kEpsilon * (std::abs(truth) + std::abs(offset)) + kLeastStep;
   const Real off_field = std::abs(length + offset - value.distance), off_truth = std::abs(length + offset - truth);
   if (length > 0) out.worst = std::max(out.worst, static_cast<double>(off_field / length));
   if (off_field <= room && off_truth <= room) return;

@@ -52,6 +52,7 @@ class Examination {
  private:
   void turn_to(std::uint64_t index, std::size_t start);
   const oracle::Truth& truth();
+  bool takes_sources(const Task& task) const;
   bool more_digits_differ(std::uint64_t most_windows);
 
   Outcome exact(const DistanceOptions& options);
@@ -67,6 +68,8 @@ class Examination {
   std::uint64_t index_ = ~std::uint64_t{0};
   std::size_t start_ = 0;
   Case case_;
+  std::vector<double> offsets_;           // [sources of the start], what lengths count from
+  bool curves_ = false, sloped_ = false;  // among the sources; with offsets that change along them
   oracle::Truth truth_;
   bool has_truth_ = false;
   oracle::Arithmetic arithmetic_ = oracle::Arithmetic::Quad;

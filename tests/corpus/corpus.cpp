@@ -1,5 +1,6 @@
 // The corpus: complexes at random, awkward in every way that is known, each solver on them, and who was right.
 #include "corpus/check.h"
+#include "corpus/curves.h"
 #include "corpus/laws.h"
 #include "corpus/tally.h"
 
@@ -45,6 +46,10 @@ struct Settings {
 std::string sources_text(const std::vector<Source>& sources) {
   std::string text;
   for (const Source& s : sources) {
+    if (s.curve != nullptr) {
+      text += " --source curve(" + text_of(*s.curve) + ")@" + std::to_string(s.offset);
+      continue;
+    }
     char offset[40] = "";
     if (s.offset != 0) std::snprintf(offset, sizeof offset, "@%.17g", s.offset);
     text += " --source " + place_text(s.point) + offset;
@@ -105,6 +110,7 @@ Tally run_family(const Settings& settings, const Family& family, const std::vect
 std::vector<Family> chosen_families(const Settings& settings) {
   std::vector<Family> all(small_families().begin(), small_families().end());
   for (int decades = 3; decades <= 12; ++decades) all.push_back(family_of_ratio(decades));
+  for (const Family& f : small_families()) all.push_back(with_curves(f));
   if (settings.families.empty()) return {small_families().begin(), small_families().end()};
   std::vector<Family> chosen;
   for (const std::string& name : settings.families) {
@@ -117,14 +123,12 @@ std::vector<Family> chosen_families(const Settings& settings) {
   return chosen;
 }
 
-std::uint64_t families_part(const Settings& settings) {
+std::uint64_t beside_the_oracle(const Settings& settings, const std::vector<Family>& families, std::uint64_t count) {
   const std::vector<Task> tasks = tasks_of(settings.methods, settings.tolerances);
-  const std::uint64_t count = settings.count_or(20, 1000);
-  std::printf("\nRandom families beside the oracle, seed %llu\n\n", Count{settings.seed});
   print_head_of_families();
   Tally all;
   std::uint64_t cases = 0;
-  for (const Family& family : chosen_families(settings)) {
+  for (const Family& family : families) {
     const Tally tally = run_family(settings, family, tasks, count);
     print_row(family.name, count, tally);
     all.add(tally);
@@ -132,6 +136,18 @@ std::uint64_t families_part(const Settings& settings) {
   }
   print_row("all", cases, all);
   return all.wrong();
+}
+
+std::uint64_t families_part(const Settings& settings) {
+  std::printf("\nRandom families beside the oracle, seed %llu\n\n", Count{settings.seed});
+  return beside_the_oracle(settings, chosen_families(settings), settings.count_or(20, 1000));
+}
+
+std::uint64_t curves_part(const Settings& settings) {
+  std::printf("\nCurves on these families beside the oracle, seed %llu\n\n", Count{settings.seed});
+  std::vector<Family> families;
+  for (const Family& f : small_families()) families.push_back(with_curves(f));
+  return beside_the_oracle(settings, families, settings.count_or(5, 500));
 }
 
 // The error of exact against the ratio of the largest length to the shortest.
@@ -243,6 +259,7 @@ std::uint64_t files_part(const Settings& settings) {
 std::uint64_t run(const Settings& settings) {
   std::uint64_t wrong = 0;
   if (settings.wants("families")) wrong += families_part(settings);
+  if (settings.wants("curves")) wrong += curves_part(settings);
   if (settings.wants("ratios")) wrong += ratios_part(settings);
   if (settings.wants("laws")) wrong += laws_part(settings);
   if (settings.wants("files")) wrong += files_part(settings);
@@ -273,10 +290,12 @@ int main(int argc, char** argv) {
   bool list = false;
   std::optional<std::uint64_t> index, seed;
   settings.lanes = std::max(1u, std::thread::hardware_concurrency());
-  app.add_option("part", settings.parts, "families, ratios, laws, files; all of them if none is named")
-      ->check(CLI::IsMember({"families", "ratios", "laws", "files"}));
+  app.add_option("part", settings.parts, "families, curves, ratios, laws, files; all of them if none is named")
+      ->check(CLI::IsMember({"families", "curves", "ratios", "laws", "files"}));
   app.add_flag("--night", settings.night, "Hours instead of two minutes; a new seed every day");
-  app.add_option("--family", settings.families, "Only these families (implies the part families)")->delimiter(',');
+  app.add_option("--family", settings.families,
+                 "Only these families (implies the part families); curves-NAME: curves on them")
+      ->delimiter(',');
   app.add_option("--method", settings.methods,
                  "Only these: exact, paths, targets, radius, windows, lower, upper, symmetry, ...")
       ->delimiter(',');

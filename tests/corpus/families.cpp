@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 
 namespace brushfire::corpus {
 namespace {
@@ -79,6 +77,14 @@ Shape any_base(Dice& dice) {
 }
 
 // ---- families
+
+// By a power of two, so that nothing is rounded but what has no number.
+Draft extremes(Dice& dice) {
+  Shape s = any_base(dice);
+  const double scale = std::ldexp(1, dice.chance(0.5) ? dice.between(900, 988) : -dice.between(900, 1060));
+  for (Vec3& p : s.positions) p = scale * p;
+  return draft(s);
+}
 
 Draft general_soup(Dice& dice) { return draft(soup(dice, 30)); }
 
@@ -270,55 +276,6 @@ Draft zoo(Dice& dice) {
   return draft(s);
 }
 
-// ---- sources and targets
-
-SurfacePoint near_vertex(const Mesh& mesh, Dice& dice) {
-  SurfacePoint p = oracle::random_face_point(mesh, dice.small());
-  const double near = dice.power(-16, -3), share = dice.unit();
-  const std::size_t k = dice.below(3);
-  p.weights[k] = 1 - near;
-  p.weights[(k + 1) % 3] = near * share;
-  p.weights[(k + 2) % 3] = dice.chance(0.3) ? 0 : near * (1 - share);
-  if (p.weights[(k + 2) % 3] == 0) p.weights[(k + 1) % 3] = near;
-  return p;
-}
-
-SurfacePoint near_edge(const Mesh& mesh, Dice& dice) {
-  SurfacePoint p = oracle::random_face_point(mesh, dice.small());
-  const double near = dice.power(-16, -3), share = dice.unit();
-  const std::size_t k = dice.below(3);
-  p.weights[k] = near;
-  p.weights[(k + 1) % 3] = (1 - near) * share;
-  p.weights[(k + 2) % 3] = (1 - near) * (1 - share);
-  return p;
-}
-
-SurfacePoint point_of_kind(const Mesh& mesh, Dice& dice, std::uint32_t kind) {
-  switch (kind) {
-    case 0:
-      return oracle::random_vertex(mesh, dice.small());
-    case 1:
-      return oracle::random_edge_point(mesh, dice.small());
-    case 2:
-      return oracle::random_face_point(mesh, dice.small());
-    case 3:
-      return near_vertex(mesh, dice);
-    default:
-      return near_edge(mesh, dice);
-  }
-}
-constexpr std::uint32_t kKinds = 5;
-
-std::vector<Source> several(const Mesh& mesh, Dice& dice) {
-  std::vector<Source> sources;
-  const double size = mesh.unit() * (dice.chance(0.5) ? 1 : dice.power(-6, 6));
-  for (int count = dice.between(2, 4); count > 0; --count) {
-    const double offset = dice.chance(0.4) ? 0 : size * dice.sign_and_unit();
-    sources.push_back({point_of_kind(mesh, dice, dice.below(kKinds)), offset});
-  }
-  return sources;
-}
-
 }  // namespace
 
 std::span<const Family> small_families() {
@@ -329,6 +286,7 @@ std::span<const Family> small_families() {
       {"mixed-scale", "lengths from 1e-12 to 1e12 in one mesh", mixed_scale},
       {"tiny-clusters", "faces of 1e-14 .. 1e-3 beside ordinary ones", tiny_clusters},
       {"power-law", "coordinates of any size, each for itself", power_law},
+      {"extremes", "sizes at both ends of the range of doubles", extremes},
       {"far-point", "one vertex at 1e6 .. 1e17", far_point},
       {"needles", "rows of altitude 1e-16 .. 0.1, and 0", needles},
       {"thin-strips", "bands of 60 triangles, 1e-9 .. 1e4 long", thin_strip},
@@ -361,40 +319,9 @@ Family family_of_ratio(int decades) {
         }
         return draft(s);
       },
-      true};
+      Starts::Ordinary};
 }
 
-Case make_case(const Family& family, std::uint64_t seed, std::uint64_t index) {
-  Dice dice(family.name, seed, index);
-  Draft made = family.make(dice);
-  Case c{made.mesh, made.plain.value_or(made.mesh), {}, {}};
-  const std::uint32_t kinds = family.ordinary_starts ? 3 : kKinds + 1;
-  const auto turn = static_cast<std::uint32_t>(index % kinds);
-  for (const std::uint32_t kind : {turn, (turn + 1 + dice.below(kinds - 1)) % kinds}) {
-    c.starts.push_back(kind == kKinds ? several(c.plain, dice)
-                                      : std::vector<Source>{{point_of_kind(c.plain, dice, kind), 0}});
-  }
-  for (std::uint32_t kind = 0; kind < kKinds; ++kind) c.targets.push_back(point_of_kind(c.plain, dice, kind));
-  return c;
-}
-
-std::string place_text(const SurfacePoint& point) {
-  char text[120];
-  std::snprintf(text, sizeof text, "f:%u:%.17g,%.17g,%.17g", point.face, point.weights[0], point.weights[1],
-                point.weights[2]);
-  return text;
-}
-
-void write_obj(const std::string& path, const Mesh& mesh, const std::vector<std::string>& remarks) {
-  std::ofstream out(path);
-  char line[160];
-  for (const std::string& remark : remarks) out << "# " << remark << '\n';
-  for (const Vec3& p : mesh.positions()) {
-    std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", p.x, p.y, p.z);
-    out << line;
-  }
-  for (const Face& t : mesh.faces()) out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
-  if (!out.flush()) throw Error(ErrorCode::FileNotWritable, path + " cannot be written");
-}
+Family with_curves(const Family& family) { return {"curves-" + family.name, family.what, family.make, Starts::Curves}; }
 
 }  // namespace brushfire::corpus

@@ -21,11 +21,17 @@ struct Draft {
   std::optional<Mesh> plain;  // the same without copies of faces, whose numbers stay: the same distances, told faster
 };
 
+enum class Starts : std::uint8_t {
+  Points,    // of all kinds, and several with offsets
+  Ordinary,  // points at vertices, on edges and in faces, and not next to them
+  Curves,    // curves, and curves and points
+};
+
 struct Family {
   std::string name;
   std::string what;
   std::function<Draft(Dice&)> make;
-  bool ordinary_starts = false;  // at vertices, on edges and in faces, and not next to them
+  Starts starts = Starts::Points;
 };
 
 // Complexes of at most 100 faces, for the oracle.
@@ -34,6 +40,9 @@ std::span<const Family> small_families();
 // Complexes whose largest length is some 10^decades of the shortest, with ordinary starts.
 Family family_of_ratio(int decades);
 
+// The complexes of a small family, made anew, and curves on them.
+Family with_curves(const Family& family);
+
 struct Case {
   Mesh mesh, plain;
   std::vector<std::vector<Source>> starts;  // each a list of sources for one field
@@ -41,8 +50,8 @@ struct Case {
 };
 
 // The case `index` of a family: starts at a vertex, on an edge, in a face, 1e-16 .. 1e-3 from a vertex or an edge, and
-// at several points with offsets, two of these by turns (the first three where starts are ordinary); targets of all
-// kinds.
+// at several points with offsets, two of these by turns (the first three where starts are ordinary), or two of curves;
+// targets of all kinds.
 Case make_case(const Family& family, std::uint64_t seed, std::uint64_t index);
 
 // A mesh with all the digits of its coordinates as OBJ, the remarks in front as comments. Throws

@@ -1,6 +1,5 @@
 // In a convex region of the plane the distance from a curve is that of the nearest of its segments, however the region
 // is triangulated.
-#include <brushfire/mesh/delaunay.h>
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/windows/engine.h>
 
@@ -10,30 +9,18 @@
 #include <random>
 #include <string>
 
+#include "curves/planes.h"
 #include "curves/random_curves.h"
 #include "support/engine_run.h"
 
 namespace brushfire {
 namespace {
 
+using test::random_triangulation;
+
 constexpr double kRelative = 1e-12;
 // A place is named by three doubles: some epsilons of the region's size, which is 2.
 constexpr double kPlaces = 32 * std::numeric_limits<double>::epsilon();
-
-// Random points in an ellipse, joined by a Delaunay triangulation of another ellipse: any triangulation.
-Mesh random_triangulation(std::mt19937& random) {
-  const int count = 5 + static_cast<int>(random() % 60);
-  std::vector<Vec2> points;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * kPi * test::uniform(random), radius = std::sqrt(test::uniform(random));
-    points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-  }
-  const Mesh round = delaunay(points).mesh();
-  const double height = std::pow(10.0, -1.3 * test::uniform(random));
-  std::vector<Vec3> positions(round.positions().begin(), round.positions().end());
-  for (Vec3& p : positions) p.y *= height;
-  return Mesh(positions, round.faces());
-}
 
 double worst_excess(const Mesh& mesh, const CurveSource& curve, const DistanceField& field) {
   double worst = 0;

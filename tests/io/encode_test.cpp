@@ -49,7 +49,7 @@ TEST_F(Encode, FieldsHaveTheBytesOfTheirFiles) {
 }
 
 TEST_F(Encode, CurvesHaveTheBytesOfTheirFiles) {
-  const std::vector<SurfaceLine> lines{{{vertex_point(mesh_, 0), vertex_point(mesh_, 1)}, false, 2}};
+  const std::vector<SurfacePath> lines{{{vertex_point(mesh_, 0), vertex_point(mesh_, 1)}, 2, false}};
   for (const FileFormat& format : lines_written()) {
     const std::string path = folder_ + "." + format.extensions.front();
     write_lines(path, mesh_, lines, "length");

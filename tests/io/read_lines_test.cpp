@@ -18,12 +18,12 @@ const Mesh& square() {
 }
 
 // An open curve, a closed one, one of two points that is closed, a single point.
-const std::vector<SurfaceLine>& curves() {
-  static const std::vector<SurfaceLine> lines{
-      {{{0, {1, 0, 0}}, {0, {0.5, 0, 0.5}}, {1, {0.25, 0.5, 0.25}}}, false, 0.75},
-      {{{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}}, true, 3.5},
-      {{{1, {1, 0, 0}}, {1, {0, 1, 0}}}, true, 2},
-      {{{0, {0.2, 0.3, 0.5}}}, false, 0}};
+const std::vector<SurfacePath>& curves() {
+  static const std::vector<SurfacePath> lines{
+      {{{0, {1, 0, 0}}, {0, {0.5, 0, 0.5}}, {1, {0.25, 0.5, 0.25}}}, 0.75, false},
+      {{{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}}, 3.5, true},
+      {{{1, {1, 0, 0}}, {1, {0, 1, 0}}}, 2, true},
+      {{{0, {0.2, 0.3, 0.5}}}, 0, false}};
   return lines;
 }
 
@@ -51,7 +51,7 @@ TEST_P(LinesRoundTrip, KeepsEveryPointAndWhichCurvesAreClosed) {
     }
     EXPECT_EQ(line.points.empty(), !on_mesh);
     if (has_value) {
-      EXPECT_EQ(line.value, curves()[i].value);
+      EXPECT_EQ(line.value, curves()[i].length);
     } else {
       EXPECT_TRUE(std::isnan(line.value));
     }

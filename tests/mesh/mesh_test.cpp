@@ -6,9 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace brushfire {
 namespace {
@@ -172,8 +176,8 @@ TEST(Mesh, ReportSaysSoupWhereTrianglesShareNoVertex) {
 }
 
 TEST(Mesh, LengthsAndAreasAreFiniteAndRightAtTheEndsOfTheRangeOfDoubles) {
-  const double largest = std::numeric_limits<double>::max(), tiny = 4e-320;
-  for (const double size : {1e-300, 1e300, largest, tiny}) {
+  const double largest = 0x1p990, tiny = 4e-320;
+  for (const double size : {1e-300, 1e297, largest, tiny}) {
     SCOPED_TRACE(size);
     // From -size to size: the differences alone would overflow.
     const std::vector<Vec3> positions{{-size, -size, 0}, {size, -size, 0}, {size, size, 0}, {-size, size, 0}};
@@ -185,6 +189,31 @@ TEST(Mesh, LengthsAndAreasAreFiniteAndRightAtTheEndsOfTheRangeOfDoubles) {
     EXPECT_NEAR(mesh.double_areas()[1], side * side, 2e-3 * side * side);
     EXPECT_NEAR(mesh.corner_angle(0), kPi / 4, 1e-3);
     EXPECT_EQ(mesh.report().zero_area_faces + mesh.report().zero_length_edges, 0u);
+  }
+}
+
+TEST(Mesh, NamesAVertexBeyondWhichDistancesHaveNoNumbers) {
+  std::vector<Vec3> positions = kSquare;
+  positions[2].y = -0x1.1p990;
+  try {
+    const Mesh mesh(positions, kTwoTriangles);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::InvalidMesh);
+    EXPECT_NE(std::string(e.what()).find("vertex 2 lies at"), std::string::npos) << e.what();
+  }
+  const std::vector<std::array<double, 3>> lengths{{{1e299, 1e299, 1e299}}};
+  EXPECT_THROW(Mesh::from_lengths(3, std::vector<Face>{{0, 1, 2}}, lengths), Error);
+}
+
+TEST(Mesh, ReportsSayThatAreasAreBeyondNumbers) {
+  for (const double size : {1e-200, 1.0, 1e200}) {
+    std::vector<Vec3> positions = kSquare;
+    for (Vec3& p : positions) p = size * p;
+    const std::vector<std::string> remarks = Mesh(positions, kTwoTriangles).report().remarks();
+    const bool told = std::any_of(remarks.begin(), remarks.end(),
+                                  [](const std::string& s) { return s.find("beyond the range") != std::string::npos; });
+    EXPECT_EQ(told, size != 1) << size;
   }
 }
 

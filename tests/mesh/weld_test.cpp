@@ -81,7 +81,7 @@ TEST(Weld, AnyScaleAndPlaceGivesTheSameMap) {
 }
 
 TEST(Weld, ATinyToleranceFarFromTheOriginJoinsEqualPositions) {
-  const std::vector<Vec3> positions{{1e300, 1, 0}, {1e300, 1, 0}, {1e300, 1 + 1e-9, 0}, {0, 0, 0}, {1e-300, 0, 0}};
+  const std::vector<Vec3> positions{{1e297, 1, 0}, {1e297, 1, 0}, {1e297, 1 + 1e-9, 0}, {0, 0, 0}, {1e-300, 0, 0}};
   for (const double tolerance : {0.0, 1e-320, 1e-305, 1e-12}) {
     EXPECT_EQ(weld(Mesh(positions, {}), tolerance).vertex_map[1], 0u) << tolerance;
     EXPECT_EQ(weld(Mesh(positions, {}), tolerance).vertex_map[2], 1u) << tolerance;

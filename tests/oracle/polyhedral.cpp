@@ -4,6 +4,7 @@
 #include "oracle/arithmetic.h"
 
 #include <algorithm>
+#include <optional>
 #include <queue>
 #include <utility>
 
@@ -22,17 +23,21 @@ constexpr double kSameWay = 1e-12;  // radians: arrivals that are nearer than th
 
 constexpr std::uint32_t kRoot = 0xffffffff;
 
-// Rays from `source` (below or on the x axis), between the unit directions `left` and `right`, that enter the face of
-// `halfedge` across it, in the frame of that corner. Smaller x is left. `back` is the vertex opposite to the edge in
-// the face that the rays come from, and back_at its place.
+// Rays that enter the face of `halfedge` across it, in the frame of that corner, between two limit rays; smaller x is
+// left. Those of a point all come from `source` (below or on the x axis). Those of a segment are `parallel`: both limit
+// rays have one direction, and the value at `source` is sigma and grows along it. `back` is the vertex opposite to the
+// edge in the face that the rays come from, and back_at its place.
 template <class R>
 struct Window {
   R key = 0;  // least distance on the edge
   R sigma = 0;
-  Point<R> source, left, right, back_at;
+  Point<R> source, left, right, back_at;  // left and right: unit directions
+  Point<R> left_from, right_from;         // a place of either limit ray, not above the x axis
   Index halfedge = kNoIndex;
   Index back = kNoIndex;
   std::uint32_t parent = kRoot;
+  bool parallel = false;
+  R least = 0;  // of parallel light: what its values begin with
 };
 
 // How a front comes to a vertex: over an edge, inside a corner (angle from the corner's halfedge), or from nowhere
@@ -91,7 +96,12 @@ class Solver {
     targets_in_.resize(mesh.face_count());
     for (const Source& s : sources) scale_ = std::max(scale_, R(abs(R(s.offset))));
     for (Index i = 0; i < targets.size(); ++i) place_target(i, locate(mesh, targets[i]));
-    for (const Source& s : sources) start(locate(mesh, s.point), s.offset);
+    for (const Source& s : sources) {
+      if (s.curve == nullptr)
+        start(locate(mesh, s.point), s.offset);
+      else
+        start(locate(mesh, *s.curve), s.offset);
+    }
   }
 
   Truth run() {
@@ -247,6 +257,103 @@ class Solver {
   }
   Index c_next(const Corner& c) const { return Mesh::next(static_cast<Index>(&c - complex_.corner.data())); }
 
+  // ---- curves
+
+  // Each of its places as a point, and parallel light on both sides of its segments.
+  void start(const LocatedCurve& curve, R offset) {
+    for (const CurvePlace& place : curve.places) {
+      scale_ = std::max(scale_, R(abs(offset + place.offset)));
+      start(place.at, offset + place.offset);
+    }
+    for (const CurveSegment& s : curve.segments) {
+      if (!s.along_edge) {
+        if (complex_.usable(s.face)) {
+          const Index h = 3 * s.face;
+          start_segment(h, {in_frame(h, s.from), in_frame(h, s.to), offset + s.from_offset, offset + s.to_offset});
+        }
+        continue;
+      }
+      std::size_t k = 0;  // the edge's first corner: the one without weights is the last
+      while (s.from[(k + 2) % 3] != 0 || s.to[(k + 2) % 3] != 0) ++k;
+      const Face& t = mesh_.faces()[s.face];
+      for (const Index h : complex_.edge[complex_.edge_between(t[k], t[(k + 1) % 3])].halfedges) {
+        const Corner& c = complex_.corner[h];
+        const std::size_t far_end = c.to == t[k] ? k : (k + 1) % 3, near = c.to == t[k] ? (k + 1) % 3 : k;
+        const auto on_edge = [&](const std::array<double, 3>& weights) {
+          return Point{R(weights[far_end]) / (R(weights[near]) + weights[far_end]) * c.length, 0};
+        };
+        start_segment(h, {on_edge(s.from), on_edge(s.to), offset + s.from_offset, offset + s.to_offset});
+      }
+    }
+  }
+
+  // In the frame of a corner, with its values at both ends.
+  struct Segment {
+    Point from, to;
+    R from_value, to_value;
+
+    R length() const { return norm(to - from); }
+    Point along() const { return unit(to - from); }
+    R slope() const { return std::clamp(R((to_value - from_value) / length()), R(-1), R(1)); }
+    // How fast the value grows away from the segment's line, and the direction in which it grows fastest on its left
+    // (side 1) or right (-1).
+    R rise() const { return sqrt((1 - slope()) * (1 + slope())); }
+    Point light(int side) const {
+      const Point a = along();
+      return slope() * a + R(side * rise()) * Point{-a.y, a.x};
+    }
+    // Where parallel light meets p: its value and side; none where no such ray does.
+    struct Sight {
+      R value;
+      int side;
+    };
+    std::optional<Sight> sight_of(Point p) const {
+      const R ahead = dot(along(), p - from), aside = cross(along(), p - from),
+              foot = rise() * ahead - abs(aside) * slope();
+      if (!(foot > 0 && foot < rise() * length())) return {};
+      return Sight{from_value + slope() * ahead + abs(aside) * rise(), aside < 0 ? -1 : 1};
+    }
+  };
+
+  // Within its face: to the corners and targets that its parallel light meets, and out over the edges.
+  void start_segment(Index h, Segment s) {
+    if (s.length() == 0) return;
+    for (const Target& t : targets_in_[h / 3]) {
+      if (const auto seen = s.sight_of(place_in(h, t))) reach_target(t.index, seen->value);
+    }
+    Index g = h;
+    for (int k = 0; k < 3; ++k) {
+      const Corner& c = complex_.corner[g];
+      if (const auto seen = s.sight_of({0, 0})) {
+        const Point back = Point{0, 0} - s.light(seen->side);
+        reach({seen->value, c.from, Arrival::By::Corner, g, std::clamp(R(atan2(back.y, back.x)), R{0}, c.angle)});
+      }
+      for (const int side : {1, -1}) leave(g, s, side);
+      s.from = next_frame(c, s.from);
+      s.to = next_frame(c, s.to);
+      if (s.length() == 0) return;
+      g = Mesh::next(g);
+    }
+  }
+
+  // The parallel light of one side over the edge of corner g, the segment in the frame of g.
+  void leave(Index g, const Segment& s, int side) {
+    const Corner& c = complex_.corner[g];
+    if (c.length == 0 || !(s.light(side).y < 0)) return;
+    Window w;
+    w.parallel = true;
+    w.sigma = s.from_value;
+    w.least = std::min(s.from_value, s.to_value);
+    w.left = w.right = Point{0, 0} - s.light(side);  // seen from the other side
+    w.source = w.left_from = {c.length - s.from.x, -s.from.y};
+    w.right_from = {c.length - s.to.x, -s.to.y};
+    if (cross(w.right, w.left_from - w.right_from) < 0) std::swap(w.left_from, w.right_from);
+    const auto beyond = [&](Point p) { return p.x - p.y * (w.left.x / w.left.y); };
+    if (beyond(w.left_from) < 0) w.left_from = {0, 0};
+    if (beyond(w.right_from) > c.length) w.right_from = {c.length, 0};
+    cross_edge(g, w);
+  }
+
   // All rays from a point q of the face over the edge of corner g, q in the frame of g.
   void leave(Index g, Point q, R offset) {
     const Corner& c = complex_.corner[g];
@@ -254,6 +361,7 @@ class Solver {
     Window w;
     w.sigma = offset;
     w.source = {c.length - q.x, -q.y};  // the frame seen from the other side: x from the end of the halfedge
+    w.left_from = w.right_from = w.source;
     w.left = w.source.y == 0 && w.source.x <= 0 ? Point{1, 0} : unit(Point{0, 0} - w.source);
     w.right = w.source.y == 0 && w.source.x >= c.length ? Point{-1, 0} : unit(Point{c.length, 0} - w.source);
     cross_edge(g, w);  // without a vertex behind: rule 3 wants rays that cross the whole face
@@ -272,21 +380,24 @@ class Solver {
       if (complex_.corner[g].from == from.from) {  // the neighbour lies the other way round
         child.source = mirrored(w.source, from.length);
         child.back_at = mirrored(w.back_at, from.length);
+        child.left_from = mirrored(w.right_from, from.length);
+        child.right_from = mirrored(w.left_from, from.length);
         child.left = mirrored(w.right);
         child.right = mirrored(w.left);
       }
-      child.source.y = std::min(child.source.y, R{0});
+      if (!child.parallel) child.source.y = std::min(child.source.y, R{0});
+      for (Point* p : {&child.left_from, &child.right_from}) p->y = std::min(p->y, R{0});
       if (returns(child) || !prune(child)) continue;
       windows_.push(child);
     }
   }
 
-  // Where the ray from the source in direction d meets the edge.
-  static R meets(const Window& w, Point d, R length) {
-    if (w.source.y == 0 || d.y <= 0) {
-      return std::clamp(w.source.y == 0 ? w.source.x : d.x > 0 ? length : R{0}, R{0}, length);
+  // Where the ray from a place in direction d meets the edge.
+  static R meets(Point from, Point d, R length) {
+    if (from.y == 0 || d.y <= 0) {
+      return std::clamp(from.y == 0 ? from.x : d.x > 0 ? length : R{0}, R{0}, length);
     }
-    return std::clamp(w.source.x - w.source.y * (d.x / d.y), R{0}, length);
+    return std::clamp(from.x - from.y * (d.x / d.y), R{0}, length);
   }
 
   // Rule 1, no face twice. A shortest path that meets a face twice can be straightened inside the face, so of all
@@ -304,11 +415,18 @@ class Solver {
 
   R least(const Window& w) const {
     const R length = complex_.corner[w.halfedge].length;
-    const R a = meets(w, w.left, length), b = std::max(a, meets(w, w.right, length));
-    return w.sigma + norm(Point{std::clamp(w.source.x, a, b), 0} - w.source);
+    const R a = meets(w.left_from, w.left, length), b = std::max(a, meets(w.right_from, w.right, length));
+    return least_between(w, a, b);
+  }
+  static R least_between(const Window& w, R a, R b) {
+    if (w.parallel) return std::min(along(w, a), along(w, b));
+    return along(w, std::clamp(w.source.x, a, b));
   }
 
-  static R along(const Window& w, R x) { return w.sigma + norm(Point{x, 0} - w.source); }
+  static R along(const Window& w, R x) {
+    const Point way = Point{x, 0} - w.source;
+    return w.parallel ? std::max(w.least, R(w.sigma + dot(w.left, way))) : R(w.sigma + norm(way));
+  }
 
   // Cuts off what cannot be part of a shortest path and sets the key; false where nothing remains. Prefixes of shortest
   // paths are shortest: a ray that reaches the edge later than another real path does is on none.
@@ -324,52 +442,64 @@ class Solver {
     const Corner& c = complex_.corner[w.halfedge];
     if (c.length == 0) return false;  // its two ends are one point, and emit into every corner (settle)
     if (grazes(w, c.length)) return false;
-    if (cross(w.right, w.left) < 0 || (cross(w.right, w.left) == 0 && dot(w.right, w.left) > 0)) return false;
+    if (is_empty(w)) return false;
     const R end_a = distance_[c.from], end_b = distance_[c.to];
-    R a = meets(w, w.left, c.length), b = std::max(a, meets(w, w.right, c.length));
+    R a = meets(w.left_from, w.left, c.length), b = std::max(a, meets(w.right_from, w.right, c.length));
     if (along(w, b) - b > end_a + margin(end_a)) return false;
     if (along(w, a) - (c.length - a) > end_b + margin(end_b)) return false;
-    if (const R x = first_useful(w, w.source.x, end_a - w.sigma); x > a && x < b) {
-      if (along(w, x) - x > end_a + margin(end_a) / 2) cut(w, w.left, a, x);
+    if (const R x = first_useful(w, w.source.x, w.left.x, end_a - w.sigma); x > a && x < b) {
+      if (along(w, x) - x > end_a + margin(end_a) / 2) cut(w, w.left, w.left_from, a, x);
     }
-    if (const R x = c.length - first_useful(w, c.length - w.source.x, end_b - w.sigma); x > a && x < b) {
-      if (along(w, x) - (c.length - x) > end_b + margin(end_b) / 2) cut(w, w.right, b, x);
+    if (const R x = c.length - first_useful(w, c.length - w.source.x, -w.left.x, end_b - w.sigma); x > a && x < b) {
+      if (along(w, x) - (c.length - x) > end_b + margin(end_b) / 2) cut(w, w.right, w.right_from, b, x);
     }
     if (a > b) return false;
     if (w.back != kNoIndex) {
       const R behind = distance_[w.back];
       // Without doubt: a source on the edge behind lies in line with V and a limit ray.
-      const Point to_back = w.back_at - w.source;
-      const R side_left = cross(w.left, to_back) - doubt(w, w.back_at);
-      const R side_right = cross(w.right, to_back) + doubt(w, w.back_at);
+      const R side_left = cross(w.left, w.back_at - w.left_from) - doubt(w.left_from, w.back_at);
+      const R side_right = cross(w.right, w.back_at - w.right_from) + doubt(w.right_from, w.back_at);
       const Point at_b{b, 0}, at_a{a, 0};
       if (side_left > 0 && behind + norm(at_b - w.back_at) + margin(behind) < along(w, b)) return false;
       if (side_right < 0 && behind + norm(at_a - w.back_at) + margin(behind) < along(w, a)) return false;
     }
-    w.key = w.sigma + norm(Point{std::clamp(w.source.x, a, b), 0} - w.source);
+    w.key = least_between(w, a, b);
     return w.key <= radius_;
+  }
+
+  static bool is_empty(const Window& w) {
+    if (w.parallel) return !(cross(w.right, w.left_from - w.right_from) > 0);
+    const R opening = cross(w.right, w.left);
+    return opening < 0 || (opening == 0 && dot(w.right, w.left) > 0);
   }
 
   // Along the edge from beyond one of its ends: all that this lights is lit by that end as well, straight on. (In a
   // face without area the other edges may lie between the source and this one.)
   static bool grazes(const Window& w, R length) {
+    if (w.parallel) return w.left.y <= kLateral * epsilon<R>();
     const R doubtful = kLateral * epsilon<R>() * (abs(w.source.x) + length);
     return -w.source.y <= doubtful && (w.source.x <= 0 || w.source.x >= length);
   }
 
   // The x up to which `other` + x is less than |x - source| by the margin; whatever rounding makes of it, the caller
   // checks what it gets.
-  R first_useful(const Window& w, R source_x, R other) const {
+  R first_useful(const Window& w, R source_x, R slope, R other) const {
     const R value = other + margin(other + w.sigma), sum = value + source_x;
-    if (!(value < far<R>()) || sum == 0) return -1;
+    if (!(value < far<R>())) return -1;
+    if (w.parallel) return slope < 1 ? R((-w.left.y * w.source.y - slope * source_x - value) / (1 - slope)) : R(-1);
+    if (sum == 0) return -1;
     return (source_x * source_x + w.source.y * w.source.y - value * value) / (2 * sum);
   }
 
   // Moves one end of the window to x. Next to the source x says little about the direction: then it is left alone.
-  void cut(Window& w, Point& direction, R& end, R x) const {
-    const Point d = Point{x, 0} - w.source;
-    if (norm(d) < 1e-6 * complex_.corner[w.halfedge].length) return;
-    direction = unit(d);
+  void cut(Window& w, Point& direction, Point& from, R& end, R x) const {
+    if (w.parallel) {
+      from = {x, 0};
+    } else {
+      const Point d = Point{x, 0} - w.source;
+      if (norm(d) < 1e-6 * complex_.corner[w.halfedge].length) return;
+      direction = unit(d);
+    }
     end = x;
   }
 
@@ -377,22 +507,24 @@ class Solver {
   static bool right_of(Point d, Point ray) { return cross(ray, d) < 0 || (cross(ray, d) == 0 && dot(ray, d) > 0); }
 
   bool sees(const Window& w, Point p) const {
-    const Point d = p - w.source;
-    const R doubtful = doubt(w, p);
-    return cross(w.left, d) <= doubtful && cross(w.right, d) >= -doubtful &&
-           (dot(w.left, d) >= -doubtful || dot(w.right, d) >= -doubtful);
+    const Point l = p - w.left_from, r = p - w.right_from;
+    const R l_doubt = doubt(w.left_from, p), r_doubt = doubt(w.right_from, p);
+    return cross(w.left, l) <= l_doubt && cross(w.right, r) >= -r_doubt &&
+           (dot(w.left, l) >= -l_doubt || dot(w.right, r) >= -r_doubt);
   }
 
   // The way to a point that is seen, by where the ray meets the edge: on one line with the edge, in a face without
   // area, the point may lie on the source's side of it.
   R through_edge(const Window& w, Point p) const {
-    const Point at{meets(w, p - w.source, complex_.corner[w.halfedge].length), 0};
-    return w.sigma + norm(at - w.source) + norm(p - at);
+    const R length = complex_.corner[w.halfedge].length;
+    const R x = w.parallel ? std::clamp(R(p.x - p.y * (w.left.x / w.left.y)), R{0}, length)
+                           : meets(w.source, p - w.source, length);
+    return along(w, x) + norm(p - Point{x, 0});
   }
 
   // How far (times 1, across a unit direction) rounding may have moved p against a ray from the source.
-  static R doubt(const Window& w, Point p) {
-    return epsilon<R>() * (kAngle * norm(p - w.source) + kLateral * (norm(w.source) + norm(p)));
+  static R doubt(Point from, Point p) {
+    return epsilon<R>() * (kAngle * norm(p - from) + kLateral * (norm(from) + norm(p)));
   }
 
   // Through the face: to the apex, the targets inside and, split at the apex, to the two other edges.
@@ -402,23 +534,32 @@ class Solver {
     branch_.push_back({w.parent, w.halfedge / 3, w.key});
     const auto me = static_cast<std::uint32_t>(branch_.size() - 1);
     const Point to_apex = c.apex - w.source;
-    if (sees(w, c.apex)) arrive_at_apex(w, to_apex);
+    if (sees(w, c.apex)) arrive_at_apex(w, w.parallel ? w.left : to_apex);
     for (const Target& t : targets_in_[w.halfedge / 3]) {
       const Point p = place_in(w.halfedge, t);
       if (sees(w, p)) reach_target(t.index, through_edge(w, p));
     }
-    const Point split = norm(to_apex) > 0 ? unit(to_apex) : Point{0, 1};
+    const Point split = w.parallel ? w.left : norm(to_apex) > 0 ? unit(to_apex) : Point{0, 1};
+    const Point split_from = w.parallel ? c.apex : w.source;
+    const bool beside_left = left_of(c.apex - w.left_from, w.left),
+               beside_right = right_of(c.apex - w.right_from, w.right);
     const R left_length = complex_.corner[behind].length, right_length = complex_.corner[ahead].length;
-    if (!left_of(to_apex, w.left) && left_length > 0) {
+    if (!beside_left && left_length > 0) {
       const Point along_edge = (1 / left_length) * c.apex;
       Window child = turned(w, {0, 0}, along_edge, {c.length, 0}, c.to, me);
-      if (!right_of(to_apex, w.right)) child.right = turn(split, along_edge);
+      if (!beside_right) {
+        child.right = turn(split, along_edge);
+        child.right_from = turn(split_from, along_edge);
+      }
       cross_edge(behind, child);
     }
-    if (!right_of(to_apex, w.right) && right_length > 0) {
+    if (!beside_right && right_length > 0) {
       const Point along_edge = (1 / right_length) * Point{c.apex_to_end, -c.apex.y};
       Window child = turned(w, c.apex, along_edge, {0, 0}, c.from, me);
-      if (!left_of(to_apex, w.left)) child.left = turn(split, along_edge);
+      if (!beside_left) {
+        child.left = turn(split, along_edge);
+        child.left_from = turn(split_from - c.apex, along_edge);
+      }
       cross_edge(ahead, child);
     }
   }
@@ -430,12 +571,15 @@ class Solver {
     child.source = turn(w.source - origin, x_axis);
     child.left = turn(w.left, x_axis);
     child.right = turn(w.right, x_axis);
+    child.left_from = turn(w.left_from - origin, x_axis);
+    child.right_from = turn(w.right_from - origin, x_axis);
     child.back = back;
     child.back_at = turn(back_at - origin, x_axis);
     child.parent = parent;
     return child;
   }
 
+  // `to_apex`: along the ray that reaches it.
   void arrive_at_apex(const Window& w, Point to_apex) {
     const Corner& c = complex_.corner[w.halfedge];
     const R d = through_edge(w, c.apex);
@@ -538,6 +682,7 @@ class Solver {
     const Point to_first{edge.apex.x, edge.apex.y};
     w.right = unit(to_first);  // towards `to` of h, which is the right end as seen from the vertex
     w.left = unit(Point{0, 0} - w.source);
+    w.left_from = w.right_from = w.source;
     if (end < c.angle) w.left = rotated(w.right, end);
     if (begin > 0) w.right = rotated(w.right, begin);
     w.back = c.from;

@@ -2,9 +2,11 @@
 //
 // A tree of windows, taken from a queue in order of distance, as in "Shortest paths on a polyhedron" (Chen and Han
 // 1990); a window is a wedge of straight rays that enters a face through one edge, together with the unfolded place
-// of the vertex or source that the rays come from. No lists, no trimming of windows against each other. What makes
-// the tree finite are four rules, and the reason why each of them is safe stands beside it in polyhedral.cpp.
+// of the vertex or source that the rays come from, or a strip of parallel rays, from a segment of a curve. No lists, no
+// trimming of windows against each other. What makes the tree finite are four rules, and the reason why each of them is
+// safe stands beside it in polyhedral.cpp.
 // Meant to be read and believed, not to be fast: 10 to 100 times slower than a good solver.
+// Of the library it uses what names places: locate(), of points and of curves.
 #pragma once
 
 #include "oracle/complex.h"

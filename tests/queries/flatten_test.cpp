@@ -45,6 +45,22 @@ TEST(Flatten, LaysARolledSheetFlat) {
   EXPECT_EQ(flat.mesh.vertex_count(), sheet.positions.size());  // a disc has no seam
 }
 
+TEST(Flatten, IsTheSameAtBothEndsOfTheRangeOfNumbers) {
+  const Shape shape = shapes::saddle(4);
+  const Flattening plain = flatten(shape.mesh(), exactly(12));
+  for (const double size : {0x1p-985, 0x1p985}) {
+    Shape scaled = shape;
+    for (Vec3& p : scaled.positions) p = size * p;
+    const Flattening flat = flatten(scaled.mesh(), exactly(12));
+    EXPECT_EQ(flat.distortion.stress, plain.distortion.stress);
+    EXPECT_EQ(flat.distortion.max_stretch, plain.distortion.max_stretch);
+    for (Index v = 0; v < plain.uv.size(); ++v) {
+      EXPECT_EQ(flat.uv[v][0], size * plain.uv[v][0]);
+      EXPECT_EQ(flat.uv[v][1], size * plain.uv[v][1]);
+    }
+  }
+}
+
 TEST(Flatten, ReportsWhatASphereDoesToLengths) {
   const Flattening flat = flatten(shapes::icosphere(3).mesh(), exactly(60));
   EXPECT_GT(flat.distortion.stress, 0.02);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_path.h>
 #include <brushfire/mesh/surface_point.h>
-#include <brushfire/queries/surface_path.h>
 
 #include <algorithm>
 #include <cmath>

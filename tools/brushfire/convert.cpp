@@ -104,18 +104,19 @@ Mesh mesh_of_points(const LoadedLines& loaded) {
 bool is_drawing(const std::string& output) { return ends_with_any(output, {".svg", ".dxf"}); }
 
 std::string convert_lines(const Arguments& a, const Talk& talk) {
-  const LinesOptions drawing = lines_options(a.output, a.drawing, a.shared);
+  LinesOptions drawing = lines_options(a.output, a.drawing, a.shared);
   const LoadedLines loaded = read_lines(a.input);
   const bool has_mesh = !a.mesh_file.empty();
   if (!has_mesh && a.drawing.outline) refuse("--outline needs the --mesh");
   const Mesh mesh = has_mesh ? Surface(a.mesh_file, a.shared).mesh() : mesh_of_points(loaded);
   PlaceFinder finder(mesh, a.shared.snap_within);
-  std::vector<SurfaceLine> lines;
+  std::vector<SurfacePath> lines;
+  std::vector<double> values;
   Index point = 0;
   for (const LoadedLine& line : loaded.lines) {
-    SurfaceLine& out = lines.emplace_back();
+    SurfacePath& out = lines.emplace_back();
     out.closed = line.closed;
-    out.value = line.value;
+    values.push_back(line.value);
     if (has_mesh && !line.points.empty()) {
       out.points = line.points;
     } else {
@@ -128,6 +129,7 @@ std::string convert_lines(const Arguments& a, const Talk& talk) {
     }
   }
   finder.tell(talk);
+  drawing.values = values;
   write_lines(a.output, mesh, lines, loaded.value_name.empty() ? "value" : loaded.value_name, "", drawing);
   return loaded.format;
 }

@@ -116,7 +116,7 @@ std::vector<Isoline> curves_of(const Arguments& a, const Domain& domain, const D
 
 int isolines_verb(const Arguments& a, const Talk& talk) {
   check(a);
-  const LinesOptions drawing = lines_options(a.output, a.drawing, a.shared);
+  LinesOptions drawing = lines_options(a.output, a.drawing, a.shared);
   const Surface surface(a.file, a.shared);
   const Mesh& mesh = surface.mesh();
   stop_if_interrupted();
@@ -131,14 +131,17 @@ int isolines_verb(const Arguments& a, const Talk& talk) {
   const std::pair<double, double> range = range_of(field.distance);
   const std::size_t outside = tell_outside(a, levels, range, talk);
   const std::vector<Isoline> found = curves_of(a, surface.domain(), field, levels);
-  std::vector<SurfaceLine> lines;
+  std::vector<SurfacePath> lines;
+  std::vector<double> level_of;
   double length = 0;
   std::int64_t closed = 0;
   for (const Isoline& line : found) {
-    lines.push_back({line.line.points, line.line.closed, line.level});
+    lines.push_back(line.line);
+    level_of.push_back(line.level);
     length += line.line.length;
     closed += line.line.closed;
   }
+  drawing.values = level_of;
   write_lines(a.output, mesh, lines, "level", "", drawing);
   if (talk.json) {
     Record record;

@@ -133,9 +133,9 @@ std::string json(const Arguments& a, Method method, const std::vector<Found>& al
 }
 
 void write(const Arguments& a, const Mesh& mesh, const std::vector<Found>& all, const LinesOptions& drawing) {
-  std::vector<SurfaceLine> lines;
+  std::vector<SurfacePath> lines;
   for (const Found& f : all) {
-    if (!f.path.points.empty()) lines.push_back({f.path.points, f.path.closed, f.path.length});
+    if (!f.path.points.empty()) lines.push_back(f.path);
   }
   if (!lines.empty()) write_lines(a.output, mesh, lines, "length", "", drawing);
 }

@@ -94,8 +94,8 @@ int voronoi_verb(const Arguments& a, const Talk& talk) {
                  {.values = surface.on_file<double>(cells.distance), .labels = surface.on_file<Index>(cells.source)});
   }
   if (!a.borders.empty()) {
-    std::vector<SurfaceLine> lines;
-    for (const VoronoiBorder& b : cells.borders) lines.push_back({b.line.points, b.line.closed, b.line.length});
+    std::vector<SurfacePath> lines;
+    for (const VoronoiBorder& b : cells.borders) lines.push_back(b.line);
     write_lines(a.borders, surface.mesh(), lines, "length", "", drawing);
   }
   if (talk.json) {

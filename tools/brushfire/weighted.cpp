@@ -171,17 +171,20 @@ int weighted_distance(const WeightedRequest& request, const Talk& talk) {
   return kOk;
 }
 
-int weighted_path(const WeightedRequest& request, const LinesOptions& drawing, const Talk& talk) {
+int weighted_path(const WeightedRequest& request, LinesOptions drawing, const Talk& talk) {
   Scene scene(request, talk);
   const std::vector<WeightedPath> paths =
       weighted_paths(*scene.solver, scene.sources, scene.options.targets, scene.options);
-  std::vector<SurfaceLine> lines;
-  std::vector<double> costs;
+  std::vector<SurfacePath> lines;
+  std::vector<double> costs, cost_of;  // of all; of those that are lines
   for (const WeightedPath& path : paths) {
     costs.push_back(path.cost);
-    if (!path.points.empty()) lines.push_back({path.points, false, path.cost});
+    if (path.points.empty()) continue;
+    lines.push_back(path);
+    cost_of.push_back(path.cost);
   }
   if (!request.output.empty() && !lines.empty()) {
+    drawing.values = cost_of;
     write_lines(request.output, scene.surface.mesh(), lines, "cost", "", drawing);
   }
   if (talk.json) {

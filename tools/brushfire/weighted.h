@@ -19,6 +19,6 @@ struct WeightedRequest {
 };
 
 int weighted_distance(const WeightedRequest& request, const Talk& talk);
-int weighted_path(const WeightedRequest& request, const LinesOptions& drawing, const Talk& talk);
+int weighted_path(const WeightedRequest& request, LinesOptions drawing, const Talk& talk);
 
 }  // namespace brushfire::tool

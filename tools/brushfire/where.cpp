@@ -234,7 +234,7 @@ void PlaceFinder::tell(const Talk& talk) const {
   // Positions that are read from text and lie on the surface miss it by the rounding of their last digit.
   constexpr double kRounding = 1e-6;
   const Box& box = mesh_.bounds();
-  const double size = norm(box.high - box.low);
+  const double size = mesh_.unit() * norm((1 / mesh_.unit()) * (box.high - box.low));  // squares of it may vanish
   std::size_t moved = 0;
   const Snapped* farthest = nullptr;
   for (const Snapped& s : snapped_) {

@@ -226,7 +226,7 @@ ThreadTeam::ThreadTeam(unsigned threads, Idle idle) : state_(std::make_unique<St
     for (unsigned worker = 1; worker < thread_count(threads); ++worker) {
       s.helpers.emplace_back([&s, worker] { s.help(worker); });
     }
-  } catch (const std::system_error&) {
+  } catch (const std::system_error&) {  // NOLINT(bugprone-empty-catch)
     // The system gives no more threads: those that there are do the work.
   }
 }
@@ -234,7 +234,7 @@ ThreadTeam::ThreadTeam(unsigned threads, Idle idle) : state_(std::make_unique<St
 ThreadTeam::~ThreadTeam() {
   if (state_->is_bereft()) {
     // Whoever closes a condition variable waits for those who wait for it, and these never wake: left as it is.
-    static_cast<void>(state_.release());
+    static_cast<void>(state_.release());  // NOLINT(bugprone-unused-return-value)
     return;
   }
   state_->quit.store(true);
@@ -285,6 +285,6 @@ void ThreadTeam::run(std::size_t count, const Body& body, const CancelToken* can
 void parallel_for(std::size_t count, unsigned threads, const ThreadTeam::Body& body, const CancelToken* cancel) {
   const std::size_t useful = std::max<std::size_t>(1, std::min<std::size_t>(thread_count(threads), count));
   ThreadTeam(static_cast<unsigned>(useful)).run(count, body, cancel);
-}
+}  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): a forked child leaves its team behind
 
 }  // namespace brushfire

@@ -10,7 +10,7 @@
 
 namespace brushfire {
 
-// The threads that a caller's number means: 0 is one per processor; at least 1, and 1 where there are no threads.
+// How many threads a caller's number stands for: 0 means one per processor; 1 where the platform has no threads.
 unsigned thread_count(unsigned requested) noexcept;
 
 // A fixed number of threads, the calling one among them, for one loop after the other. Where the platform has no
@@ -20,7 +20,7 @@ class ThreadTeam {
  public:
   // worker < size() numbers the thread, index the piece of work.
   using Body = std::function<void(unsigned worker, std::size_t index)>;
-  // What threads do that have nothing to do. Sleeps: they block. Spins: for the first 50 us they look
+  // What threads do while they wait for work. Sleeps: they block. Spins: for the first 50 us they look
   // for the next loop again and again, for loops of microseconds in quick succession. (Yielding instead is cheap on an
   // idle machine; on a loaded one it gives away milliseconds at a time.)
   enum class Idle : std::uint8_t { Sleeps, Spins };

@@ -1,9 +1,9 @@
 // The scalars and small vectors that every floor uses.
 #pragma once
 
-#include <array>
+#include <array>  // IWYU pragma: export
 #include <cmath>
-#include <cstdint>
+#include <cstdint>  // IWYU pragma: export
 #include <limits>
 
 namespace brushfire {

@@ -20,7 +20,7 @@ unsigned char* compress_for_stb(unsigned char* data, int size, int* out_size, in
   constexpr int kBestUsefulLevel = 6;
   if (deflateInit(&z, std::min(quality, kBestUsefulLevel)) != Z_OK) return nullptr;
   const uLong bound = deflateBound(&z, static_cast<uLong>(size));
-  auto* out = static_cast<unsigned char*>(std::malloc(bound));
+  auto* out = static_cast<unsigned char*>(std::malloc(bound));  // NOLINT(cppcoreguidelines-no-malloc): stb frees it
   const brushfire::CancelToken* const cancel = brushfire::current_cancel_token();
   constexpr int kPiece = 1 << 20;  // some ten milliseconds
   z.next_in = data;
@@ -37,7 +37,7 @@ unsigned char* compress_for_stb(unsigned char* data, int size, int* out_size, in
   *out_size = static_cast<int>(z.total_out);
   deflateEnd(&z);
   if (status == Z_STREAM_END) return out;
-  std::free(out);
+  std::free(out);  // NOLINT(cppcoreguidelines-no-malloc)
   return nullptr;
 }
 }  // namespace

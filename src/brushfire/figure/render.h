@@ -6,6 +6,7 @@
 #include <brushfire/figure/image.h>
 #include <brushfire/mesh/mesh.h>
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>

@@ -27,6 +27,7 @@ std::vector<unsigned char> read_file(const std::string& name) {
   std::vector<unsigned char> bytes;
   if (!file) return bytes;
   std::array<unsigned char, 65536> buffer;
+  // NOLINTNEXTLINE(clang-analyzer-unix.Stream): at the end it reads nothing, which ends the loop
   while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
     bytes.insert(bytes.end(), buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(n));
   }

@@ -23,7 +23,7 @@ namespace {
 
 // Paths of the process's own descriptors: the shell's <(command) is one, and someone writes to it.
 bool is_descriptor_path(const std::string& path) {
-  return path.rfind("/dev/fd/", 0) == 0 || path.rfind("/proc/self/fd/", 0) == 0 || path == "/dev/stdin";
+  return path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/") || path == "/dev/stdin";
 }
 
 // Before it is opened: opening alone may do something to a device.

@@ -48,7 +48,7 @@ class Bytes {
   }
 
   std::string name(const char* what) {
-    const auto size = static_cast<std::size_t>(count(int32(what), 1, what));
+    const std::size_t size = count(int32(what), 1, what);
     const std::string text(take(size, what), size);
     return text.substr(0, text.find('\0'));
   }

@@ -227,7 +227,7 @@ MeshParts read_gifti(const Input& input) {
   }
   if (points == nullptr) input.fail("has no array of points: no surface");
   if (triangles == nullptr) input.fail("has no array of triangles: no surface");
-  if (others) parts.remarks.push_back("several surfaces, of which the first was read");
+  if (others) parts.remarks.emplace_back("several surfaces, of which the first was read");
   parts.structure = file.structure;
   const bool are_columns = has_three_rows_only(*points) || has_three_rows_only(*triangles);
   const std::vector<double> xyz = triples_of(input, *points, are_columns);

@@ -134,7 +134,7 @@ class GltfReader {
                                " left out");
     if (primitives_ > 1)
       parts_.remarks.push_back(std::to_string(primitives_) + " primitives merged, their vertices one after the other");
-    parts_.remarks.push_back("glTF stores coordinates as 32-bit floats");
+    parts_.remarks.emplace_back("glTF stores coordinates as 32-bit floats");
     return std::move(parts_);
   }
 
@@ -460,7 +460,7 @@ class GltfReader {
       if (b.index == index) return b.input.bytes();
     }
     const auto& uri = buffer.at("uri").get_ref<const std::string&>();
-    if (uri.rfind("data:", 0) != 0) {
+    if (!uri.starts_with("data:")) {
       buffers_.push_back({index, input_->companion(decode_percent(uri), 1), nullptr});
       return buffers_.back().input.bytes();
     }

@@ -135,6 +135,7 @@ bool is_medit_binary(std::string_view bytes) {
   if (bytes.size() < 8) return false;
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     const auto version = load<std::int32_t>(bytes.data() + 4, order);
+    // NOLINTNEXTLINE(bugprone-suspicious-stringview-data-usage): its size was looked at
     if (load<std::int32_t>(bytes.data(), order) == 1 && version >= 1 && version <= 4) return true;
   }
   return false;

@@ -119,7 +119,7 @@ NpyHeader read_header(const Input& input) {
   const std::string_view bytes = input.bytes();
   if (bytes.substr(0, kMagic.size()) != kMagic) input.fail_byte(0, "the file does not start like a .npy file");
   if (bytes.size() < 10) input.fail_byte(bytes.size(), "the file ends within the header");
-  const int version = bytes[6];
+  const int version = static_cast<unsigned char>(bytes[6]);
   if (version < 1 || version > 3) input.fail_byte(6, "version " + std::to_string(version) + " is not known");
   NpyHeader header;
   std::size_t length = 0;

@@ -17,7 +17,7 @@ class ObjReader {
       if (text_.to_word_on_line()) read_line();
       if (!text_.next_line()) break;
     }
-    if (is_planar_) parts_.remarks.push_back(kPlanarRemark);
+    if (is_planar_) parts_.remarks.emplace_back(kPlanarRemark);
     if (lines_ != 0)
       parts_.remarks.push_back(counted(lines_, "line or point element", "line and point elements") + " left out");
     return std::move(parts_);

@@ -54,7 +54,7 @@ MeshParts read_text(TextCursor& text) {
   if (text.to_word_on_line()) text.integer("the number of edges");
 
   const bool is_planar = vertices != 0 && has_two_coordinates(text);
-  if (is_planar) parts.remarks.push_back(kPlanarRemark);
+  if (is_planar) parts.remarks.emplace_back(kPlanarRemark);
   parts.positions.reserve(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
     parts.positions.push_back(is_planar ? planar_point(text) : text.point());

@@ -94,8 +94,8 @@ Grid read_ascii(const std::string& path) {
   const double size = value("cellsize", 1), dx = value("dx", size), dy = value("dy", size);
   if (!(dx > 0 && dy > 0)) words.fail("the cells have no size");
   // Of the corner of the lowest row's first cell, or of its middle.
-  const double x = header.count("xllcenter") != 0 ? header["xllcenter"] : value("xllcorner", 0) + 0.5 * dx;
-  const double y = header.count("yllcenter") != 0 ? header["yllcenter"] : value("yllcorner", 0) + 0.5 * dy;
+  const double x = header.contains("xllcenter") ? header["xllcenter"] : value("xllcorner", 0) + 0.5 * dx;
+  const double y = header.contains("yllcenter") ? header["yllcenter"] : value("yllcorner", 0) + 0.5 * dy;
   grid.placement = {{x, y + dy * (grid.rows - 1)}, {dx, 0}, {0, -dy}};
   const double no_data = value("nodata_value", -9999);
   const std::size_t count = std::size_t{grid.columns} * grid.rows;

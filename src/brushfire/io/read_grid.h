@@ -1,6 +1,7 @@
 // read_grid(): heights on a grid, from the files that hold them.
 #pragma once
 
+#include <brushfire/core/types.h>
 #include <brushfire/mesh/terrain.h>
 
 #include <string>

@@ -25,10 +25,10 @@ struct LoadedLines {
 };
 
 // Reads the file at `path`; "-" is standard input. By content, or by extension:
-//   csv   columns line, x, y, z and face, w0, w1, w2 (one of the groups at least), in any order; others by
-//   write_lines() json  what write_lines() writes obj   v and l (and p) records         ply   vertices and edge
-//   elements: edges that follow one another make a line vtp   the Lines of VTK XML PolyData; the first scalar of the
-//   cells is the value
+//   csv   columns line, x, y, z and face, w0, w1, w2 (one group at least), in any order; or as write_lines() writes
+//   json  what write_lines() writes               obj   v and l (and p) records
+//   ply   vertices and edge elements; edges that follow one another make a line
+//   vtp   the Lines of VTK XML PolyData; the first scalar of the cells is the value
 // csv and json have points on the mesh, all have positions. Throws as read_mesh() does.
 LoadedLines read_lines(const std::string& path);
 LoadedLines read_lines(std::span<const std::byte> content, const std::string& name);

@@ -1,4 +1,4 @@
-// read_mesh(): a triangle mesh from any file people have, with the file's vertex order, indices and precision.
+// read_mesh(): a triangle mesh from a file of any common format, with the file's vertex order, indices and precision.
 #pragma once
 
 #include <brushfire/mesh/mesh.h>

@@ -1,4 +1,4 @@
-// Files that are being written, for who has to end the process in their midst.
+// Files that are being written, for programs that have to end in the middle of it.
 #pragma once
 
 namespace brushfire {

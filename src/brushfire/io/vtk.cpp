@@ -335,6 +335,7 @@ class VtkReader {
         fail(std::to_string(n) + " numbers are promised, but only " + std::to_string(text_.left()) + " bytes follow");
       }
       values.resize(n);
+      // NOLINTNEXTLINE(bugprone-suspicious-stringview-data-usage): as long as n numbers are
       load_numbers(type, raw.data(), std::endian::big, n, values.data());
       return values;
     }

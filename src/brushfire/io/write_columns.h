@@ -30,9 +30,9 @@ struct Columns {
 // Writes the columns; the extension decides (or `format`, an extension without dot, for names that have none):
 //   npy   float64, one row for each vertex or face of the mesh, NaN where there is none
 //   csv   vertex,NAMES... or face,NAMES...: the rows that there are, in full precision
-//   json  {"schema": 1, "vertices" or "faces": how many the mesh has, "vertex" or "face": [...], NAME: [...], ...};
-//   what
-//         is not finite is null
+//   json  {"schema": 1, "vertices" or "faces": how many the mesh has, "vertex" or "face": [...], NAME: [...],
+//         ...};
+//         what is not finite is null
 //   ply   binary: the mesh with the columns as double properties, texture coordinates as texture_u and texture_v
 //   vtk   legacy PolyData, binary: the columns as scalars, vectors or texture coordinates
 //   obj   text: the mesh with texture coordinates; of nothing but those

@@ -19,12 +19,12 @@ struct FieldView {
   // Where 0, values are written as NaN (null in json) and labels as -1: outside a mask. [vertex_count] or empty.
   std::span<const std::uint8_t> mask = {};
   std::string structure = "";  // LoadedMesh::structure, which GIFTI keeps
-  // Not 0: infinite only because the run was over before it came there, for json. [vertex_count] or empty.
+  // Not 0: infinite only because the run ended before it got there, for json. [vertex_count] or empty.
   std::span<const std::uint8_t> not_visited = {};
 };
 
-// Whether write_field() knows this format, for those who want to say so before they compute what is to be written.
-// Throws Error(UnknownFormat) where it does not. Arguments as there.
+// Throws the Error(UnknownFormat) that write_field() would: for finding out before anything is computed. Arguments as
+// there.
 void check_field_format(const std::string& path, const std::string& format = "");
 
 // Writes mesh and field; the extension decides (or `format`, an extension without dot, for names that have none):
@@ -36,8 +36,8 @@ void check_field_format(const std::string& path, const std::string& format = "")
 //   curv  FreeSurfer curvature file: float32, values only
 //   npy   values as float64, or the labels as int32 where there are no values
 //   csv   vertex,NAME[,LABEL_NAME]; text that reads back as the same doubles; inf
-//   json  {"schema": 1, ...}; what is not finite is null, and the numbers of vertices not visited are a list of their
-//   own
+//   json  {"schema": 1, ...}; what is not finite is null, and the vertices that were not visited are listed by
+//         number
 // Colours of an empty mesh, a constant field or an unreachable vertex are defined too: dark, dark, grey.
 //
 // The file appears under its name complete or not at all; "-" is standard output and needs `format`. Throws

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/io/detail/drawing.h>
 #include <brushfire/io/detail/input.h>
 #include <brushfire/io/detail/names.h>
 #include <brushfire/io/detail/output.h>
@@ -15,22 +16,7 @@
 namespace brushfire {
 namespace {
 
-using detail::Output;
-
-// What every writer is given: the curves with their positions.
-struct Drawing {
-  const Mesh& mesh;
-  std::span<const SurfaceLine> lines;
-  const std::string& value_name;
-  const LinesOptions& options;
-  std::vector<std::vector<Vec3>> positions;  // [lines][points]
-
-  std::size_t point_count() const {
-    std::size_t n = 0;
-    for (const SurfaceLine& l : lines) n += l.points.size();
-    return n;
-  }
-};
+using detail::Drawing, detail::Output, detail::write_svg, detail::write_dxf;
 
 void write_point(Output& out, const SurfacePoint& p, const Vec3* position) {
   out.write("{\"face\": ");
@@ -47,10 +33,10 @@ void write_point(Output& out, const SurfacePoint& p, const Vec3* position) {
 }
 
 void write_json_line(Output& out, const Drawing& d, std::size_t i, const char* indent) {
-  const SurfaceLine& line = d.lines[i];
+  const SurfacePath& line = d.lines[i];
   out.write("\"" + d.value_name + "\": ");
-  if (std::isfinite(line.value)) {
-    out.number(line.value);
+  if (std::isfinite(d.value(i))) {
+    out.number(d.value(i));
   } else {
     out.write("null");
   }
@@ -91,7 +77,7 @@ void write_obj(Output& out, const Drawing& d) {
       out.write('\n');
     }
   }
-  for (const SurfaceLine& line : d.lines) {
+  for (const SurfacePath& line : d.lines) {
     out.write(line.points.size() > 1 ? "l" : "p");
     for (std::size_t k = 0; k < line.points.size(); ++k) {
       out.write(' ');
@@ -106,14 +92,14 @@ void write_obj(Output& out, const Drawing& d) {
   }
 }
 
-std::size_t segment_count(const SurfaceLine& line) {
+std::size_t segment_count(const SurfacePath& line) {
   const std::size_t n = line.points.size();
   return n < 2 ? 0 : line.closed ? n : n - 1;
 }
 
 void write_ply(Output& out, const Drawing& d) {
   std::size_t segments = 0, first = 0;
-  for (const SurfaceLine& line : d.lines) segments += segment_count(line);
+  for (const SurfacePath& line : d.lines) segments += segment_count(line);
   out.write("ply\nformat ascii 1.0\nelement vertex " + std::to_string(d.point_count()) +
             "\nproperty double x\nproperty double y\nproperty double z\nelement edge " + std::to_string(segments) +
             "\nproperty int vertex1\nproperty int vertex2\nend_header\n");
@@ -123,7 +109,7 @@ void write_ply(Output& out, const Drawing& d) {
       out.write('\n');
     }
   }
-  for (const SurfaceLine& line : d.lines) {
+  for (const SurfacePath& line : d.lines) {
     const std::size_t n = line.points.size();
     for (std::size_t k = 0; k < segment_count(line); ++k) {
       out.number(static_cast<std::int64_t>(first + k));
@@ -156,7 +142,7 @@ void write_vtp(Output& out, const Drawing& d) {
   }
   out.write(std::string(close) + "</Points>\n<PointData>\n");
   open_array(out, "Int64", "face");
-  for (const SurfaceLine& line : d.lines) {
+  for (const SurfacePath& line : d.lines) {
     for (const SurfacePoint& p : line.points) {
       out.number(p.face);
       out.write('\n');
@@ -164,14 +150,14 @@ void write_vtp(Output& out, const Drawing& d) {
   }
   out.write(std::string(close) + "</PointData>\n<CellData Scalars=\"" + d.value_name + "\">\n");
   open_array(out, "Float64", d.value_name);
-  for (const SurfaceLine& line : d.lines) {
-    out.number(line.value);
+  for (std::size_t i = 0; i < d.lines.size(); ++i) {
+    out.number(d.value(i));
     out.write('\n');
   }
   out.write(std::string(close) + "</CellData>\n<Lines>\n");
   open_array(out, "Int64", "connectivity");
   std::size_t first = 0;
-  for (const SurfaceLine& line : d.lines) {
+  for (const SurfacePath& line : d.lines) {
     for (std::size_t k = 0; k < line.points.size(); ++k) {
       out.number(static_cast<std::int64_t>(first + k));
       out.write(' ');
@@ -183,7 +169,7 @@ void write_vtp(Output& out, const Drawing& d) {
   out.write(close);
   open_array(out, "Int64", "offsets");
   std::size_t end = 0;
-  for (const SurfaceLine& line : d.lines) {
+  for (const SurfacePath& line : d.lines) {
     end += line.points.size() + (line.closed && !line.points.empty() ? 1 : 0);
     out.number(static_cast<std::int64_t>(end));
     out.write('\n');
@@ -199,7 +185,7 @@ void write_csv(Output& out, const Drawing& d) {
       const Vec3& p = d.positions[i][k];
       out.number(static_cast<std::int64_t>(i));
       out.write(',');
-      out.number(d.lines[i].value);
+      out.number(d.value(i));
       out.write(',');
       out.number(static_cast<std::int64_t>(k));
       out.write(',');
@@ -211,203 +197,6 @@ void write_csv(Output& out, const Drawing& d) {
       out.write(d.lines[i].closed ? ",1\n" : ",0\n");
     }
   }
-}
-
-// Millimetres on paper: to the right and down.
-using PaperPoint = std::array<double, 2>;
-
-struct Box2 {
-  PaperPoint low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
-  void add(const PaperPoint& p) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  }
-};
-
-double along(const Vec3& p, std::size_t axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-
-// An orthographic view: which way is right, and which way is up.
-struct View {
-  const char* name;
-  Vec3 right, up;
-};
-constexpr View kViews[]{{"front", {1, 0, 0}, {0, 0, 1}}, {"back", {-1, 0, 0}, {0, 0, 1}},
-                        {"left", {0, -1, 0}, {0, 0, 1}}, {"right", {0, 1, 0}, {0, 0, 1}},
-                        {"top", {1, 0, 0}, {0, 1, 0}},   {"bottom", {1, 0, 0}, {0, -1, 0}}};
-
-// Along the shortest side of the box around the curves; of equal ones from above.
-const View& flattest_view(const Drawing& d) {
-  Box box;
-  for (const auto& positions : d.positions) {
-    for (const Vec3& p : positions) {
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-    }
-  }
-  const auto side = [&](std::size_t axis) { return along(box.high, axis) - along(box.low, axis); };
-  std::size_t thin = 2;
-  if (d.point_count() != 0) {
-    for (const std::size_t axis : {std::size_t{1}, std::size_t{0}}) {
-      if (side(axis) < side(thin)) thin = axis;
-    }
-  }
-  return kViews[thin == 2 ? 4 : thin == 1 ? 0 : 3];
-}
-
-const View& view_named(const std::string& name) {
-  std::string known;
-  for (const View& v : kViews) {
-    if (v.name == name) return v;
-    known += std::string(known.empty() ? "" : ", ") + v.name;
-  }
-  throw Error(ErrorCode::InvalidArgument, detail::quote(name) + " is no view (known: " + known + ")");
-}
-
-// Edges of the mesh that bound it: those of one face, and, seen along `towards`, those between faces that look towards
-// the viewer and away. Without `towards` the former only.
-std::vector<std::array<Vec3, 2>> outline(const Mesh& mesh, const Vec3* towards) {
-  const auto opposite = mesh.opposite();
-  const auto positions = mesh.positions();
-  const auto looks_here = [&](Index h) {
-    const Face& f = mesh.faces()[Mesh::face_of(h)];
-    return dot(cross(positions[f[1]] - positions[f[0]], positions[f[2]] - positions[f[0]]), *towards) > 0;
-  };
-  std::vector<std::array<Vec3, 2>> edges;
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (!mesh.is_face_usable(Mesh::face_of(h))) continue;
-    const Index g = opposite[h];
-    const bool is_boundary = g == h;
-    const bool is_mirrored = mesh.from(g) == mesh.from(h);  // the other face is oriented the other way round
-    const bool is_silhouette = towards != nullptr && g > h && looks_here(h) != (looks_here(g) != is_mirrored);
-    if (is_boundary || is_silhouette) edges.push_back({positions[mesh.from(h)], positions[mesh.to(h)]});
-  }
-  return edges;
-}
-
-// Real size: one unit of the drawing is a millimetre.
-void write_svg(Output& out, const Drawing& d) {
-  const View& view = d.options.view.empty() ? flattest_view(d) : view_named(d.options.view);
-  const double scale = d.options.millimetres;
-  // 0.0 - : no minus zero.
-  const auto on_paper = [&](const Vec3& p) -> PaperPoint {
-    return {scale * dot(p, view.right), 0.0 - scale * dot(p, view.up)};
-  };
-  std::vector<std::array<PaperPoint, 2>> edges;
-  Box2 box;
-  if (d.options.outline) {
-    const Vec3 towards = cross(view.right, view.up);
-    for (const auto& [a, b] : outline(d.mesh, &towards)) {
-      edges.push_back({on_paper(a), on_paper(b)});
-      for (const PaperPoint& p : edges.back()) box.add(p);
-    }
-  }
-  for (const auto& positions : d.positions) {
-    for (const Vec3& p : positions) box.add(on_paper(p));
-  }
-  if (!(box.low[0] <= box.high[0])) box = {{0, 0}, {0, 0}};
-  const double width = box.high[0] - box.low[0], height = box.high[1] - box.low[1];
-  const double stroke = 0.002 * std::max(width, height), pad = 2 * stroke;
-  out.write("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"");
-  out.number(width + 2 * pad);
-  out.write("mm\" height=\"");
-  out.number(height + 2 * pad);
-  out.write("mm\" viewBox=\"");
-  out.numbers({box.low[0] - pad, box.low[1] - pad, width + 2 * pad, height + 2 * pad}, ' ');
-  out.write("\" fill=\"none\" stroke=\"black\" stroke-linejoin=\"round\" stroke-width=\"");
-  out.number(stroke);
-  out.write("\">\n");
-  const auto move_to = [&](char command, const PaperPoint& p) {
-    out.write(command);
-    out.numbers({p[0], p[1]}, ' ');
-  };
-  if (!edges.empty()) {
-    out.write("<path id=\"outline\" stroke=\"gray\" d=\"");
-    for (const auto& [a, b] : edges) {
-      move_to('M', a);
-      move_to('L', b);
-    }
-    out.write("\"/>\n");
-  }
-  for (std::size_t i = 0; i < d.lines.size(); ++i) {
-    if (d.positions[i].empty()) continue;
-    out.write("<path data-" + d.value_name + "=\"");
-    out.number(d.lines[i].value);
-    out.write("\" d=\"");
-    for (std::size_t k = 0; k < d.positions[i].size(); ++k) move_to(k == 0 ? 'M' : 'L', on_paper(d.positions[i][k]));
-    out.write(d.lines[i].closed ? "Z\"/>\n" : "\"/>\n");
-  }
-  out.write("</svg>\n");
-}
-
-// DXF of release 12, which every CAD program reads: lines of a group code and a value.
-class Dxf {
- public:
-  explicit Dxf(Output& out) : out_(&out) {}
-  void group(int code, std::string_view value) {
-    out_->number(static_cast<std::int64_t>(code));
-    out_->write("\n");
-    out_->write(value);
-    out_->write("\n");
-  }
-  void number(int code, double value) {
-    out_->number(static_cast<std::int64_t>(code));
-    out_->write("\n");
-    out_->number(value);
-    out_->write("\n");
-  }
-  void point(const Vec3& p) {
-    number(10, p.x);
-    number(20, p.y);
-    number(30, p.z);
-  }
-  void polyline(const std::string& layer, std::span<const Vec3> points, bool closed) {
-    constexpr const char *kSpatial = "8", *kSpatialClosed = "9", *kSpatialVertex = "32";
-    group(0, "POLYLINE");
-    group(8, layer);
-    group(66, "1");  // vertices follow
-    point({0, 0, 0});
-    group(70, closed ? kSpatialClosed : kSpatial);
-    for (const Vec3& p : points) {
-      group(0, "VERTEX");
-      group(8, layer);
-      point(p);
-      group(70, kSpatialVertex);
-    }
-    group(0, "SEQEND");
-    group(8, layer);
-  }
-
- private:
-  Output* out_;
-};
-
-void write_dxf(Output& out, const Drawing& d) {
-  Dxf dxf(out);
-  for (const char* text : {"SECTION", "HEADER"}) dxf.group(text[0] == 'S' ? 0 : 2, text);
-  dxf.group(9, "$ACADVER");
-  dxf.group(1, "AC1009");
-  dxf.group(9, "$INSUNITS");
-  dxf.group(70, "4");  // millimetres
-  dxf.group(0, "ENDSEC");
-  for (const char* text : {"SECTION", "ENTITIES"}) dxf.group(text[0] == 'S' ? 0 : 2, text);
-  const double scale = d.options.millimetres;
-  if (d.options.outline) {
-    for (const auto& [a, b] : outline(d.mesh, nullptr)) {
-      const Vec3 ends[]{scale * a, scale * b};
-      dxf.polyline("outline", ends, false);
-    }
-  }
-  std::vector<Vec3> points;
-  for (std::size_t i = 0; i < d.lines.size(); ++i) {
-    if (d.positions[i].empty()) continue;
-    points.clear();
-    for (const Vec3& p : d.positions[i]) points.push_back(scale * p);
-    dxf.polyline(d.value_name, points, d.lines[i].closed);
-  }
-  dxf.group(0, "ENDSEC");
-  dxf.group(0, "EOF");
 }
 
 struct Writer {
@@ -444,7 +233,7 @@ std::vector<FileFormat> lines_written() {
 
 void check_lines_format(const std::string& path, const std::string& format, const LinesOptions& options) {
   writer_for(path, format);
-  if (!options.view.empty()) view_named(options.view);
+  if (!options.view.empty()) detail::check_view(options.view);
   if (!(options.millimetres > 0) || options.millimetres == kInfinity) {
     throw Error(ErrorCode::InvalidArgument, "a unit of the mesh must be some millimetres long");
   }
@@ -452,9 +241,13 @@ void check_lines_format(const std::string& path, const std::string& format, cons
 
 namespace {
 
-void write_lines_to(const detail::Destination& to, const Mesh& mesh, std::span<const SurfaceLine> lines,
+void write_lines_to(const detail::Destination& to, const Mesh& mesh, std::span<const SurfacePath> lines,
                     const std::string& value_name, const std::string& format, const LinesOptions& options) {
   check_lines_format(to.name, format, options);
+  if (!options.values.empty() && options.values.size() != lines.size()) {
+    throw Error(ErrorCode::InvalidArgument, std::to_string(options.values.size()) + " values for " +
+                                                std::to_string(lines.size()) + " curves: one each is needed");
+  }
   const Writer& writer = writer_for(to.name, format);
   if (writer.needs_positions && !mesh.has_positions()) {
     throw Error(ErrorCode::InvalidArgument, to.name + ": a mesh without positions has no place in ." +
@@ -463,7 +256,7 @@ void write_lines_to(const detail::Destination& to, const Mesh& mesh, std::span<c
   Drawing drawing{mesh, lines, value_name, options, {}};
   Poll poll;
   if (mesh.has_positions()) {
-    for (const SurfaceLine& line : lines) {
+    for (const SurfacePath& line : lines) {
       auto& positions = drawing.positions.emplace_back();
       for (const SurfacePoint& p : line.points) {
         poll();
@@ -478,12 +271,12 @@ void write_lines_to(const detail::Destination& to, const Mesh& mesh, std::span<c
 
 }  // namespace
 
-void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfaceLine> lines,
+void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfacePath> lines,
                  const std::string& value_name, const std::string& format, const LinesOptions& options) {
   write_lines_to({path}, mesh, lines, value_name, format, options);
 }
 
-std::vector<std::uint8_t> encode_lines(const Mesh& mesh, std::span<const SurfaceLine> lines,
+std::vector<std::uint8_t> encode_lines(const Mesh& mesh, std::span<const SurfacePath> lines,
                                        const std::string& value_name, const std::string& format,
                                        const LinesOptions& options) {
   std::vector<std::uint8_t> bytes;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/mesh/surface_point.h>
+#include <brushfire/mesh/surface_path.h>
 
 #include <cstdint>
 #include <span>
@@ -11,19 +11,14 @@
 
 namespace brushfire {
 
-// A curve and one number that belongs to it.
-struct SurfaceLine {
-  std::vector<SurfacePoint> points;
-  bool closed = false;
-  double value = 0;  // a path's length, an isoline's level
-};
-
-// For drawings that are cut or milled: svg and dxf.
 struct LinesOptions {
+  // Of drawings that are cut or milled, svg and dxf.
   double millimetres = 1;  // how long one unit of the mesh is
-  std::string view =
-      "";                // svg: front, back, left, right, top or bottom; "": along the shortest side of the curves' box
-  bool outline = false;  // the mesh's boundary, and in svg its silhouette, too
+  std::string view = "";   // svg: front, back, left, right, top, bottom; "": along the shortest side of the curves
+  bool outline = false;    // the mesh's boundary, and in svg its silhouette, too
+
+  // One number for each curve, that of VALUE_NAME: an isoline's level, a path's cost. Empty: the curves' lengths.
+  std::span<const double> values = {};
 };
 
 // Writes the curves; the extension decides (or `format`, an extension without dot, for names that have none):
@@ -38,11 +33,11 @@ struct LinesOptions {
 // read_lines() reads all but svg and dxf back.
 // A mesh without positions has json only, without "position". The file appears complete or not at all; "-" is standard
 // output and needs `format`. Throws Error(FileNotWritable), Error(UnknownFormat), Error(InvalidArgument).
-void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfaceLine> lines,
+void write_lines(const std::string& path, const Mesh& mesh, std::span<const SurfacePath> lines,
                  const std::string& value_name, const std::string& format = "", const LinesOptions& options = {});
 
 // The file's bytes in place of the file; `format` is an extension without dot.
-std::vector<std::uint8_t> encode_lines(const Mesh& mesh, std::span<const SurfaceLine> lines,
+std::vector<std::uint8_t> encode_lines(const Mesh& mesh, std::span<const SurfacePath> lines,
                                        const std::string& value_name, const std::string& format,
                                        const LinesOptions& options = {});
 

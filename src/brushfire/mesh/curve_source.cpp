@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,6 +18,9 @@ namespace {
 // Offsets that were computed may differ by this share more than the segment is long; they are then taken to differ by
 // its length.
 constexpr double kSlopeRounding = 1e-9;
+// And they are known no better than to this share of themselves: beside a large offset a short segment counts for
+// nothing.
+constexpr double kOffsetRounding = 4 * std::numeric_limits<double>::epsilon();
 
 std::string named(Index first, Index second) {
   return "places " + std::to_string(first) + " and " + std::to_string(second) + " of a curve ";
@@ -40,6 +44,7 @@ class Splitter {
     }
     const auto lower = [](const CurvePlace& a, const CurvePlace& b) { return a.offset < b.offset; };
     result_.least_offset = std::min_element(result_.places.begin(), result_.places.end(), lower)->offset;
+    add_inside();
     return std::move(result_);
   }
 
@@ -55,6 +60,23 @@ class Splitter {
       throw Error(ErrorCode::InvalidArgument, "offset " + number_as_text(curve_.offsets[i]) + " of place " +
                                                   std::to_string(i) + " of a curve is not finite");
     }
+  }
+
+  void add_inside() {
+    if (curve_.inside.empty()) return;
+    for (const Index f : curve_.inside) {
+      if (f < mesh_.face_count()) continue;
+      throw Error(ErrorCode::IndexOutOfRange, "face " + std::to_string(f) + " inside of a curve does not exist: the " +
+                                                  "mesh has " + std::to_string(mesh_.face_count()));
+    }
+    const auto changes = [&](const CurvePlace& p) { return p.offset != result_.least_offset; };
+    if (std::any_of(result_.places.begin(), result_.places.end(), changes)) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "a curve with faces inside has offsets that change: what would these be?");
+    }
+    result_.inside = curve_.inside;
+    std::sort(result_.inside.begin(), result_.inside.end());
+    result_.inside.erase(std::unique(result_.inside.begin(), result_.inside.end()), result_.inside.end());
   }
 
   double offset(Index number) const { return curve_.offsets.empty() ? 0 : curve_.offsets[number]; }
@@ -82,13 +104,19 @@ class Splitter {
     return common_face(mesh_, a, b, b.face);
   }
 
-  // From the last place to this one, which becomes the last unless it is the same.
+  // From the last place to this one, which becomes the last unless it is the same. (Two places without a length between
+  // them may be different: ends of an edge of length 0.)
   void step_to(const PointLocation& at, Index number) {
     const auto last = static_cast<Index>(result_.places.size() - 1);
     const std::optional<CurveSegment> segment = between(result_.places[last], at, number);
-    if (!segment) return;
+    if (!segment && are_one(result_.places[last].at, at)) return;
     result_.places.push_back({at, offset(number), kNoIndex, kNoIndex, number});
-    join(*segment, last, last + 1);
+    if (segment) join(*segment, last, last + 1);
+  }
+
+  bool are_one(const PointLocation& a, const PointLocation& b) const {
+    const auto weights = weights_in(mesh_, b, a.face);
+    return weights && *weights == a.weights;
   }
 
   void close(Index first) {
@@ -98,11 +126,12 @@ class Splitter {
       join(*segment, last, first);
       return;
     }
-    // The first place was repeated: they are one.
+    if (!are_one(result_.places[last].at, begin.at)) return;
+    // The first place was repeated.
     const Index before = result_.places[last].before;
     result_.places.pop_back();
     result_.places[first].before = before;
-    result_.segments[before].to_place = first;
+    if (before != kNoIndex) result_.segments[before].to_place = first;
   }
 
   void join(CurveSegment segment, Index from, Index to) {
@@ -128,7 +157,9 @@ class Splitter {
     s.from_offset = from.offset;
     s.to_offset = offset(number);
     for (std::size_t k = 0; k < 3; ++k) s.along_edge = s.along_edge || (s.from[k] == 0 && s.to[k] == 0);
-    if (!(std::abs(s.to_offset - s.from_offset) <= s.length * (1 + kSlopeRounding))) {
+    const double rounding =
+        kSlopeRounding * s.length + kOffsetRounding * std::max(std::abs(s.from_offset), std::abs(s.to_offset));
+    if (!(std::abs(s.to_offset - s.from_offset) <= s.length + rounding)) {
       throw Error(ErrorCode::InvalidArgument, named(from.number, number) + "are " + number_as_text(s.length) +
                                                   " apart, and their offsets " + number_as_text(s.from_offset) +
                                                   " and " + number_as_text(s.to_offset) + " differ by more");
@@ -143,6 +174,14 @@ class Splitter {
 };
 
 }  // namespace
+
+bool LocatedCurve::holds(const Mesh& mesh, const PointLocation& point) const {
+  if (inside.empty()) return false;
+  const auto is_inside = [&](Index f) { return std::binary_search(inside.begin(), inside.end(), f); };
+  if (point.on == PointLocation::On::Interior) return is_inside(point.face);
+  const std::vector<Index> faces = faces_at(mesh, point);
+  return std::any_of(faces.begin(), faces.end(), is_inside);
+}
 
 LocatedCurve locate(const Mesh& mesh, const CurveSource& curve) { return Splitter(mesh, curve)(); }
 

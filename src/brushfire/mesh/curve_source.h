@@ -2,7 +2,7 @@
 #pragma once
 
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/mesh/surface_point.h>
+#include <brushfire/mesh/surface_point.h>  // IWYU pragma: export
 
 #include <array>
 #include <span>
@@ -20,15 +20,19 @@ struct CurveSource {
   // Values that the front starts with at the places, linear in between; in the mesh's units. [places] (those of places
   // that are nowhere are not looked at), or empty: 0 everywhere.
   std::vector<double> offsets = {};
+  // Faces, in any order, that belong to the source with all their points, which begin with the curve's value as well:
+  // of a region, whose border the places are. What lies in them is read; a front still starts from the curve alone.
+  std::vector<Index> inside = {};
 };
 
 // A piece of a curve within one face. Where it runs along an edge, one of the edge's faces names it and all of them see
 // it.
 struct CurveSegment {
   Index face = kNoIndex;
-  std::array<double, 3> from{}, to{};                // weights in the face: two different points
-  double from_offset = 0, to_offset = 0;             // in the mesh's units; no farther apart than the segment is long
-  double length = 0;                                 // in the mesh's units
+  std::array<double, 3> from{}, to{};  // weights in the face: two different points
+  double from_offset = 0,
+         to_offset = 0;  // in the mesh's units; no farther apart than the segment is long, but for rounding
+  double length = 0;     // in the mesh's units
   Index from_place = kNoIndex, to_place = kNoIndex;  // in LocatedCurve::places
   bool along_edge = false;
 };
@@ -42,9 +46,13 @@ struct CurvePlace {
 };
 
 struct LocatedCurve {
-  std::vector<CurvePlace> places;      // those where the curve moves on, at least one
+  std::vector<CurvePlace> places;      // without repetitions of the one before, at least one
   std::vector<CurveSegment> segments;  // in order
   double least_offset = 0;
+  std::vector<Index> inside;  // ascending
+
+  // Whether one of the faces that hold a point is inside.
+  bool holds(const Mesh& mesh, const PointLocation& point) const;
 };
 
 // Splits a curve into its segments. Places on edges and vertices are in all of their faces, so consecutive places have
@@ -52,8 +60,9 @@ struct LocatedCurve {
 // the face that names the first, else in that which names the second, else in the lowest. Throws Error(InvalidArgument)
 // for a curve without places, for consecutive places that share no face, for a number of offsets other than that of
 // places, offsets that are not finite, and offsets that differ by more than the segment between them is long (those of
-// equal places differ at all); the message names the places. Throws what locate() of a point throws. O(places), more at
-// vertices of very many faces.
+// equal places differ at all), and offsets that change where there are faces inside; the message names the places.
+// Throws Error(IndexOutOfRange) for a face inside that does not exist. Throws what locate() of a point throws.
+// O(places), more at vertices of very many faces.
 LocatedCurve locate(const Mesh& mesh, const CurveSource& curve);
 
 }  // namespace brushfire

@@ -12,8 +12,8 @@ namespace brushfire {
 // The Delaunay triangulation of the points' convex hull, in the plane z = 0, counter-clockwise. The points are first
 // moved to a grid of 2^28 steps across their extent (each keeps its number; the positions that come back are the moved
 // ones), and there every decision is exact: no point of the result lies inside the circle through the corners of a
-// face. Of points that fall on one place one is in faces, the others in none. Points on one line give no face. O(n log
-// n). Throws Error(InvalidArgument) for a coordinate that is not finite. Based on: Boost.Polygon's Voronoi diagram
+// face. Of points that fall on one place, one is in faces and the others are in none. Points on a line give no face.
+// Throws Error(InvalidArgument) for a coordinate that is not finite. Based on: Boost.Polygon's Voronoi diagram
 // (Fortune's sweep with exact predicates), whose dual this is.
 Shape delaunay(std::span<const Vec2> points);
 

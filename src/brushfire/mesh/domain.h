@@ -3,8 +3,8 @@
 
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/cut.h>
-#include <brushfire/mesh/mesh.h>
-#include <brushfire/mesh/surface_point.h>
+#include <brushfire/mesh/mesh.h>           // IWYU pragma: export
+#include <brushfire/mesh/surface_point.h>  // IWYU pragma: export
 
 #include <cstdint>
 #include <memory>
@@ -20,13 +20,13 @@ std::vector<Index> closed_faces(const Mesh& mesh, std::span<const std::uint8_t> 
 
 // A mesh and the walls in it. Everything that takes a Domain speaks of vertices, faces and points of the whole mesh, in
 // its numbers; nothing goes through a wall, and what lies behind one (a blocked face, a vertex that is in blocked faces
-// only) is nowhere: it reads +inf. Computed is on the mesh with the walls cut out (see cut.h): a point of a wall is one
+// only) is nowhere: it reads +inf. Solvers run on the mesh with the walls cut out (see cut.h): a point of a wall is one
 // point on each side of it, a source there feeds all of them, and the distance there is the least of them.
 //
 // A Mesh is a Domain without walls. Immutable; copies share their data; safe from many threads.
 class Domain {
  public:
-  Domain(Mesh mesh) : mesh_(std::move(mesh)) {}  // implicit: whatever takes a Domain takes a Mesh
+  Domain(Mesh mesh) : mesh_(std::move(mesh)) {}  // NOLINT(google-explicit-constructor): what takes it takes a Mesh
   // Throws as cut() does. O(vertices + faces).
   Domain(Mesh mesh, const Barriers& barriers);
 
@@ -48,8 +48,8 @@ class Domain {
   // Whether the vertex is in a face that is not blocked.
   bool is_open(Index vertex) const { return !open().corners(vertex).empty(); }
 
-  // Values per vertex of the mesh on those of open(): every copy gets that of its original. What is one value per
-  // vertex of open() already stays. Throws Error(InvalidArgument) for any other number of values.
+  // Values per vertex of the mesh on those of open(): every copy gets that of its original. Values that already are
+  // per vertex of open() are left as they are. Throws Error(InvalidArgument) for any other number of values.
   std::vector<double> spread(std::span<const double> values) const;
 
  private:

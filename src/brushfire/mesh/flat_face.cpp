@@ -40,6 +40,12 @@ Vec2 apex_over(const Mesh& mesh, Index h, Index g) {
   return apex_over_edge(face.lengths[g % 3], from_first, from_second, face.double_area);
 }
 
+Vec2 point_over(const Mesh& mesh, Index h, const std::array<double, 3>& weights) {
+  const Vec2 apex = apex_over(mesh, h, h);
+  const double ahead = weights[Mesh::next(h) % 3], third = weights[Mesh::previous(h) % 3];
+  return {ahead * mesh.length(h) + third * apex.x, third * apex.y};
+}
+
 std::array<double, 3> weight_difference(const std::array<double, 3>& from, const std::array<double, 3>& to) {
   const auto k = static_cast<std::size_t>(std::max_element(from.begin(), from.end()) - from.begin());
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
@@ -94,6 +100,19 @@ std::optional<std::array<double, 3>> weights_in(const Mesh& mesh, const PointLoc
   return weights;
 }
 
+PointLocation on_other_halfedge(const Mesh& mesh, const PointLocation& point, Index halfedge) {
+  const Index h = point.halfedge, g = halfedge;
+  const bool same_way = mesh.from(g) == mesh.from(h);
+  PointLocation there = point;
+  there.halfedge = g;
+  there.face = Mesh::face_of(g);
+  there.weights = {0, 0, 0};
+  there.weights[g % 3] = point.weights[(same_way ? h : Mesh::next(h)) % 3];
+  there.weights[Mesh::next(g) % 3] = point.weights[(same_way ? Mesh::next(h) : h) % 3];
+  there.t = there.weights[Mesh::next(g) % 3];
+  return there;
+}
+
 Index common_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b, Index preferred) {
   if (preferred != kNoIndex && weights_in(mesh, a, preferred) && weights_in(mesh, b, preferred)) return preferred;
   for (const Index f : faces_at(mesh, a)) {
@@ -106,9 +125,9 @@ double distance_within(const Mesh& mesh, Index f, const PointLocation& a, const 
   return distance_within(mesh, f, weights_in(mesh, a, f).value(), weights_in(mesh, b, f).value());
 }
 
-double distance_within(const Mesh& mesh, Index f, const std::array<double, 3>& from, const std::array<double, 3>& to) {
-  if (!mesh.has_positions()) return norm(flat_difference(flat_corners(mesh, f), from, to));
-  const std::array<double, 3> step = weight_difference(from, to);
+double distance_within(const Mesh& mesh, Index f, const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  if (!mesh.has_positions()) return norm(flat_difference(flat_corners(mesh, f), a, b));
+  const std::array<double, 3> step = weight_difference(a, b);
   const std::size_t k = largest(step);
   const double scale = 1 / mesh.unit();
   const Vec3 origin = mesh.positions()[mesh.faces()[f][k]];

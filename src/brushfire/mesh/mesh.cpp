@@ -2,192 +2,27 @@
 #include <brushfire/mesh/mesh.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/lazy.h>
 #include <brushfire/core/detail/planar.h>
 #include <brushfire/core/detail/prefault.h>
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/error.h>
+#include <brushfire/mesh/detail/checked_copy.h>
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/face_geometry.h>
+#include <brushfire/mesh/detail/geometry.h>
 #include <brushfire/mesh/detail/report.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <mutex>
 #include <string>
 
 namespace brushfire {
 
-// A value that is computed on first use; safe from several threads.
-template <class T>
-class Lazy {
- public:
-  template <class Make>
-  const T& get(Make&& make) const {
-    if (!ready_.load(std::memory_order_acquire)) {  // call_once() alone costs ten times this
-      std::call_once(once_, [&] {
-        value_ = make();
-        ready_.store(true, std::memory_order_release);
-      });
-    }
-    return value_;
-  }
-  bool ready() const { return ready_.load(std::memory_order_acquire); }
-
-  // Where it is known already; before anybody asks.
-  void set(T value) {
-    std::call_once(once_, [&] {
-      value_ = std::move(value);
-      ready_.store(true, std::memory_order_release);
-    });
-  }
-
- private:
-  mutable std::atomic<bool> ready_ = false;
-  mutable std::once_flag once_;
-  mutable T value_;
-};
-
-namespace {
-
-using detail::double_area_of;
-using detail::edges_of;
-using detail::length_of;
-using detail::lengths_of;
-using detail::scaled_difference;
-
-struct Geometry {
-  UninitializedArray<double> lengths;       // [halfedge_count]
-  UninitializedArray<double> double_areas;  // [face_count]
-};
-
-[[noreturn]] void throw_index_error(Index vertex_count, std::span<const Face> faces) {
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (const Index v : faces[f]) {
-      if (v < vertex_count) continue;
-      throw Error(ErrorCode::InvalidMesh, "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
-                                              ", but there are " + std::to_string(vertex_count) + " vertices");
-    }
-  }
-  throw Error(ErrorCode::Internal, "all faces name vertices that are there");
-}
-
-// A copy of the faces; throws as the constructor of Mesh does.
-UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> faces) {
-  if (faces.size() > kNoIndex / 3) {
-    throw Error(ErrorCode::TooLarge, std::to_string(faces.size()) + " faces do not fit into 32-bit halfedge numbers");
-  }
-  UninitializedArray<Face> copy(faces.size());
-  prefault(copy);
-  Index highest = 0;
-  in_pieces(faces.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const Face t = faces[f];
-      highest = std::max({highest, t[0], t[1], t[2]});
-      copy[f] = t;
-    }
-  });
-  if (!faces.empty() && highest >= vertex_count) throw_index_error(vertex_count, faces);
-  return copy;
-}
-
-[[noreturn]] void throw_position_error(std::span<const Vec3> positions) {
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    const Vec3& p = positions[v];
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-    throw Error(ErrorCode::InvalidMesh, "vertex " + std::to_string(v) + " has a coordinate that is not finite: (" +
-                                            number_as_text(p.x) + ", " + number_as_text(p.y) + ", " +
-                                            number_as_text(p.z) + ")");
-  }
-  throw Error(ErrorCode::Internal, "all coordinates are finite");
-}
-
-// A copy of the positions, and their bounds; throws as the constructor of Mesh does.
-UninitializedArray<Vec3> checked_copy(std::span<const Vec3> positions, Box& bounds) {
-  if (positions.size() >= kNoIndex) {
-    throw Error(ErrorCode::TooLarge, std::to_string(positions.size()) + " vertices do not fit into 32-bit indices");
-  }
-  UninitializedArray<Vec3> copy(positions.size());
-  prefault(copy);
-  Box box;
-  Vec3 zero;  // stays so: 0 times what is not finite is NaN
-  const auto take = [&](std::size_t v) {
-    const Vec3 p = positions[v];
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-    zero = zero + 0 * p;
-    copy[v] = p;
-  };
-  in_pieces(positions.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) take(v);
-  });
-  if (!(zero == Vec3{})) throw_position_error(positions);
-  bounds = box;
-  return copy;
-}
-
-// So far inside the range of doubles that inverses and squares stay finite.
-constexpr double kSmallestUnit = 0x1p-1000;
-constexpr double kLargestUnit = 0x1p1000;
-
-// 2^k with 2^k <= x < 2^(k+1), within the bounds of units; 1 for 0.
-double power_of_two_below(double x) {
-  return x > 0 ? std::clamp(std::ldexp(1.0, std::ilogb(x)), kSmallestUnit, kLargestUnit) : 1.0;
-}
-
-// The mean length of the edges of every `stride`-th face, and the greatest coordinate there. Measured in units of that,
-// where nothing overflows.
-struct Sample {
-  double mean = 0, largest = 0;
-};
-
-Sample sample_edges(std::span<const Vec3> positions, std::span<const Face> faces, std::size_t stride) {
-  Sample sample;
-  for (std::size_t f = 0; f < faces.size(); f += stride) {
-    for (const Index v : faces[f]) {
-      const Vec3& p = positions[v];
-      sample.largest = std::max({sample.largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
-  }
-  const double unit = power_of_two_below(sample.largest);
-  double sum = 0, count = 0;
-  for (std::size_t f = 0; f < faces.size(); f += stride, count += 3) {
-    const std::array<double, 3> length = lengths_of(edges_of(positions, faces[f], 1 / unit));
-    sum += length[0] + length[1] + length[2];
-  }
-  if (count > 0) sample.mean = sum / count * unit;
-  return sample;
-}
-
-// How far two powers of two apart squares and fourth powers keep their digits.
-constexpr double kOneSize = 0x1p100;
-
-double unit_from_positions(std::span<const Vec3> positions, std::span<const Face> faces, const Box& bounds) {
-  constexpr std::size_t kSample = 4096;
-  Sample sample = sample_edges(positions, faces, std::max<std::size_t>(1, faces.size() / kSample));
-  const auto [low, high] = bounds;
-  const double largest = std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});
-  if (faces.size() > kSample && !(sample.mean > largest / kOneSize)) sample = sample_edges(positions, faces, 1);
-  return power_of_two_below(sample.mean);
-}
-
-Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<const Face> faces, double unit) {
-  Geometry g;
-  g.lengths.resize(3 * faces.size());
-  g.double_areas.resize(faces.size());
-  in_pieces(faces.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const std::array<Vec3, 3> edge = edges_of(positions, faces[f], 1 / unit);
-      const std::array<double, 3> length = lengths_of(edge);
-      std::copy(length.begin(), length.end(), &g.lengths[3 * f]);
-      g.double_areas[f] = double_area_of(edge, length);
-    }
-  });
-  return g;
-}
-
-}  // namespace
+using detail::checked_copy, detail::power_of_two_below, detail::unit_from_positions, detail::geometry_from_positions;
+using detail::kMostCoordinate, detail::Geometry, detail::length_of, detail::scaled_difference;
 
 // What the caller gave, and what follows from the faces alone; shared by meshes that differ in slits only.
 struct Mesh::Arrays {
@@ -278,6 +113,10 @@ void Mesh::Data::check_lengths() const {
       if (!std::isfinite(l[k]) || l[k] < 0 || (loop && l[k] != 0)) {
         throw_length_error(f, "length " + number_as_text(l[k]) + " of edge " + std::to_string(k) +
                                   (loop ? " between a vertex and itself is not 0" : " is not finite and >= 0"));
+      }
+      if (l[k] > kMostCoordinate) {
+        throw_length_error(f, "length " + number_as_text(l[k]) + " of edge " + std::to_string(k) +
+                                  " is beyond 1e298, where sums leave the range of numbers; scale the mesh down");
       }
       const double other = input_lengths[ring[3 * f + k]];
       if (std::abs(l[k] - other) > kLengthAgreement * std::max(l[k], other)) {
@@ -435,18 +274,18 @@ Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> ve
   return Mesh(std::move(data));
 }
 
-Mesh Mesh::with_faces(std::span<const Index> kept) const {
+Mesh Mesh::with_faces(std::span<const Index> faces) const {
   const Arrays& old = *data_->arrays;
   auto arrays = std::make_shared<Arrays>();
   arrays->vertex_count = old.vertex_count;
   arrays->has_positions = old.has_positions;
   arrays->bounds = old.bounds;
   arrays->positions = old.positions;
-  arrays->faces.resize(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    arrays->faces[i] = old.faces[kept[i]];
+  arrays->faces.resize(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    arrays->faces[i] = old.faces[faces[i]];
     for (std::size_t k = 0; k < 3 && !has_positions(); ++k) {
-      arrays->input_lengths.push_back(unit() * lengths()[3 * std::size_t{kept[i]} + k]);
+      arrays->input_lengths.push_back(unit() * lengths()[3 * std::size_t{faces[i]} + k]);
     }
   }
   auto data = std::make_shared<Data>();
@@ -456,9 +295,9 @@ Mesh Mesh::with_faces(std::span<const Index> kept) const {
   for (const Index slit : data_->slits) {
     const Index v = from(slit), w = to(slit);
     for (const Index corner : corners(v)) {
-      const auto i = std::lower_bound(kept.begin(), kept.end(), face_of(corner));
-      if (i == kept.end() || *i != face_of(corner)) continue;
-      const Index h = 3 * static_cast<Index>(i - kept.begin()) + corner % 3;
+      const auto i = std::lower_bound(faces.begin(), faces.end(), face_of(corner));
+      if (i == faces.end() || *i != face_of(corner)) continue;
+      const Index h = 3 * static_cast<Index>(i - faces.begin()) + corner % 3;
       if (to(corner) == w) data->slits.push_back(h);
       if (from(previous(corner)) == w) data->slits.push_back(previous(h));
     }

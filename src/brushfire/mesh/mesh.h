@@ -9,7 +9,7 @@
 //     }
 #pragma once
 
-#include <brushfire/core/types.h>
+#include <brushfire/core/types.h>  // IWYU pragma: export
 
 #include <array>
 #include <memory>
@@ -52,9 +52,9 @@ class Mesh {
   // No vertices, no faces.
   Mesh();
 
-  // Copies the arrays: positions[vertex_count], faces[face_count]. Throws Error(InvalidMesh) naming the first vertex
-  // with a coordinate that is not finite or the first face with an index >= vertex_count, and Error(TooLarge) beyond
-  // 2^32/3 faces. O(vertices + faces).
+  // Copies the arrays: positions[vertex_count], faces[face_count]. Throws Error(InvalidMesh) naming the first vertex with
+  // a coordinate that is not finite, or beyond 2^990 (1e298), or the first face with an index >= vertex_count, and
+  // Error(TooLarge) beyond 2^32/3 faces. O(vertices + faces).
   Mesh(std::span<const Vec3> positions, std::span<const Face> faces);
 
   // A mesh that has lengths and no coordinates: lengths[f][k] is the length of the edge from corner k to corner k+1 of
@@ -122,7 +122,7 @@ class Mesh {
   std::span<const Link> links() const;
 
   // A power of two within a factor 2 of the mean edge length (in 2^-1000 .. 2^1000); 1 where all edges have length 0.
-  // The mean is that of some thousand faces, evenly spread over the list, where these are of one size with the whole.
+  // The mean is taken over a few thousand faces, evenly spread over the list, where these are typical of the whole.
   double unit() const;
   // Edge length of every halfedge, [halfedge_count], and twice the area of every face, [face_count], in unit() and
   // unit()^2. Both sides of an edge have the same bits.

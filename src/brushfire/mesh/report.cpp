@@ -245,6 +245,10 @@ std::vector<std::string> MeshReport::remarks() const {
     out.push_back(counted(repeated_index_faces, "face names", "faces name") + " a vertex twice");
   }
   if (zero_area_faces > 0) out.push_back(counted(zero_area_faces, "face has", "faces have") + " no area");
+  if (area == kInfinity || (area == 0 && zero_area_faces < faces)) {
+    out.emplace_back(std::string("areas are beyond the range of numbers: the whole reads ") +
+                     (area == 0 ? "0" : "infinite"));
+  }
   if (zero_length_edges > 0) out.push_back(counted(zero_length_edges, "edge has", "edges have") + " no length");
   if (!looks_like_soup && duplicate_positions > 0) {
     out.push_back(counted(duplicate_positions, "vertex repeats", "vertices repeat") +

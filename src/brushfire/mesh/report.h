@@ -1,4 +1,4 @@
-// MeshReport: what is in a mesh, in numbers, and what of it a user should know.
+// MeshReport: what is in a mesh, in numbers, and remarks on what a user should know about it.
 #pragma once
 
 #include <brushfire/core/types.h>

@@ -1,7 +1,7 @@
 // SurfacePoint: the one way to say where on a mesh.
 #pragma once
 
-#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/mesh.h>  // IWYU pragma: export
 
 #include <array>
 
@@ -13,7 +13,7 @@ struct SurfacePoint {
   Index face = kNoIndex;
   std::array<double, 3> weights{0, 0, 0};
 
-  // What a SurfacePoint says that nothing was said to: no face, no weights. As a target it reads +inf.
+  // Whether it is in no face, as a default-constructed SurfacePoint is. As a target such a point reads +inf.
   bool is_nowhere() const { return face == kNoIndex && weights == std::array<double, 3>{0, 0, 0}; }
 };
 

@@ -1,7 +1,7 @@
 // Welding: vertices that are near one another become one, so that faces that only touch are connected.
 #pragma once
 
-#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/mesh.h>  // IWYU pragma: export
 
 #include <vector>
 
@@ -11,7 +11,7 @@ struct Welded {
   Mesh mesh;
   // vertex_map[v], [vertex_count of the given mesh]: which vertex of `mesh` vertex v became.
   std::vector<Index> vertex_map;
-  Index joined = 0;  // vertices fewer than before
+  Index joined = 0;  // how many vertices fewer there are
 };
 
 // Goes through the vertices in order: one that lies within `tolerance` (>= 0, in units of the mesh; 0 joins equal

@@ -4,7 +4,6 @@
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/surface_point.h>
-#include <brushfire/queries/distance_matrix.h>
 #include <brushfire/solvers/distance.h>
 
 #include <span>

@@ -47,8 +47,8 @@ struct Certificate {
   // where it is finite and should not be, or should be; NaN where it is; 0 where nothing is proven.
   std::vector<double> proven_error;
   Index possible = 0, too_short = 0, too_long = 0, not_reachable = 0, not_reached = 0, not_a_number = 0;
-  // The least CertifyOptions::within with which nothing would be proven wrong; 0 where nothing is in any case, +inf
-  // where no claim of that kind saves the field. And the vertex that asks for it, the lowest of them; kNoIndex: none.
+  // The least CertifyOptions::within for which nothing would be proven wrong; 0 where nothing is anyway, +inf where no
+  // such claim is true of the field. And the vertex that requires it, the lowest of them; kNoIndex: none.
   double least_within = 0;
   Index worst_vertex = kNoIndex;
   double max_gap = 0;  // the largest (upper - lower) / (length of the path), over reached vertices

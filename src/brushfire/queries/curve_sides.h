@@ -41,7 +41,7 @@ std::vector<CurveArrival> arrivals(const WindowField& field, std::span<const Sou
 // progress and cancel count. Throws Error(InvalidArgument) for a source that is a point, for offsets, and what
 // arrivals() and distance() throw.
 std::vector<double> signed_distance(const Mesh& mesh, std::span<const Source> curves, const DistanceOptions& how = {});
-// The same of a field that is there: of an exact run from these curves with DistanceOptions::keep_paths, without walls.
+// The same from a field: that of an exact run from these curves with DistanceOptions::keep_paths, without walls.
 std::vector<double> signed_distance(const DistanceField& field, std::span<const Source> curves);
 
 }  // namespace brushfire

@@ -113,7 +113,11 @@ struct Region {
     Pieces pieces(mesh);
     Trails(mesh, std::move(edges)).add_to(pieces);
     for (const Index v : vertices) pieces.add_vertex(v);
-    return std::move(pieces).done("an empty region: no distance starts from it");
+    CurveSource source = std::move(pieces).done("an empty region: no distance starts from it");
+    for (Index f = 0; f < faces.size(); ++f) {
+      if (faces[f] != 0) source.inside.push_back(f);
+    }
+    return source;
   }
 
   void add_edge(Index a, Index b) {

@@ -1,10 +1,10 @@
-// Curves that distances start from, out of what people have: paths, boundary curves, regions of a labelled surface.
+// Curves as sources, made from paths, boundary curves and regions of a labelled surface.
 #pragma once
 
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/boundaries.h>
 #include <brushfire/mesh/curve_source.h>
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 
 #include <cstdint>
 #include <span>
@@ -17,9 +17,9 @@ CurveSource curve_source(const SurfacePath& path);
 // Boundary curves as one source of as many pieces. Throws Error(InvalidArgument) for none: a mesh without a boundary.
 CurveSource curve_source(const Mesh& mesh, std::span<const Boundary> curves);
 
-// A region: distances are 0 at all of its vertices and along its border, and outside from there on. (A point in the
-// midst of one of its faces is as far from it as from the nearest of these.) Throws Error(InvalidArgument) for an empty
-// one, and Error(IndexOutOfRange) for a face that does not exist. O(vertices + faces log faces).
+// A region: distances are 0 everywhere in it (CurveSource::inside), and outside from its border on. Throws
+// Error(InvalidArgument) for an empty one, and Error(IndexOutOfRange) for a face that does not exist. O(vertices +
+// faces log faces).
 //
 // Faces, in any order.
 CurveSource region_of_faces(const Mesh& mesh, std::span<const Index> faces);

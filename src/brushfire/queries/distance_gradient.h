@@ -40,7 +40,7 @@ struct DistanceGradient {
 // `weights`: [vertex_count], finite. Vertices that no source reaches count nothing.
 //
 // A distance has a gradient unless the vertex has several shortest paths, i.e. lies on the cut locus: there the rate
-// depends on the direction, and given is the gradient of one of the paths (see one_sided_vertices()). A piece of no
+// depends on the direction, and the gradient of one of the paths is given (see one_sided_vertices()). A piece of no
 // length has no direction and counts as 0.
 //
 // Throws Error(InvalidArgument) for curves as sources, a field without paths or of another mesh, weights of another

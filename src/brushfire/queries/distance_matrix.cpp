@@ -6,6 +6,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/queries/detail/rows.h>
+#include <brushfire/solvers/carried_source/detail/grouped_rows.h>
 
 #include <algorithm>
 #include <atomic>
@@ -277,29 +278,32 @@ void check_expected_size(detail::Rows& all, const SparseBudget<T>& budget) {
   budget.require(static_cast<double>(entries) / static_cast<double>(sample.size()) * rows);
 }
 
-// The rows in their order; `numbers`: whose rows the blocks hold, one after the other.
+// Where a row's entries begin in its block, and how many there are.
+struct RowPlace {
+  std::size_t begin = 0;
+  Index size = 0;
+};
+
 template <class T>
-SparseMatrix<T> join(std::vector<SparseBlock<T>>& blocks, std::span<const std::size_t> numbers,
-                     std::span<const Index> row_size, std::size_t columns) {
+SparseMatrix<T> join(std::vector<SparseBlock<T>>& entries, const detail::Rows::Blocks& blocks,
+                     std::span<const RowPlace> rows, std::size_t columns) {
   SparseMatrix<T> m;
   m.columns = static_cast<Index>(columns);
-  m.row_start.reserve(row_size.size() + 1);
+  m.row_start.reserve(rows.size() + 1);
   m.row_start.push_back(0);
-  for (const Index size : row_size) m.row_start.push_back(m.row_start.back() + size);
-  const auto entries = static_cast<std::size_t>(m.row_start.back());
-  m.column.resize(entries);
-  m.value.resize(entries);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    auto column = blocks[b].column.cbegin();
-    auto value = blocks[b].value.cbegin();
-    for (std::size_t k = b * kBlockRows; k < std::min(numbers.size(), (b + 1) * kBlockRows); ++k) {
-      const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(m.row_start[numbers[k]]), size = row_size[numbers[k]];
-      std::copy(column, column + size, m.column.begin() + start);
-      std::copy(value, value + size, m.value.begin() + start);
-      column += size;
-      value += size;
+  for (const RowPlace& row : rows) m.row_start.push_back(m.row_start.back() + row.size);
+  const auto count = static_cast<std::size_t>(m.row_start.back());
+  m.column.resize(count);
+  m.value.resize(count);
+  for (std::size_t b = 0; b < entries.size(); ++b) {
+    for (std::size_t k = blocks.begin[b]; k < blocks.begin[b + 1]; ++k) {
+      const RowPlace& row = rows[blocks.numbers[k]];
+      const auto to = static_cast<std::ptrdiff_t>(m.row_start[blocks.numbers[k]]);
+      const auto from = static_cast<std::ptrdiff_t>(row.begin);
+      std::copy_n(entries[b].column.cbegin() + from, row.size, m.column.begin() + to);
+      std::copy_n(entries[b].value.cbegin() + from, row.size, m.value.begin() + to);
     }
-    blocks[b] = {};
+    entries[b] = {};
   }
   return m;
 }
@@ -317,18 +321,18 @@ SparseMatrix<T> distances_within(const Domain& domain, double radius, Places row
   const SparseBudget<T> budget(all.count(), options.memory_limit);
   check_expected_size(all, budget);
 
-  const std::vector<std::size_t> numbers = all.numbers_by_place();
-  std::vector<SparseBlock<T>> blocks((numbers.size() + kBlockRows - 1) / kBlockRows);
-  std::vector<Index> row_size(numbers.size());
+  const detail::Rows::Blocks blocks = all.blocks_by_place(kBlockRows);
+  std::vector<SparseBlock<T>> of_block(blocks.begin.size() - 1);
+  std::vector<RowPlace> row_place(all.count());
   std::atomic<std::uint64_t> entries{0};
-  all.run_sparse(numbers, kBlockRows, options.distance.progress, [&](unsigned, std::size_t k, const SparseField& f) {
-    SparseBlock<T>& block = blocks[k / kBlockRows];
+  all.run_blocks(blocks, options.distance.progress, [&](std::size_t b, std::size_t i, const SparseField& f) {
+    SparseBlock<T>& block = of_block[b];
+    row_place[i] = {block.column.size(), static_cast<Index>(f.vertex.size())};
     block.column.insert(block.column.end(), f.vertex.begin(), f.vertex.end());
     block.value.insert(block.value.end(), f.distance.begin(), f.distance.end());
-    row_size[numbers[k]] = static_cast<Index>(f.vertex.size());
     budget.require(static_cast<double>(entries += f.vertex.size()));
   });
-  return join(blocks, numbers, row_size, all.columns());
+  return join<T>(of_block, blocks, row_place, all.columns());
 }
 
 template void distance_matrix(const Domain&, Places, Places, std::span<float>, const MatrixOptions&);

@@ -6,10 +6,11 @@
 //
 // With Method::CarriedSource (in single precision) sixteen neighbouring vertices march together in the lanes of vector
 // registers, in groups that the mesh alone decides: seven to ten times as many rows a second as one by one.
-// Whichever of its rows are asked for, a group is run as a whole, so that a row is the same bits among any others; it
+// A group is always run as a whole, whichever of its rows are needed, so that a row has the same bits every time; it
 // differs from distance()'s by some 0.01 to 0.02 % in the mean, less than from the truth. Single runs serve the rows of
-// other places than vertices, of vertices on walls or without close neighbours, a group that would not settle, all rows
-// where a column is no vertex, and distances_within(). docs/decisions/matrices.md
+// other places than vertices, of vertices on walls or without close neighbours, a group that would not settle, and all
+// rows where a column is no vertex. Rows of distances_within() depend on the radius, too: by as little.
+// docs/decisions/matrices.md
 //
 // Example:
 //     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;

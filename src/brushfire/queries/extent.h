@@ -30,8 +30,8 @@ struct Extent {
 
 // Bounds that hold, to rounding: every exact field narrows, by the triangle inequality, how far away from every vertex
 // the farthest one can be. Surfaces with one longest extent take some tens of fields; on a sphere, where all vertices
-// are equally far from their opposites, nothing but all of them proves it: max_runs says when to stop. Kept are the
-// lower and upper bounds that were reached; both zero and no vertices where no face is open.
+// are equally far from their opposites, it takes a field from every one of them: max_runs says when to stop. The lower
+// and upper bounds reached by then are returned; both zero and no vertices where no face is open.
 // Throws Error(InvalidArgument) for a tolerance that is not >= 0.
 //
 // Based on: Takes, Kosters, "Determining the diameter of small world networks", 2011 (bounds of eccentricities, which

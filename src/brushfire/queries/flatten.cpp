@@ -65,13 +65,14 @@ class Symmetric {
 
 using Rows = std::vector<std::vector<double>>;
 
-// Distances from every landmark to every vertex.
+// Distances from every landmark to every vertex, in mesh.unit(), whose squares are numbers.
 Rows fields_of(const Mesh& mesh, std::span<const Index> landmarks, const DistanceOptions& options) {
   DistanceSolver solver(mesh);
   Rows rows;
   for (const Index l : landmarks) {
     const Source source{vertex_point(mesh, l)};
     rows.push_back(solver.distance(std::span(&source, 1), options).distance);
+    for (double& d : rows.back()) d /= mesh.unit();
   }
   return rows;
 }
@@ -118,6 +119,7 @@ std::vector<std::array<double, 2>> scaled(const Mesh& mesh, std::span<const Inde
   return uv;
 }
 
+// In mesh.unit(), both.
 double stress_of(std::span<const Index> landmarks, const Rows& distance, std::span<const std::array<double, 2>> uv) {
   double missed = 0, all = 0;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
@@ -154,8 +156,10 @@ Flattening laid_flat(Flattening flat, const FlattenOptions& options) {
   const Rows distance = fields_of(mesh, flat.landmarks, how);
   require_one_piece(mesh, distance);
   flat.uv = scaled(mesh, flat.landmarks, distance);
+  const double stress = stress_of(flat.landmarks, distance, flat.uv);
+  for (std::array<double, 2>& p : flat.uv) p = {p[0] * mesh.unit(), p[1] * mesh.unit()};
   flat.distortion = distortion_of(mesh, flat.uv);
-  flat.distortion.stress = stress_of(flat.landmarks, distance, flat.uv);
+  flat.distortion.stress = stress;
   return flat;
 }
 
@@ -176,12 +180,13 @@ Distortion distortion_of(const Mesh& mesh, std::span<const std::array<double, 2>
   double area = 0, turned_area = 0;
   Index turned = 0, faces = 0;
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    const double double_area = mesh.double_areas()[f] * mesh.unit() * mesh.unit();
+    const double double_area = mesh.double_areas()[f];  // in mesh.unit(), as all here
     if (!(double_area > 0)) continue;
     const Face& t = mesh.faces()[f];
     const std::array<Vec2, 3> flat = flat_corners(mesh, f);
-    const Vec2 a = mesh.unit() * (flat[1] - flat[0]), b = mesh.unit() * (flat[2] - flat[0]);
-    const Vec2 p = as_vector(uv[t[1]]) - as_vector(uv[t[0]]), q = as_vector(uv[t[2]]) - as_vector(uv[t[0]]);
+    const Vec2 a = flat[1] - flat[0], b = flat[2] - flat[0];
+    const auto edge = [&](Index to) { return (1 / mesh.unit()) * (as_vector(uv[t[to]]) - as_vector(uv[t[0]])); };
+    const Vec2 p = edge(1), q = edge(2);
     // The map's matrix: takes a to p and b to q.
     const double det = cross(a, b);
     const Vec2 x = (1 / det) * (b.y * p - a.y * q), y = (1 / det) * (a.x * q - b.x * p);

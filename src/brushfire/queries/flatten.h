@@ -1,4 +1,4 @@
-// Flattening: coordinates in the plane whose straight distances are the geodesic ones as nearly as can be, for
+// Flattening: coordinates in the plane whose straight distances come as near to the geodesic ones as they can, for
 // textures.
 //
 // Example:

@@ -130,4 +130,87 @@ void Rows::run_grouped(std::span<const std::size_t> numbers, const Progress& pro
 template void Rows::run_grouped<float>(std::span<const std::size_t>, const Progress&, const TakeDense<float>&);
 template void Rows::run_grouped<double>(std::span<const std::size_t>, const Progress&, const TakeDense<double>&);
 
+Rows::Blocks Rows::blocks_by_place(std::size_t block) {
+  Blocks blocks;
+  blocks.begin.push_back(0);
+  std::vector<bool> in_a_group(row_count_, false);
+  if (can_group()) {
+    const CancelScope listen(options_.cancel);
+    std::vector<Wish> wishes;
+    std::vector<Index> asked;
+    for (std::size_t i = 0; i < row_count_; ++i) {
+      const std::optional<SurfacePoint> p = place(i);
+      const Index v = p ? vertex_at(mesh_, *p) : kNoIndex;
+      if (v != kNoIndex) wishes.emplace_back(v, i), asked.push_back(v);
+    }
+    std::sort(wishes.begin(), wishes.end());
+    grouped_ = std::make_unique<carried_source::GroupedRows>(domain_, asked);
+    for (const auto& g : grouped_->groups()) {
+      for (const Index v : g.vertices) {
+        const auto first = std::lower_bound(wishes.begin(), wishes.end(), Wish{v, 0});
+        for (auto w = first; w != wishes.end() && w->first == v; ++w) {
+          blocks.numbers.push_back(w->second), blocks.vertex.push_back(v);
+          in_a_group[w->second] = true;
+        }
+      }
+      blocks.begin.push_back(blocks.numbers.size());
+    }
+    blocks.groups = grouped_->groups().size();
+  }
+  for (const std::size_t i : numbers_by_place()) {
+    if (in_a_group[i]) continue;
+    blocks.numbers.push_back(i);
+    if (blocks.numbers.size() - blocks.begin.back() == block) blocks.begin.push_back(blocks.numbers.size());
+  }
+  if (blocks.begin.back() < blocks.numbers.size()) blocks.begin.push_back(blocks.numbers.size());
+  return blocks;
+}
+
+void Rows::run_group_within(Worker& w, const Blocks& blocks, std::size_t b, const TakeOfBlock& take) {
+  if (!w.groups) w.groups = std::make_unique<carried_source::GroupRunner>(*grouped_);
+  const carried_source::GroupedRows::Group& group = grouped_->groups()[b];
+  const auto for_rows_of = [&](int lane, const auto& body) {
+    for (std::size_t k = blocks.begin[b]; k < blocks.begin[b + 1]; ++k) {
+      if (blocks.vertex[k] == group.vertices[static_cast<std::size_t>(lane)]) body(blocks.numbers[k]);
+    }
+  };
+  const auto take_lane = [&](int lane, std::span<const Index> vertices, std::span<const float> distances) {
+    w.field.vertex.assign(vertices.begin(), vertices.end());
+    w.field.distance.resize(distances.size());
+    const double unit = w.groups->unit();
+    std::transform(distances.begin(), distances.end(), w.field.distance.begin(),
+                   [=](float d) { return static_cast<double>(d) * unit; });
+    for_rows_of(lane, [&](std::size_t i) { take(b, i, w.field); });
+  };
+  for (const int lane : w.groups->run_within(group, options_.max_distance, take_lane)) {
+    for_rows_of(lane, [&](std::size_t i) {
+      compute_row(w, i);
+      take(b, i, w.field);
+    });
+  }
+}
+
+void Rows::run_blocks(const Blocks& blocks, const Progress& progress, const TakeOfBlock& take) {
+  const CancelScope listen(options_.cancel);
+  std::atomic<std::size_t> done{0};
+  const auto body = [&](unsigned worker, std::size_t b) {
+    Worker& w = workers_[worker];
+    const std::size_t begin = blocks.begin[b], end = blocks.begin[b + 1];
+    stop_if_cancelled();
+    if (b < blocks.groups) {
+      run_group_within(w, blocks, b, take);
+    } else {
+      for (std::size_t k = begin; k < end; ++k) {
+        stop_if_cancelled();
+        compute_row(w, blocks.numbers[k]);
+        take(b, blocks.numbers[k], w.field);
+      }
+    }
+    const std::size_t finished = done.fetch_add(end - begin, std::memory_order_relaxed) + end - begin;
+    if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(row_count_));
+  };
+  team_.run(blocks.begin.size() - 1, body, current_cancel_token());
+  for (Worker& w : workers_) w.groups.reset();
+}
+
 }  // namespace brushfire::detail

@@ -114,7 +114,7 @@ class Turn {
 
   // In place of [leg a, the vertex, leg b]: [leg a, stops on edges with legs between, leg b]. Nothing where a boundary,
   // a wall, or an edge of more than two faces is in the way.
-  std::optional<Strip> around(const Leg& a, const Leg& b, bool other_way) {
+  std::optional<Strip> around(const StripLeg& a, const StripLeg& b, bool other_way) {
     strip_ = {};
     strip_.legs.push_back(a);
     Index face = a.face, way_in = kNoIndex;

@@ -64,9 +64,7 @@ void clean(std::vector<Node>& nodes, bool closed) {
   std::size_t first = 0;
   while (closed && kept.size() - first >= 2) {
     const std::size_t last = kept.size() - 1;
-    if (same_vertex(kept[first], kept[last])) {
-      kept.pop_back();
-    } else if (is_spike(kept[last - 1], kept[last], kept[first])) {
+    if (same_vertex(kept[first], kept[last]) || is_spike(kept[last - 1], kept[last], kept[first])) {
       kept.pop_back();
     } else if (is_spike(kept[last], kept[first], kept[first + 1])) {
       ++first;

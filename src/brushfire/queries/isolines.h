@@ -4,7 +4,7 @@
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 
 #include <span>
 #include <vector>

@@ -1,7 +1,8 @@
-// Log maps as they are used: angles from a direction on, and Cartesian coordinates.
+// Log maps with angles counted from a chosen direction, and in Cartesian coordinates.
 #pragma once
 
-#include <brushfire/core/types.h>
+#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/surface_point.h>
 #include <brushfire/queries/straightest.h>
 
 #include <array>

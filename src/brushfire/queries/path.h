@@ -11,7 +11,7 @@
 //     }
 #pragma once
 
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 #include <brushfire/solvers/distance.h>
 
 #include <memory>
@@ -27,31 +27,31 @@ namespace brushfire {
 // Throws Error(Internal) rather than return part of a path.
 SurfacePath path_to(const WindowField& field, const SurfacePoint& target);
 
-// The path along edges that a run of Method::Dijkstra means: from the nearest source's vertex to vertex `target`.
+// The path along edges that Method::Dijkstra measures: from the nearest source's vertex to vertex `target`.
 // Throws Error(InvalidArgument) for a field of another method or of another mesh. O(edges of the vertices on it).
 SurfacePath edge_path_to(const Mesh& mesh, const DistanceField& field, Index target);
 
-// The shortest path from one point to the other, to rounding, none from or to a point that is nowhere (see
-// target_point()); with the workspace of a solver that may serve for other things, too. The front stops as soon as it
+// The shortest path from one point to the other, to rounding; none from or to a point that is nowhere (see
+// target_point()). It works in the solver's workspace, which other queries may share. The front stops as soon as it
 // has reached its target: after the first call a short path costs little however large the mesh is. Throws as
 // distance() does.
 SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
                          const CancelToken* cancel = nullptr);
 
 // Shortest paths from each waypoint to the next, joined; from the last back to the first where `closed`. It may bend
-// at waypoints (shorten() takes it from there). At least one waypoint; two the same after each other add nothing.
+// at waypoints (shorten() pulls it straight). At least one waypoint; repeating the one before adds nothing.
 SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed = false,
                          const CancelToken* cancel = nullptr);
 
-// The same within limits: of `how` the max_distance (a longer path is none; for path_through() of the whole), threads
-// and cancel count.
+// The same within limits: of `how`, max_distance (a longer path counts as none; for path_through() that of the whole
+// path), threads and cancel are used.
 SurfacePath path_between(DistanceSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
                          const DistanceOptions& how);
 SurfacePath path_through(DistanceSolver& solver, std::span<const SurfacePoint> waypoints, bool closed,
                          const DistanceOptions& how);
 
-// From the nearest of the sources to each target, off one run: [targets]. Which source that is, `source` of the path
-// tells: its position in the caller's list. `how` as above. Throws as distance() does.
+// From the nearest of the sources to each target, all read off one run: [targets]. `source` of each path says which
+// source that is, by its position in the caller's list. `how` as above. Throws as distance() does.
 struct SourcePath : SurfacePath {
   Index source = kNoIndex;
 };

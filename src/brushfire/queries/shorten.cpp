@@ -14,9 +14,9 @@
 namespace brushfire {
 namespace {
 
-using detail::Leg;
+using detail::Sleeve;
 using detail::Step;
-using detail::StraightLeg;
+using detail::StraightPiece;
 using On = PointLocation::On;
 
 // The halfedge of face f over the same edge as h.
@@ -29,38 +29,38 @@ Index halfedge_in(const Mesh& mesh, Index h, Index f) {
   return g;
 }
 
-// From points to legs between vertices: points within faces and edges only tell which faces are crossed.
-class LegBuilder {
+// From points to sleeves between vertices: points within faces and edges only tell which faces are crossed.
+class SleeveBuilder {
  public:
-  LegBuilder(const Mesh& mesh, const PointLocation& begin) : mesh_(mesh) { leg_.begin = begin; }
+  SleeveBuilder(const Mesh& mesh, const PointLocation& begin) : mesh_(mesh) { sleeve_.begin = begin; }
 
   void enter(const PointLocation& at, Index face) {
-    if (leg_.first_face == kNoIndex) {
-      leg_.first_face = face;
+    if (sleeve_.first_face == kNoIndex) {
+      sleeve_.first_face = face;
     } else if (at.on == On::Vertex) {
       finish(at);
-      leg_.begin = at;
-      leg_.first_face = face;
-    } else if (face != leg_.last_face()) {
-      const Index out = halfedge_in(mesh_, at.halfedge, leg_.last_face());
-      leg_.steps.push_back({out, halfedge_in(mesh_, at.halfedge, face)});
+      sleeve_.begin = at;
+      sleeve_.first_face = face;
+    } else if (face != sleeve_.last_face()) {
+      const Index out = halfedge_in(mesh_, at.halfedge, sleeve_.last_face());
+      sleeve_.steps.push_back({out, halfedge_in(mesh_, at.halfedge, face)});
     }
   }
   void finish(const PointLocation& at) {
-    leg_.end = at;
-    legs_.push_back(std::move(leg_));
-    leg_ = {};
+    sleeve_.end = at;
+    sleeves_.push_back(std::move(sleeve_));
+    sleeve_ = {};
   }
-  std::vector<Leg> take() { return std::move(legs_); }
+  std::vector<Sleeve> take() { return std::move(sleeves_); }
 
  private:
   const Mesh& mesh_;
-  Leg leg_;
-  std::vector<Leg> legs_;
+  Sleeve sleeve_;
+  std::vector<Sleeve> sleeves_;
 };
 
-std::vector<Leg> legs_of(const Mesh& mesh, const std::vector<PointLocation>& at) {
-  LegBuilder builder(mesh, at.front());
+std::vector<Sleeve> sleeves_of(const Mesh& mesh, const std::vector<PointLocation>& at) {
+  SleeveBuilder builder(mesh, at.front());
   Index face = kNoIndex;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     face = common_face(mesh, at[i], at[i + 1], face);
@@ -78,32 +78,32 @@ bool same_vertex(const PointLocation& a, const PointLocation& b) {
   return a.on == On::Vertex && b.on == On::Vertex && a.vertex == b.vertex;
 }
 
-detail::DoubleDouble total_length(const std::vector<StraightLeg>& pieces) {
+detail::DoubleDouble total_length(const std::vector<StraightPiece>& pieces) {
   detail::DoubleDouble sum;
-  for (const StraightLeg& p : pieces) sum = sum + p.length;
+  for (const StraightPiece& p : pieces) sum = sum + p.length;
   return sum;
 }
 
-// Two legs that meet, joined by the steps between them.
-Leg joined(const Leg& a, const std::vector<Step>& between, const Leg& b) {
-  Leg leg = a;
-  leg.end = b.end;
-  leg.steps.insert(leg.steps.end(), between.begin(), between.end());
-  leg.steps.insert(leg.steps.end(), b.steps.begin(), b.steps.end());
-  return leg;
+// Two sleeves that meet, joined by the steps between them.
+Sleeve joined(const Sleeve& a, const std::vector<Step>& between, const Sleeve& b) {
+  Sleeve sleeve = a;
+  sleeve.end = b.end;
+  sleeve.steps.insert(sleeve.steps.end(), between.begin(), between.end());
+  sleeve.steps.insert(sleeve.steps.end(), b.steps.begin(), b.steps.end());
+  return sleeve;
 }
 
 class Shortener {
  public:
   Shortener(const Mesh& mesh, bool closed) : mesh_(mesh), closed_(closed) {}
 
-  std::vector<StraightLeg> run(const std::vector<Leg>& legs) {
-    std::vector<StraightLeg> best = straighten(legs);
+  std::vector<StraightPiece> run(const std::vector<Sleeve>& sleeves) {
+    std::vector<StraightPiece> best = straighten(sleeves);
     if (closed_) best = without_free_corner(std::move(best));
     while (true) {
       auto [next, changed] = go_round_vertices(best);
       if (!changed) return best;
-      std::vector<StraightLeg> shorter = straighten(next);
+      std::vector<StraightPiece> shorter = straighten(next);
       if (closed_) shorter = without_free_corner(std::move(shorter));
       // Every round replaces corners by shorter ways; less than rounding means that the rest is rounding: of 106 bits,
       // so that the smallest corner counts, or, where a closed curve is cut at a point that is known to half the digits
@@ -116,13 +116,13 @@ class Shortener {
   }
 
  private:
-  std::vector<StraightLeg> straighten(const std::vector<Leg>& legs) const {
-    std::vector<StraightLeg> pieces;
-    for (const Leg& leg : legs) {
+  std::vector<StraightPiece> straighten(const std::vector<Sleeve>& sleeves) const {
+    std::vector<StraightPiece> pieces;
+    for (const Sleeve& sleeve : sleeves) {
       stop_if_cancelled();
-      for (StraightLeg& p : detail::shortest_in_sleeve(mesh_, leg)) {
+      for (StraightPiece& p : detail::shortest_in_sleeve(mesh_, sleeve)) {
         // From a vertex to itself without leaving its faces: nothing.
-        if (p.length.high == 0 && p.leg.steps.empty() && same_vertex(p.leg.begin, p.leg.end)) continue;
+        if (p.length.high == 0 && p.sleeve.steps.empty() && same_vertex(p.sleeve.begin, p.sleeve.end)) continue;
         pieces.push_back(std::move(p));
       }
     }
@@ -130,61 +130,62 @@ class Shortener {
   }
 
   // One round: every vertex between two pieces that are both still as they were is passed on its shortest side.
-  std::pair<std::vector<Leg>, bool> go_round_vertices(const std::vector<StraightLeg>& pieces) const {
-    std::vector<Leg> legs;
+  std::pair<std::vector<Sleeve>, bool> go_round_vertices(const std::vector<StraightPiece>& pieces) const {
+    std::vector<Sleeve> sleeves;
     bool changed = false;
     std::size_t i = 0;
     for (; i + 1 < pieces.size(); ++i) {
       if (const auto way = shorter_way(pieces[i], pieces[i + 1])) {
-        legs.push_back(joined(pieces[i].leg, *way, pieces[i + 1].leg));
+        sleeves.push_back(joined(pieces[i].sleeve, *way, pieces[i + 1].sleeve));
         changed = true;
         ++i;
       } else {
-        legs.push_back(pieces[i].leg);
+        sleeves.push_back(pieces[i].sleeve);
       }
     }
-    if (i < pieces.size()) legs.push_back(pieces[i].leg);
+    if (i < pieces.size()) sleeves.push_back(pieces[i].sleeve);
     if (closed_ && !changed && !pieces.empty()) {
       // The corner where the list closes; it is looked at last, so that no piece is used twice.
       if (const auto way = shorter_way(pieces.back(), pieces.front())) {
         const bool single = pieces.size() == 1;
         // It crosses nothing, as along the edges of a face that names a vertex twice: it pulls together.
-        if (single && pieces.front().leg.steps.empty() && way->empty()) return {{}, true};
-        Leg leg = single ? rotated(pieces.front().leg, *way) : joined(pieces.back().leg, *way, pieces.front().leg);
-        legs.erase(legs.begin());
-        if (!single) legs.pop_back();
-        legs.push_back(std::move(leg));
+        if (single && pieces.front().sleeve.steps.empty() && way->empty()) return {{}, true};
+        Sleeve sleeve =
+            single ? rotated(pieces.front().sleeve, *way) : joined(pieces.back().sleeve, *way, pieces.front().sleeve);
+        sleeves.erase(sleeves.begin());
+        if (!single) sleeves.pop_back();
+        sleeves.push_back(std::move(sleeve));
         changed = true;
       }
     }
-    return {std::move(legs), changed};
+    return {std::move(sleeves), changed};
   }
 
   // The steps around the vertex between two pieces, where the angle there is less than pi.
-  std::optional<std::vector<Step>> shorter_way(const StraightLeg& a, const StraightLeg& b) const {
-    if (!same_vertex(a.leg.end, b.leg.begin)) return std::nullopt;
+  std::optional<std::vector<Step>> shorter_way(const StraightPiece& a, const StraightPiece& b) const {
+    if (!same_vertex(a.sleeve.end, b.sleeve.begin)) return std::nullopt;
     if (a.length.high == 0 || b.length.high == 0) return std::nullopt;  // no direction, so no angle
-    detail::WayAround way = detail::shortest_way_around(mesh_, a.leg.end.vertex, detail::direction_at_end(mesh_, a),
+    detail::WayAround way = detail::shortest_way_around(mesh_, a.sleeve.end.vertex, detail::direction_at_end(mesh_, a),
                                                         detail::direction_at_begin(mesh_, b));
     if (!(way.angle < kPi - detail::kStraightAngle)) return std::nullopt;
     return std::move(way.steps);
   }
 
   // A closed curve that hangs on one vertex only and leaves it: it is cut open on an edge instead.
-  Leg rotated(const Leg& leg, const std::vector<Step>& way) const {
-    std::vector<Step> cycle = leg.steps;
+  Sleeve rotated(const Sleeve& sleeve, const std::vector<Step>& way) const {
+    std::vector<Step> cycle = sleeve.steps;
     cycle.insert(cycle.end(), way.begin(), way.end());
     return cut_open(cycle, 0.5);
   }
 
   // The cyclic sleeve `cycle`, cut at its first edge, from the point at share t of that edge to the same point.
-  Leg cut_open(const std::vector<Step>& cycle, double t) const {
-    Leg leg;
-    leg.begin = on_halfedge(cycle.front().in, along_in(cycle.front(), t));
-    leg.end = on_halfedge(cycle.front().out, t);
-    leg.first_face = Mesh::face_of(cycle.front().in);
-    leg.steps.assign(cycle.begin() + 1, cycle.end());
-    return leg;
+  Sleeve cut_open(const std::vector<Step>& cycle, double t) const {
+    Sleeve sleeve;
+    sleeve.begin = on_halfedge(cycle.front().in, along_in(cycle.front(), t));
+    sleeve.end = on_halfedge(cycle.front().out, t);
+    sleeve.first_face = Mesh::face_of(cycle.front().in);
+    sleeve.steps.assign(cycle.begin() + 1, cycle.end());
+    return sleeve;
   }
 
   double along_in(const Step& step, double t) const { return mesh_.from(step.in) == mesh_.from(step.out) ? t : 1 - t; }
@@ -197,31 +198,31 @@ class Shortener {
   }
 
   // A closed curve begins and ends somewhere, and nothing holds it there unless that is a vertex.
-  std::vector<StraightLeg> without_free_corner(std::vector<StraightLeg> pieces) const {
-    for (int guard = 0; !pieces.empty() && pieces.front().leg.begin.on != On::Vertex; ++guard) {
+  std::vector<StraightPiece> without_free_corner(std::vector<StraightPiece> pieces) const {
+    for (int guard = 0; !pieces.empty() && pieces.front().sleeve.begin.on != On::Vertex; ++guard) {
       if (pieces.size() > 1) {
         // Some piece ends at a vertex: let the list begin there.
-        const StraightLeg last = pieces.back();
-        std::vector<Leg> legs;
-        for (std::size_t i = 1; i + 1 < pieces.size(); ++i) legs.push_back(pieces[i].leg);
-        legs.push_back(joined(last.leg, bridge(last.leg, pieces.front().leg), pieces.front().leg));
-        return straighten(legs);
+        const StraightPiece& last = pieces.back();
+        std::vector<Sleeve> sleeves;
+        for (std::size_t i = 1; i + 1 < pieces.size(); ++i) sleeves.push_back(pieces[i].sleeve);
+        sleeves.push_back(joined(last.sleeve, bridge(last.sleeve, pieces.front().sleeve), pieces.front().sleeve));
+        return straighten(sleeves);
       }
-      std::vector<Step> cycle = pieces.front().leg.steps;
-      const std::vector<Step> closing = bridge(pieces.front().leg, pieces.front().leg);
+      std::vector<Step> cycle = pieces.front().sleeve.steps;
+      const std::vector<Step> closing = bridge(pieces.front().sleeve, pieces.front().sleeve);
       cycle.insert(cycle.end(), closing.begin(), closing.end());
       reduce(cycle);
       if (cycle.empty()) return {};  // all in one face: it pulls together
-      const Leg leg = cut_open(cycle, best_cut(cycle));
-      pieces = straighten({leg});
-      const bool at_vertex = leg.begin.on == On::Vertex;
+      const Sleeve sleeve = cut_open(cycle, best_cut(cycle));
+      pieces = straighten({sleeve});
+      const bool at_vertex = sleeve.begin.on == On::Vertex;
       if (at_vertex || pieces.size() <= 1 || guard > 2) return pieces;
     }
     return pieces;
   }
 
   // From the last face of a into the first of b, which hold the same point: nothing, or over the edge it lies on.
-  std::vector<Step> bridge(const Leg& a, const Leg& b) const {
+  std::vector<Step> bridge(const Sleeve& a, const Sleeve& b) const {
     const Index from = a.last_face(), to = b.first_face;
     if (from == to || a.end.on != On::Edge) return {};
     return {{halfedge_in(mesh_, a.end.halfedge, from), halfedge_in(mesh_, a.end.halfedge, to)}};
@@ -295,9 +296,9 @@ SurfacePath shorten(const Mesh& mesh, std::span<const SurfacePoint> points, bool
   }
   SurfacePath path;
   path.closed = closed;
-  std::vector<StraightLeg> pieces;
-  if (at.size() > 1) pieces = Shortener(mesh, closed).run(legs_of(mesh, at));
-  for (const StraightLeg& p : pieces) detail::append_points(mesh, p, path.points);
+  std::vector<StraightPiece> pieces;
+  if (at.size() > 1) pieces = Shortener(mesh, closed).run(sleeves_of(mesh, at));
+  for (const StraightPiece& p : pieces) detail::append_points(mesh, p, path.points);
   if (path.points.empty()) path.points.push_back({at.front().face, at.front().weights});
   if (closed && path.points.size() > 1) path.points.pop_back();  // the first one again
   path.length = total_length(pieces).high * mesh.unit();

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <brushfire/mesh/domain.h>
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
+
+#include <span>
 
 namespace brushfire {
 

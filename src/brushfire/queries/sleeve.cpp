@@ -53,14 +53,15 @@ struct Unfolded {
   WideVec2 end;
 };
 
-Unfolded unfold(const Mesh& mesh, const Leg& leg) {
+Unfolded unfold(const Mesh& mesh, const Sleeve& sleeve) {
   Unfolded flat;
-  flat.portals.reserve(leg.steps.size());
-  std::array<WideVec2, 3> corners = wide_corners(mesh, leg.first_face, longest_halfedge(mesh, leg.first_face) % 3);
+  flat.portals.reserve(sleeve.steps.size());
+  std::array<WideVec2, 3> corners =
+      wide_corners(mesh, sleeve.first_face, longest_halfedge(mesh, sleeve.first_face) % 3);
   bool mirrored = false;  // whether the present face lies clockwise
-  const WideVec2 begin = wide_point(corners, *weights_in(mesh, leg.begin, leg.first_face));
+  const WideVec2 begin = wide_point(corners, *weights_in(mesh, sleeve.begin, sleeve.first_face));
   for (WideVec2& corner : corners) corner = corner - begin;
-  for (const Step& step : leg.steps) {
+  for (const Step& step : sleeve.steps) {
     const WideVec2 from = corners[step.out % 3], to = corners[Mesh::next(step.out) % 3];
     // Leaving a counter-clockwise face, the edge's far end lies to the left.
     flat.portals.push_back(mirrored ? Unfolded::Portal{from, to, true} : Unfolded::Portal{to, from, false});
@@ -75,7 +76,7 @@ Unfolded unfold(const Mesh& mesh, const Leg& leg) {
     corners[Mesh::next(step.in) % 3] = v;
     corners[Mesh::previous(step.in) % 3] = u + apex.x * along + apex.y * inward;
   }
-  flat.end = wide_point(corners, *weights_in(mesh, leg.end, leg.last_face()));
+  flat.end = wide_point(corners, *weights_in(mesh, sleeve.end, sleeve.last_face()));
   return flat;
 }
 
@@ -116,8 +117,8 @@ std::optional<Bend> first_bend(const Unfolded& flat) {
   return std::nullopt;
 }
 
-Index vertex_of(const Mesh& mesh, const Leg& leg, const Unfolded& flat, const Bend& bend) {
-  const Index out = leg.steps[bend.step].out;
+Index vertex_of(const Mesh& mesh, const Sleeve& sleeve, const Unfolded& flat, const Bend& bend) {
+  const Index out = sleeve.steps[bend.step].out;
   return flat.portals[bend.step].left_is_from == bend.left ? mesh.from(out) : mesh.to(out);
 }
 
@@ -135,18 +136,19 @@ Crossing crossing_of(const Unfolded& flat, std::size_t step) {
   return portal.left_is_from ? Crossing{at_left, at_right} : Crossing{at_right, at_left};
 }
 
-// Splits the leg at a vertex of the edge of step `i`: the part before (returned) and the part after (left in `leg`).
-Leg split_off(const Mesh& mesh, Leg& leg, std::size_t i, Index vertex) {
-  Leg before;
-  before.begin = leg.begin;
-  before.first_face = leg.first_face;
-  before.steps.assign(leg.steps.begin(), leg.steps.begin() + static_cast<std::ptrdiff_t>(i));
-  before.end = at_vertex(mesh, vertex, Mesh::face_of(leg.steps[i].out));
-  leg.first_face = Mesh::face_of(leg.steps[i].in);
-  leg.begin = at_vertex(mesh, vertex, leg.first_face);
-  leg.steps.erase(leg.steps.begin(), leg.steps.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+// Splits the sleeve at a vertex of the edge of step `i`: the part before (returned) and the part after (left in
+// `sleeve`).
+Sleeve split_off(const Mesh& mesh, Sleeve& sleeve, std::size_t i, Index vertex) {
+  Sleeve before;
+  before.begin = sleeve.begin;
+  before.first_face = sleeve.first_face;
+  before.steps.assign(sleeve.steps.begin(), sleeve.steps.begin() + static_cast<std::ptrdiff_t>(i));
+  before.end = at_vertex(mesh, vertex, Mesh::face_of(sleeve.steps[i].out));
+  sleeve.first_face = Mesh::face_of(sleeve.steps[i].in);
+  sleeve.begin = at_vertex(mesh, vertex, sleeve.first_face);
+  sleeve.steps.erase(sleeve.steps.begin(), sleeve.steps.begin() + static_cast<std::ptrdiff_t>(i) + 1);
   tidy(mesh, before);
-  tidy(mesh, leg);
+  tidy(mesh, sleeve);
   return before;
 }
 
@@ -166,18 +168,18 @@ std::optional<Bend> first_touch(const Unfolded& flat) {
 }
 
 // Over an edge without length there is no "straight": the path goes through one of its vertices.
-std::optional<std::size_t> zero_length_step(const Mesh& mesh, const Leg& leg) {
-  for (std::size_t i = 0; i < leg.steps.size(); ++i) {
-    if (mesh.lengths()[leg.steps[i].out] == 0) return i;
+std::optional<std::size_t> zero_length_step(const Mesh& mesh, const Sleeve& sleeve) {
+  for (std::size_t i = 0; i < sleeve.steps.size(); ++i) {
+    if (mesh.lengths()[sleeve.steps[i].out] == 0) return i;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-void tidy(const Mesh& mesh, Leg& leg) {
+void tidy(const Mesh& mesh, Sleeve& sleeve) {
   std::vector<Step> kept;
-  for (const Step& step : leg.steps) {
+  for (const Step& step : sleeve.steps) {
     if (kept.empty() || kept.back().in != step.out) {
       kept.push_back(step);
     } else if (kept.back().out == step.in) {
@@ -187,23 +189,24 @@ void tidy(const Mesh& mesh, Leg& leg) {
     }
   }
   std::size_t first = 0, last = kept.size();
-  while (first < last && lies_in(mesh, leg.begin, Mesh::face_of(kept[first].in))) {
-    leg.first_face = Mesh::face_of(kept[first++].in);
+  while (first < last && lies_in(mesh, sleeve.begin, Mesh::face_of(kept[first].in))) {
+    sleeve.first_face = Mesh::face_of(kept[first++].in);
   }
-  while (last > first && lies_in(mesh, leg.end, Mesh::face_of(kept[last - 1].out))) --last;
-  leg.steps.assign(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last));
+  while (last > first && lies_in(mesh, sleeve.end, Mesh::face_of(kept[last - 1].out))) --last;
+  sleeve.steps.assign(kept.begin() + static_cast<std::ptrdiff_t>(first),
+                      kept.begin() + static_cast<std::ptrdiff_t>(last));
 }
 
-std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg) {
-  std::vector<StraightLeg> pieces;
-  std::vector<Leg> waiting;  // the last one comes first
-  tidy(mesh, leg);
-  waiting.push_back(std::move(leg));
+std::vector<StraightPiece> shortest_in_sleeve(const Mesh& mesh, Sleeve sleeve) {
+  std::vector<StraightPiece> pieces;
+  std::vector<Sleeve> waiting;  // the last one comes first
+  tidy(mesh, sleeve);
+  waiting.push_back(std::move(sleeve));
   while (!waiting.empty()) {
-    Leg now = std::move(waiting.back());
+    Sleeve now = std::move(waiting.back());
     waiting.pop_back();
     std::optional<std::pair<std::size_t, Index>> split;
-    StraightLeg straight;
+    StraightPiece straight;
     if (const auto step = zero_length_step(mesh, now)) {
       split = {*step, mesh.from(now.steps[*step].out)};
     } else {
@@ -213,13 +216,13 @@ std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg) {
       if (bend) {
         split = {bend->step, vertex_of(mesh, now, flat, *bend)};
       } else {
-        straight.leg = now;
+        straight.sleeve = now;
         straight.length = norm(flat.end);
         for (std::size_t i = 0; i < now.steps.size(); ++i) straight.crossing.push_back(crossing_of(flat, i));
       }
     }
     if (split) {
-      Leg before = split_off(mesh, now, split->first, split->second);
+      Sleeve before = split_off(mesh, now, split->first, split->second);
       waiting.push_back(std::move(now));
       waiting.push_back(std::move(before));
     } else {
@@ -229,7 +232,7 @@ std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg) {
   return pieces;
 }
 
-void append_points(const Mesh& mesh, const StraightLeg& straight, std::vector<SurfacePoint>& points) {
+void append_points(const Mesh& mesh, const StraightPiece& straight, std::vector<SurfacePoint>& points) {
   const auto append = [&](SurfacePoint p) {
     if (!points.empty()) {
       const PointLocation a = locate(mesh, points.back(), 0), b = locate(mesh, p, 0);
@@ -237,15 +240,15 @@ void append_points(const Mesh& mesh, const StraightLeg& straight, std::vector<Su
     }
     points.push_back(p);
   };
-  append({straight.leg.begin.face, straight.leg.begin.weights});
+  append({straight.sleeve.begin.face, straight.sleeve.begin.weights});
   for (std::size_t i = 0; i < straight.crossing.size(); ++i) {
-    const Index h = straight.leg.steps[i].out;
+    const Index h = straight.sleeve.steps[i].out;
     SurfacePoint p{Mesh::face_of(h), {0, 0, 0}};
     p.weights[h % 3] = straight.crossing[i].from;
     p.weights[Mesh::next(h) % 3] = straight.crossing[i].to;
     append(p);
   }
-  append({straight.leg.end.face, straight.leg.end.weights});
+  append({straight.sleeve.end.face, straight.sleeve.end.weights});
 }
 
 namespace {
@@ -291,20 +294,24 @@ std::array<double, 3> weights_on(Index h, const Crossing& at) {
 
 }  // namespace
 
-Direction direction_at_begin(const Mesh& mesh, const StraightLeg& s) {
-  const Index f = s.leg.first_face;
-  const auto ahead =
-      s.leg.steps.empty() ? *weights_in(mesh, s.leg.end, f) : weights_on(s.leg.steps.front().out, s.crossing.front());
-  return direction_towards(mesh, s.leg.begin.vertex, f, ahead);
+Direction direction_at_begin(const Mesh& mesh, const StraightPiece& straight) {
+  const Index f = straight.sleeve.first_face;
+  const auto ahead = straight.sleeve.steps.empty()
+                         ? *weights_in(mesh, straight.sleeve.end, f)
+                         : weights_on(straight.sleeve.steps.front().out, straight.crossing.front());
+  return direction_towards(mesh, straight.sleeve.begin.vertex, f, ahead);
 }
 
-Direction direction_at_end(const Mesh& mesh, const StraightLeg& s) {
-  const Index f = s.leg.last_face();
-  if (s.leg.steps.empty()) return direction_towards(mesh, s.leg.end.vertex, f, *weights_in(mesh, s.leg.begin, f));
-  const Step& last = s.leg.steps.back();
+Direction direction_at_end(const Mesh& mesh, const StraightPiece& straight) {
+  const Index f = straight.sleeve.last_face();
+  if (straight.sleeve.steps.empty()) {
+    return direction_towards(mesh, straight.sleeve.end.vertex, f, *weights_in(mesh, straight.sleeve.begin, f));
+  }
+  const Step& last = straight.sleeve.steps.back();
   const bool same_start = mesh.from(last.in) == mesh.from(last.out);
-  const Crossing& at = s.crossing.back();
-  return direction_towards(mesh, s.leg.end.vertex, f, weights_on(last.in, same_start ? at : Crossing{at.to, at.from}));
+  const Crossing& at = straight.crossing.back();
+  return direction_towards(mesh, straight.sleeve.end.vertex, f,
+                           weights_on(last.in, same_start ? at : Crossing{at.to, at.from}));
 }
 
 // Dijkstra on the link: its nodes are the edges at the vertex (by their other end), its arcs the corners.

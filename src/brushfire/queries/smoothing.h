@@ -1,7 +1,6 @@
 // Smoothing of values on a surface with a Gaussian of the geodesic distance.
 #pragma once
 
-#include <brushfire/core/types.h>
 #include <brushfire/mesh/domain.h>
 #include <brushfire/queries/distance_matrix.h>
 
@@ -22,7 +21,7 @@ inline constexpr double kKernelReach = 4;
 SparseMatrix<double> smoothing_kernel(const Domain& domain, double sigma, const MatrixOptions& options = {});
 
 // The rows' means of one value per vertex. Values that are NaN do not count (the weights of the others are made to sum
-// to 1), and nothing comes of a vertex whose own is NaN, or whose row is empty: it stays as it is. Throws
+// to 1), and a vertex whose own value is NaN, or whose row is empty, keeps what it has. Throws
 // Error(InvalidArgument) where there is not one value per column. O(entries).
 std::vector<double> smoothed(const SparseMatrix<double>& kernel, std::span<const double> values);
 

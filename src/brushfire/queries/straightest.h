@@ -1,7 +1,7 @@
 // Straightest geodesics: walking straight on from a point, and the logarithmic map that undoes it.
 #pragma once
 
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 #include <brushfire/solvers/distance.h>
 
 #include <vector>
@@ -21,8 +21,8 @@ double total_angle(const Mesh& mesh, const SurfacePoint& point);
 // that is at right angles to the surface.
 double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& direction);
 
-// Whether the angles at a point grow counter-clockwise, as the faces there run: they do but at some boundary vertices,
-// and where faces lie the wrong way round.
+// Whether the angles at a point grow counter-clockwise, as the faces there run: they do, except at some boundary
+// vertices and where faces are oriented the other way round.
 bool is_counter_clockwise(const Mesh& mesh, const SurfacePoint& point);
 
 enum class TraceEnd : std::uint8_t {

@@ -135,8 +135,8 @@ Stop at_place(const PointLocation& place) {
   return stop;
 }
 
-Leg cheapest_leg(const WeightedMesh& mesh, const Stop& from, const Stop& to) {
-  Leg best{kNoIndex, kNoIndex, kInfinity};
+StripLeg cheapest_leg(const WeightedMesh& mesh, const Stop& from, const Stop& to) {
+  StripLeg best{kNoIndex, kNoIndex, kInfinity};
   const std::vector<Index> theirs = edges_of(mesh, to, false);
   for (const Index e : edges_of(mesh, from, true)) {
     if (mesh.edge_weight(e) < best.weight && std::find(theirs.begin(), theirs.end(), e) != theirs.end()) {
@@ -151,7 +151,7 @@ Leg cheapest_leg(const WeightedMesh& mesh, const Stop& from, const Stop& to) {
   return best;
 }
 
-Rail rail(const WeightedMesh& weighted, const Leg& leg, const Stop& stop, bool stop_is_first) {
+Rail rail(const WeightedMesh& weighted, const StripLeg& leg, const Stop& stop, bool stop_is_first) {
   const Mesh& mesh = weighted.mesh();
   if (leg.face == kNoIndex) {
     const Index h = weighted.edges().halfedge(leg.edge);

@@ -1,10 +1,10 @@
-// Curves on the surface from what people have: chains of vertices, and polylines drawn in space.
+// Curves on the surface made from chains of vertices, and from polylines drawn in space.
 #pragma once
 
 #include <brushfire/core/progress.h>
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/domain.h>
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 
 #include <span>
 
@@ -20,9 +20,9 @@ struct ProjectedCurve {
   Vec3 gap_position;       // of the polyline, where that is
 };
 
-// A polyline in space, put onto the surface: its corners and, along pieces that are longer than the mesh's mean edge,
-// points so often that no piece is longer, each at the nearest point of the surface; between them the shortest paths.
-// Whether a curve that lies far off the surface means anything is for the caller to say: largest_gap tells. Throws
+// A polyline in space, projected onto the surface: its corners and, along pieces that are longer than the mesh's mean
+// edge, so many points that no piece is longer, each at the nearest point of the surface; between them shortest paths.
+// Whether a curve that lies far off the surface is meaningful is up to the caller: largest_gap says how far. Throws
 // Error(InvalidArgument) for no points, a mesh without positions, and places between which no way leads; what
 // NearestPointFinder throws. O(points log faces) and a short exact run for each.
 ProjectedCurve project_curve(const Domain& domain, std::span<const Vec3> positions, bool closed = false,

@@ -2,7 +2,6 @@
 // vertex is, how far the surface is on average, and how large the disc is that holds a share of it.
 #pragma once
 
-#include <brushfire/core/types.h>
 #include <brushfire/mesh/domain.h>
 #include <brushfire/queries/distance_matrix.h>
 

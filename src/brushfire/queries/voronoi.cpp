@@ -159,7 +159,7 @@ class Joiner {
  public:
   Joiner(const Mesh& mesh, std::span<const Piece> pieces) : mesh_(mesh), pieces_(pieces), used_(pieces.size(), false) {
     for (Index i = 0; i < pieces.size(); ++i) {
-      for (Index end = 0; end < 2; ++end) ends_.push_back({pieces[i].node[end], i, end});
+      for (Index end = 0; end < 2; ++end) ends_.emplace_back(pieces[i].node[end], i, end);
     }
     std::sort(ends_.begin(), ends_.end());
   }

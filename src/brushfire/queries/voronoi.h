@@ -3,7 +3,7 @@
 
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 #include <brushfire/solvers/distance.h>
 
 #include <array>

@@ -13,9 +13,9 @@ namespace brushfire {
 namespace {
 
 using steiner::Run;
-using weighted::Leg;
 using weighted::Stop;
 using weighted::Strip;
+using weighted::StripLeg;
 
 SurfacePoint point_of(const steiner::WeightedMesh& weighted, const Stop& stop) {
   const Mesh& mesh = weighted.mesh();
@@ -35,7 +35,7 @@ double height_of(const steiner::WeightedMesh& weighted, const Stop& stop) {
 
 WeightedLeg leg_of(const Run& run, const Strip& strip, std::size_t k) {
   const steiner::WeightedMesh& weighted = *run.mesh;
-  const Leg& leg = strip.legs[k];
+  const StripLeg& leg = strip.legs[k];
   WeightedLeg result;
   result.length = length_of(weighted, strip, k) * weighted.mesh().unit();
   result.weight = leg.weight;
@@ -101,7 +101,7 @@ std::vector<WeightedPath> plain_paths(const Domain& domain, double weight, std::
   std::vector<WeightedPath> paths;
   for (const SourcePath& found : paths_to(solver, scaled, targets, how)) {
     WeightedPath& path = paths.emplace_back();
-    static_cast<SurfacePath&>(path) = found;
+    static_cast<SurfacePath&>(path) = found;  // NOLINT(cppcoreguidelines-slicing): the source follows
     path.source = found.source;
     if (found.points.empty()) continue;
     path.cost = path.lower = found.length * weight;
@@ -126,6 +126,7 @@ std::vector<WeightedPath> weighted_paths(WeightedSolver& solver, std::span<const
     return plain_paths(solver.domain(), weight, sources, targets, options);
   }
   options.targets.assign(targets.begin(), targets.end());
+  options.keep_paths = true;
   const WeightedField field = solver.distance(sources, options);
   std::vector<WeightedPath> paths;
   for (std::size_t t = 0; t < targets.size(); ++t) {

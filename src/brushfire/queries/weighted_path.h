@@ -10,7 +10,8 @@
 //     std::printf("%g for %g of way\n", path.cost, path.length);
 #pragma once
 
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
+#include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
 
 #include <array>
@@ -38,11 +39,11 @@ struct WeightedPath : SurfacePath {
 
 // Paths from the nearest of the sources to each target, off one run ([targets]). They are locally shortest: no change
 // of where they cross edges, and none of the side on which they pass a vertex, makes them cheaper; where they cross an
-// edge they obey Snell's law to rounding. Costs are without the sources' offsets. Of a path that the run misses by more
-// than its tolerance, a cheaper one elsewhere, `lower` tells. With one weight everywhere they are the shortest paths,
-// exactly. Where
-// slopes count, paths are those of the search, whose cost is within its tolerance or so, and are not straightened; with
-// WeightedOptions::towards they lead from the target to the source. Throws as WeightedSolver::distance() does. A
+// edge they obey Snell's law to rounding. Costs are without the sources' offsets. A cheaper path elsewhere is possible;
+// `lower` says how much cheaper at most. With one weight everywhere they are the shortest paths, exactly.
+//
+// Where slopes count, paths are those of the search, whose cost is within its tolerance, and are not straightened;
+// with WeightedOptions::towards they lead from the target to the source. Throws as WeightedSolver::distance() does. A
 // millisecond or so for each path of some hundred legs.
 std::vector<WeightedPath> weighted_paths(WeightedSolver& solver, std::span<const Source> sources,
                                          std::span<const SurfacePoint> targets, WeightedOptions options = {});

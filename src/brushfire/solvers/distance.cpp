@@ -1,23 +1,18 @@
-// Validation, dispatch to an engine, and what all engines share after the run: radius, units, counts.
+// Validation, and runs of engines.
 #include <brushfire/solvers/distance.h>
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/detail/prefault.h>
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
-#include <brushfire/solvers/carried_source/detail/engine.h>
 #include <brushfire/solvers/detail/curve_feet.h>
-#include <brushfire/solvers/detail/dijkstra.h>
 #include <brushfire/solvers/detail/engine.h>
+#include <brushfire/solvers/detail/finish.h>
+#include <brushfire/solvers/detail/methods.h>
 #include <brushfire/solvers/detail/offsets.h>
 #include <brushfire/solvers/detail/walls.h>
-#include <brushfire/solvers/fast_marching/detail/fast_marching.h>
-#include <brushfire/solvers/heat/cholesky.h>
-#include <brushfire/solvers/heat/engine.h>
-#include <brushfire/solvers/windows/engine.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -25,34 +20,6 @@
 
 namespace brushfire {
 namespace {
-
-constexpr std::array kMethods{
-    Method::Windows,          Method::Exact,         Method::CarriedSource, Method::NovotniKlein,
-    Method::NovotniKlein2002, Method::KimmelSethian, Method::Dijkstra,      Method::Heat};
-
-// Methods that share one engine go by the name of the first.
-Method engine_of(Method method) {
-  if (method == Method::Exact) return Method::Windows;
-  return method == Method::NovotniKlein2002 || method == Method::KimmelSethian ? Method::NovotniKlein : method;
-}
-
-std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Method method) {
-  switch (method) {
-    case Method::Windows:
-      return windows::make_windows(mesh);
-    case Method::CarriedSource:
-      return carried_source::make_engine(mesh);
-    case Method::NovotniKlein:
-      return fast_marching::make_engine(mesh);
-    case Method::Dijkstra:
-      return detail::make_dijkstra(mesh);
-    case Method::Heat:
-      return heat::make_engine(mesh);
-    default:
-      break;
-  }
-  throw Error(ErrorCode::InvalidArgument, "no such method");
-}
 
 // std::vector::assign(), on pages that are made present all at once.
 template <class T>
@@ -65,7 +32,7 @@ void assign(std::vector<T>& array, std::size_t size, T value) {
   array.assign(size, value);
 }
 
-using detail::Offsets;
+using detail::engine_of, detail::Offsets;
 
 // The others start at points of the curve, and have one value for each front to start with.
 void check_slopes(Method method, std::span<const detail::LocatedSource> sources) {
@@ -114,123 +81,7 @@ void check(const DistanceOptions& options) {
   }
 }
 
-// A target at a vertex reads what the field reads there, to the bit. Makes room for those that are nowhere.
-void finish_targets(double unit, std::span<const PointLocation> targets, const Offsets& offsets,
-                    const DistanceOptions& options, DistanceField& field) {
-  for (std::size_t i = 0; i < field.target_distance.size(); ++i) {
-    double& d = field.target_distance[i];
-    Index& source = field.target_source[i];
-    if (targets[i].on == PointLocation::On::Vertex) {
-      d = field.distance[targets[i].vertex];
-      source = field.source[targets[i].vertex];
-    }
-    d = offsets.value(d, source, unit, options.bound);
-    if (d == kInfinity || d > options.max_distance) {
-      d = kInfinity;
-      source = kNoIndex;
-    }
-  }
-  for (std::size_t i = 0; i < options.targets.size() && targets.size() < options.targets.size(); ++i) {
-    if (!options.targets[i].is_nowhere()) continue;
-    const auto place = static_cast<std::ptrdiff_t>(i);
-    field.target_distance.insert(field.target_distance.begin() + place, kInfinity);
-    field.target_source.insert(field.target_source.begin() + place, kNoIndex);
-  }
-}
-
-// Applies the radius, goes back to the mesh's units, counts.
-void finish(const Mesh& mesh, std::span<const PointLocation> targets, const Offsets& offsets,
-            const DistanceOptions& options, DistanceField& field) {
-  const double unit = mesh.unit();
-  finish_targets(unit, targets, offsets, options, field);
-  field.method = options.method;
-  field.reached = 0;
-  for (std::size_t v = 0; v < field.distance.size(); ++v) {
-    double& d = field.distance[v];
-    if (d == kInfinity) continue;
-    d = offsets.value(d, field.source[v], unit, options.bound);
-    if (d == kInfinity || d > options.max_distance) {
-      d = kInfinity;
-      field.source[v] = kNoIndex;
-      if (!field.error_bound.empty()) field.error_bound[v] = kInfinity;
-      ++field.beyond_radius;
-    } else {
-      if (!field.error_bound.empty()) field.error_bound[v] = offsets.bound(field.error_bound[v], d, unit);
-      ++field.reached;
-    }
-  }
-  field.unreachable = mesh.vertex_count() - field.reached - field.beyond_radius;
-}
-
-// The touched vertices within the radius, ascending, in the mesh's units. `touched` is sorted on the way.
-void collect(double unit, std::span<const PointLocation> targets, const Offsets& offsets,
-             const DistanceOptions& options, DistanceField& field, std::vector<Index>& touched, SparseField& result) {
-  constexpr std::size_t kScanShare = 16;  // looking at this many vertices costs about as much as sorting in one
-  if (touched.size() > field.distance.size() / kScanShare) {
-    touched.clear();
-    for (Index v = 0; v < field.distance.size(); ++v) {
-      if (field.distance[v] != kInfinity || field.source[v] != kNoIndex) touched.push_back(v);
-    }
-  } else {
-    std::sort(touched.begin(), touched.end());
-  }
-  result.vertex.resize(touched.size());
-  result.distance.resize(touched.size());
-  result.source.resize(touched.size());
-  std::size_t count = 0;
-  for (const Index v : touched) {
-    const double d = offsets.value(field.distance[v], field.source[v], unit, options.bound);
-    if (d == kInfinity || d > options.max_distance) continue;
-    result.vertex[count] = v;
-    result.distance[count] = d;
-    result.source[count++] = field.source[v];
-  }
-  result.vertex.resize(count);
-  result.distance.resize(count);
-  result.source.resize(count);
-  finish_targets(unit, targets, offsets, options, field);
-  result.target_distance.swap(field.target_distance);
-  result.target_source.swap(field.target_source);
-  result.windows = std::move(field.windows);
-}
-
 }  // namespace
-
-std::string_view name_of(Method method) {
-  switch (method) {
-    case Method::Windows:
-      return "windows";
-    case Method::Exact:
-      return "exact";
-    case Method::CarriedSource:
-      return "carried-source";
-    case Method::NovotniKlein:
-      return "novotni-klein";
-    case Method::NovotniKlein2002:
-      return "novotni-klein-2002";
-    case Method::KimmelSethian:
-      return "kimmel-sethian";
-    case Method::Dijkstra:
-      return "dijkstra";
-    case Method::Heat:
-      return "heat";
-  }
-  return "unknown";
-}
-
-Method method_named(std::string_view name) {
-  std::string known;
-  if (name == name_of(Method::Heat)) heat::require_factorization();
-  for (const Method m : all_methods()) {
-    if (name_of(m) == name) return m;
-    known += std::string(known.empty() ? "" : ", ") + std::string(name_of(m));
-  }
-  throw Error(ErrorCode::InvalidArgument, "unknown method '" + std::string(name) + "': it is one of " + known);
-}
-
-std::span<const Method> all_methods() {
-  return heat::can_factor() ? std::span(kMethods) : std::span(kMethods).first(kMethods.size() - 1);  // heat is the last
-}
 
 Source source_along(CurveSource curve, double offset) {
   return {{}, offset, std::make_shared<const CurveSource>(std::move(curve))};
@@ -279,7 +130,7 @@ struct DistanceSolver::Workspace {
 
 detail::Engine& DistanceSolver::Workspace::engine(Method method) {
   std::unique_ptr<detail::Engine>& engine = engines[engine_of(method)];
-  if (!engine) engine = make_engine(mesh, engine_of(method));
+  if (!engine) engine = detail::make_engine(mesh, method);
   return *engine;
 }
 
@@ -298,14 +149,17 @@ void DistanceSolver::Workspace::locate_all(std::span<const Source> from, const D
   detail::replace_curves_by_feet(mesh, points);
 }
 
-// Targets beside curves that were run as points, straight.
+// Targets in regions; and beside curves that were run as points, straight.
 void DistanceSolver::Workspace::read_curves(DistanceField& field) const {
-  if (points.empty()) return;
+  if (!detail::any_curve(sources)) return;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    const detail::CurveValue value = detail::straight_from_curves(mesh, sources, targets[i]);
-    if (std::pair(value.distance, value.label) >= std::pair(field.target_distance[i], field.target_source[i])) continue;
-    field.target_distance[i] = value.distance;
-    field.target_source[i] = value.label;
+    const auto offer = [&](const detail::CurveValue& v) {
+      if (std::pair(v.distance, v.label) >= std::pair(field.target_distance[i], field.target_source[i])) return;
+      field.target_distance[i] = v.distance;
+      field.target_source[i] = v.label;
+    };
+    if (!points.empty()) offer(detail::straight_from_curves(mesh, sources, targets[i]));
+    offer(detail::from_regions(mesh, sources, targets[i]));
   }
 }
 
@@ -364,7 +218,7 @@ void DistanceSolver::Workspace::run(std::span<const Source> from, const Distance
   field.target_source.assign(targets.size(), kNoIndex);
   chosen.solve(problem(options, nullptr), field);
   read_curves(field);
-  finish(mesh, targets, offsets, options, field);
+  detail::finish(mesh, targets, offsets, options, field);
 }
 
 void DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options,
@@ -396,7 +250,7 @@ void DistanceSolver::Workspace::run_sparse(std::span<const Source> from, const D
   }
   read_curves(scratch);
   if (!listed) touched.resize(mesh.vertex_count());  // any of them
-  collect(mesh.unit(), targets, offsets, options, scratch, touched, field);
+  detail::collect(mesh.unit(), targets, offsets, options, scratch, touched, field);
   clean(!listed);
 }
 

@@ -7,14 +7,14 @@
 //     std::printf("vertex 2 is %g away, to within %g\n", field.distance[2], field.error_bound[2]);
 #pragma once
 
-#include <brushfire/core/progress.h>
+#include <brushfire/core/progress.h>  // IWYU pragma: export
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/curve_source.h>
-#include <brushfire/mesh/domain.h>
+#include <brushfire/mesh/domain.h>  // IWYU pragma: export
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/heat_options.h>
-#include <brushfire/solvers/window_field.h>
+#include <brushfire/solvers/window_field.h>  // IWYU pragma: export
 
 #include <memory>
 #include <span>
@@ -43,8 +43,8 @@ Method method_named(std::string_view name);
 // All that this build has, in the order of the enumeration.
 std::span<const Method> all_methods();
 
-// Arithmetic of the marching itself; lengths and results are double either way. Float costs digits beyond the sixth, of
-// values whose error is larger than that unless the surface is flat; where a mesh does not fit into its range (edges
+// Arithmetic of the marching itself; lengths and results are double either way. Float loses digits beyond the sixth,
+// where values are not accurate anyway unless the surface is flat; where a mesh does not fit into its range (edges
 // 2^24 times the mean), and for novotni-klein-2002, whose formula cancels, Double is used.
 enum class Precision : std::uint8_t { Float, Double };
 
@@ -75,7 +75,7 @@ struct DistanceOptions {
   HeatOptions heat = {};                   // Method::Heat only
   Precision precision = Precision::Float;  // methods that have only one ignore it
   double max_distance = kInfinity;         // vertices farther than this read +inf; >= 0, may be +inf
-  // Where there are any, the solver may stop once all of them are final; those that are nowhere read +inf.
+  // If there are targets, the solver may stop once all of them are final; those that are nowhere read +inf.
   std::vector<SurfacePoint> targets = {};
   bool keep_paths = false;              // fill DistanceField::windows, for paths to vertices and targets (exact)
   bool keep_windows = false;            // the same for every surface point: all windows are kept, some kB a vertex
@@ -103,7 +103,7 @@ struct DistanceField {
   std::uint64_t updates = 0;  // vertices (marching) or window lists (windows) taken from the queue, with repetitions
 };
 
-// A field that says nothing of the vertices that it did not reach. The vertices ascend.
+// A field of the reached vertices only, in ascending order.
 struct SparseField {
   std::vector<Index> vertex;                   // [reached]
   std::vector<double> distance;                // [reached], finite
@@ -130,18 +130,18 @@ class DistanceSolver {
 
   const Domain& domain() const noexcept;
   const Mesh& mesh() const noexcept;  // the whole: domain().mesh()
-  // Builds what the first call with this method and precision would build otherwise: tells set-up from solving.
+  // Builds what the first call with this method and precision would build otherwise, so that it can be timed apart.
   // O(faces).
   void set_up(const DistanceOptions& options = {});
   DistanceField distance(std::span<const Source> sources, const DistanceOptions& options = {});
-  // In place of what `field` held, whose memory is used again: in the long run the marching methods allocate nothing.
+  // Overwrites `field` and uses its memory again: after a few calls the marching methods allocate nothing.
   void distance(std::span<const Source> sources, const DistanceOptions& options, DistanceField& field);
 
   // The same numbers, of the reached vertices only: costs what it reaches, whatever the size of the mesh (after the
   // first call; for methods that keep no list of what they touched, and with keep_windows, one look at every vertex
   // more).
   SparseField distance_sparse(std::span<const Source> sources, const DistanceOptions& options = {});
-  // In place of what `field` held, whose memory is used again: for very many short runs.
+  // Overwrites `field` and uses its memory again: for very many short runs.
   void distance_sparse(std::span<const Source> sources, const DistanceOptions& options, SparseField& field);
 
  private:

@@ -2,7 +2,6 @@
 // Method::Heat, which computes the same.)
 #pragma once
 
-#include <brushfire/core/types.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/heat_options.h>
@@ -13,8 +12,8 @@
 
 namespace brushfire {
 
-// Two linear systems, factored once. What it gives approximates the distance on the smooth surface that the mesh stands
-// for, not that on its faces, and has no bound; docs/heat.md says how near it comes. Safe to use from several threads.
+// Two linear systems, factored once. The results approximate the distance on the smooth surface that the mesh stands
+// for, not that on its faces, and have no bound; docs/heat.md says how good they are. Safe to use from several threads.
 //
 // Based on: Crane, Weischedel, Wardetzky, "The heat method for distance computation", 2017.
 class HeatSolver {
@@ -27,7 +26,7 @@ class HeatSolver {
   HeatSolver& operator=(HeatSolver&&) noexcept;
 
   // One row for each set of sources: the distance from the nearest of them, [sets * vertex_count] in units of the mesh;
-  // +inf where no way leads. Every source reads its own offset, but for those that another one's front reaches sooner.
+  // +inf where no path leads. Every source reads its own offset, except those that another one's front reaches sooner.
   // Eight rows at a time cost a third of what they cost one by one. Throws as distance() does.
   std::vector<double> distances(std::span<const std::vector<Source>> sets) const;
   std::vector<double> distance(std::span<const Source> sources) const;

@@ -1,4 +1,4 @@
-// What the heat method can be told.
+// Options of the heat method.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The Laplacian of any triangle mesh, for whoever builds on it: cotangents on the intrinsic Delaunay triangulation.
+// The Laplacian of any triangle mesh, for other programs to build on: cotangents, intrinsic Delaunay triangulation.
 #pragma once
 
 #include <brushfire/core/types.h>

@@ -20,7 +20,7 @@ struct SignedCurve {
   bool is_signed = true;  // false: distances grow on both sides
 };
 
-// What is asked of the curves beside that distances grow away from them at rate one.
+// What is required of values on the curves, besides that distances grow away from them at rate one.
 enum class LevelSetConstraint : std::uint8_t {
   None,      // nothing: their mean is 0
   ZeroSet,   // all of them read 0

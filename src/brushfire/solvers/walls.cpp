@@ -54,6 +54,9 @@ std::shared_ptr<const CurveSource> open_part_of(const Domain& domain, const Curv
       add({}, 0);
     }
   }
+  for (const Index f : located.inside) {
+    if (open_face[f] != kNoIndex) open.inside.push_back(open_face[f]);
+  }
   if (open.places.empty()) throw behind_walls(source);
   return std::make_shared<const CurveSource>(std::move(open));
 }

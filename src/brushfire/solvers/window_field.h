@@ -10,7 +10,7 @@
 
 namespace brushfire {
 
-namespace windows {
+namespace windows {            // NOLINT(modernize-concat-nested-namespaces)
 inline namespace in_doubles {  // see windows/algebra/real.h
 struct WindowFieldData;
 class Departures;

@@ -90,6 +90,29 @@ TEST(GroupMarch, EveryProcessorGivesTheSameBits) {
   }
 }
 
+using EntriesByVertex = std::map<Index, std::vector<std::pair<Index, float>>>;
+
+EntriesByVertex entries_of(GroupRunner& runner, const GroupedRows::Group& group, double radius) {
+  EntriesByVertex rows;
+  runner.run_within(group, radius, [&](int lane, std::span<const Index> vertices, std::span<const float> distances) {
+    auto& row = rows[group.vertices[static_cast<std::size_t>(lane)]];
+    for (std::size_t k = 0; k < vertices.size(); ++k) row.emplace_back(vertices[k], distances[k]);
+  });
+  return rows;
+}
+
+TEST(GroupMarch, WithinARadiusEveryProcessorGivesTheSameBits) {
+  for (const Mesh& mesh : {sphere(), shapes::book(3, 9, 9).mesh()}) {
+    const GroupedRows rows(mesh, all_vertices(mesh));
+    GroupRunner best(rows), avx2(rows, Variant::Avx2), portable(rows, Variant::Portable);
+    for (std::size_t g = 0; g < rows.groups().size(); g += 3) {
+      const EntriesByVertex expected = entries_of(best, rows.groups()[g], 0.2);
+      EXPECT_EQ(expected, entries_of(avx2, rows.groups()[g], 0.2));
+      EXPECT_EQ(expected, entries_of(portable, rows.groups()[g], 0.2));
+    }
+  }
+}
+
 TEST(GroupMarch, ForgetsWhatItDidBefore) {
   const Mesh mesh = sphere();
   const GroupedRows rows(mesh, all_vertices(mesh));

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -37,7 +39,12 @@ void expect_few_turns(const Mesh& mesh, const std::vector<Place>& places, const 
 }
 
 std::vector<Place> places_of(const Mesh& mesh, Index rim) {
-  return {{"a tip", vertex_point(mesh, 0)}, {"the rim", vertex_point(mesh, rim)}};
+  const Index face = mesh.face_count() / 3;
+  return {{"a tip", vertex_point(mesh, 0)},
+          {"the rim", vertex_point(mesh, rim)},
+          {"inside of a face", {face, {0.2, 0.3, 0.5}}},
+          {"an edge to a tip", {face, {0.4, 0.6, 0}}},
+          {"an edge of the rim", {face, {0, 0.4, 0.6}}}};
 }
 
 // 500: ordinary faces; 2,000: needles in wider numbers; 20,000: in several parts.
@@ -59,6 +66,64 @@ TEST(Turns, AreFewForEachFaceOfAFanAndABook) {
     }
     const Mesh book = shapes::book(count, 1, 2).mesh();
     expect_few_turns(book, places_of(book, 2), "a book of " + std::to_string(count));
+  }
+}
+
+// A hub, and around it a rim whose vertices are at random distances and heights: saddles, spikes, needles. With two
+// hubs over one rim, or one; closed or not.
+Mesh random_wheel(std::mt19937_64& random, Index count, double roughness, bool closed, bool two) {
+  std::uniform_real_distribution<double> part(-roughness, roughness), phase(0, 1);
+  std::vector<Vec3> p{{0, 0, 0.8}, {0.1, 0, -0.5}};
+  std::vector<Face> t;
+  const double shift = phase(random);
+  for (Index k = 0; k < count; ++k) {
+    const double angle = 2 * kPi * (k + shift) / count, radius = 1 + part(random);
+    p.push_back({radius * std::cos(angle), radius * std::sin(angle), 0.3 * part(random)});
+  }
+  for (Index k = 0; k + (closed ? 0 : 1) < count; ++k) {
+    const Index a = 2 + k, b = 2 + (k + 1) % count;
+    t.push_back({0, a, b});
+    if (two) t.push_back({1, b, a});
+  }
+  return Mesh(p, t);
+}
+
+// Runs that keep their windows let them wait at every spoke.
+TEST(Turns, OverManySpokesAtOnceLoseNothing) {
+  std::mt19937_64 random(20261130);
+  std::uniform_real_distribution<double> weight(0, 1);
+  for (int i = 0; i < 48; ++i) {
+    const double roughness = std::array{0.0, 1e-3, 0.1, 0.8}[static_cast<std::size_t>(i) % 4];
+    const bool closed = i % 3 != 0, two = i % 5 != 0;
+    const Mesh mesh = random_wheel(random, 260 + static_cast<Index>(i), roughness, closed, two);
+    const auto place = [&] {
+      const double a = weight(random), b = (1 - a) * weight(random);
+      return SurfacePoint{static_cast<Index>(random() % mesh.face_count()), {a, b, 1 - a - b}};
+    };
+    const std::vector<Source> sources{{place(), 0, {}}};
+    const std::vector<SurfacePoint> targets{place(), place(), place()};
+    DistanceOptions options;
+    options.method = i % 2 ? Method::Exact : Method::Windows;
+    const DistanceField at_once = distance(mesh, sources, options);
+    options.targets = targets;
+    const DistanceField to_targets = distance(mesh, sources, options);
+    options.targets.clear();
+    options.keep_windows = true;
+    const DistanceField one_by_one = distance(mesh, sources, options);
+    options.targets = targets;
+    const DistanceField to_targets_one_by_one = distance(mesh, sources, options);
+    const std::string where = "wheel " + std::to_string(i);
+    EXPECT_EQ(at_once.reached, two ? mesh.vertex_count() : mesh.vertex_count() - 1) << where;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      if (one_by_one.distance[v] == kInfinity) continue;  // the second hub where there is one only
+      const double allowed = at_once.error_bound[v] + one_by_one.error_bound[v];
+      ASSERT_NEAR(at_once.distance[v], one_by_one.distance[v], allowed) << where << ", vertex " << v;
+    }
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      const double d = to_targets_one_by_one.target_distance[k];
+      ASSERT_NEAR(to_targets.target_distance[k], d, 2 * one_by_one.max_error_bound * d) << where << ", target " << k;
+    }
+    EXPECT_LE(at_once.updates, one_by_one.updates) << where;
   }
 }
 

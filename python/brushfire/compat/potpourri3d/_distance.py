@@ -10,7 +10,8 @@ import numpy.typing as npt
 from brushfire._arrays import Floats
 from brushfire._errors import BrushfireError
 from brushfire._heat import HeatSolver, SignedHeatSolver
-from brushfire._mesh import Mesh, Solver
+from brushfire._mesh import Mesh
+from brushfire._solver import Solver
 from brushfire.compat._exact import METHOD, indices
 from brushfire.compat.potpourri3d._elements import Element, Elements
 

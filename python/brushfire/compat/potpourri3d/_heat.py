@@ -11,7 +11,8 @@ import numpy.typing as npt
 from brushfire._arrays import Floats
 from brushfire._errors import BrushfireError
 from brushfire._heat import SignedHeatSolver, VectorHeatSolver
-from brushfire._mesh import Mesh, Solver
+from brushfire._mesh import Mesh
+from brushfire._solver import Solver
 from brushfire.compat._exact import METHOD, indices
 from brushfire.compat.potpourri3d._elements import Element, Elements
 from brushfire.compat.potpourri3d._operators import validate_mesh
@@ -159,7 +160,9 @@ class PolygonMeshHeatSolver(_Carrier):
         if self._signed is None:
             self._signed = SignedHeatSolver(self._mesh, time_factor=self._t_coef)
         # Two corners of one polygon need not share a triangle.
-        lines = [self._solver.edge_path(a, b).points for curve in curves for a, b in zip(curve, curve[1:], strict=False)]
+        lines = [
+            self._solver.edge_path(a, b).points for curve in curves for a, b in zip(curve, curve[1:], strict=False)
+        ]
         return -self._signed.distance(lines, constraint=_constraint(level_set_constraint))
 
 

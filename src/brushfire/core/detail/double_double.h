@@ -18,7 +18,7 @@ struct DoubleDouble {
   double high = 0, low = 0;
 
   constexpr DoubleDouble() = default;
-  constexpr DoubleDouble(double number) : high(number) {}  // implicit: every double is one
+  constexpr DoubleDouble(double number) : high(number) {}  // NOLINT(google-explicit-constructor): every double is one
   constexpr DoubleDouble(double h, double l) : high(h), low(l) {}
 
   explicit constexpr operator double() const { return high; }

@@ -5,8 +5,8 @@ namespace brushfire::lanes::BRUSHFIRE_TARGET {
 #ifdef BRUSHFIRE_HAS_VECTORS
 template <class T, int N>
 struct RegisterOf {
-  typedef T Type __attribute__((vector_size(N * sizeof(T))));
-  typedef T InMemory __attribute__((vector_size(N * sizeof(T)), aligned(alignof(T)), may_alias));  // anywhere
+  typedef T Type __attribute__((vector_size(N * sizeof(T))));  // NOLINT(modernize-use-using): attributes of a type
+  typedef T InMemory __attribute__((vector_size(N * sizeof(T)), aligned(alignof(T)), may_alias));  // NOLINT: anywhere
 };
 #else
 template <class T, int N>

@@ -15,7 +15,7 @@ namespace brushfire {
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
   template <class U>
-  struct rebind {
+  struct rebind {  // NOLINT(readability-identifier-naming): the standard's name
     using other = UninitializedAllocator<U>;
   };
 

@@ -104,7 +104,7 @@ void Output::bytes(const void* data, std::size_t size) {
   used_ += size;
 }
 
-void Output::write(std::string_view text) { bytes(text.data(), text.size()); }
+void Output::write(std::string_view bytes) { this->bytes(bytes.data(), bytes.size()); }
 
 void Output::number(double value) {
   char text[kLongestNumber];

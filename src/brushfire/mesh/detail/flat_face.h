@@ -19,6 +19,10 @@ std::array<Vec2, 3> flat_corners(const Mesh& mesh, Index f);
 // (0,0), to(h) on the x axis, the corner above; mesh.unit(). The edge must not have length 0. Looks up two faces only.
 Vec2 apex_over(const Mesh& mesh, Index h, Index g);
 
+// A point of the face of halfedge h, by its weights there, in the frame of h; mesh.unit(). Sums of positive terms: a
+// tiny weight keeps its digits. The edge must not have length 0.
+Vec2 point_over(const Mesh& mesh, Index h, const std::array<double, 3>& weights);
+
 // By how much the weights of one point of a face differ from those of another. They sum to zero, and the two that are
 // not the heaviest keep their digits.
 std::array<double, 3> weight_difference(const std::array<double, 3>& from, const std::array<double, 3>& to);
@@ -33,6 +37,9 @@ std::vector<Index> faces_at(const Mesh& mesh, const PointLocation& point);
 // The point's weights in face f, where f holds it: a point inside a face lies in that one only, and not in another one
 // over the same vertices.
 std::optional<std::array<double, 3>> weights_in(const Mesh& mesh, const PointLocation& point, Index f);
+
+// The same point of an edge, as one of the face of another halfedge of that edge.
+PointLocation on_other_halfedge(const Mesh& mesh, const PointLocation& point, Index halfedge);
 
 // A face that holds both points: `preferred` where it does, else the lowest; kNoIndex where there is none.
 Index common_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b, Index preferred = kNoIndex);

@@ -10,8 +10,9 @@
 #include <vector>
 
 namespace brushfire::carried_source {
+class GroupedRows;
 class GroupRunner;
-}
+}  // namespace brushfire::carried_source
 
 namespace brushfire::detail {
 
@@ -30,6 +31,18 @@ class Rows {
   using TakeSparse = std::function<void(unsigned worker, std::size_t position, const SparseField& field)>;
   void run_sparse(std::span<const std::size_t> numbers, std::size_t block, const Progress& progress,
                   const TakeSparse& take);
+
+  // All rows in blocks that a thread computes one after the other: of rows near each other, or of vertices that are
+  // sources together.
+  struct Blocks {
+    std::vector<std::size_t> numbers, begin;  // begin: [blocks + 1] in numbers
+    std::vector<Index> vertex;                // of each number in a group
+    std::size_t groups = 0;                   // the first blocks are theirs
+  };
+  Blocks blocks_by_place(std::size_t block);
+  // The same as run_sparse(), by block; i: the row's number. The rows of a block come on one thread, in any order.
+  using TakeOfBlock = std::function<void(std::size_t block, std::size_t i, const SparseField& field)>;
+  void run_blocks(const Blocks& blocks, const Progress& progress, const TakeOfBlock& take);
 
   // The same as a row of columns() values, +inf where nothing was reached; i: the row's number. T is float or double;
   // floats are rounded doubles.
@@ -64,6 +77,7 @@ class Rows {
   void compute_dense_row(unsigned worker, std::size_t i, const TakeDense<T>& take);
   // Whether rows of neighbouring vertices are to be run together: for methods that can, where all columns are vertices.
   bool can_group() const;
+  void run_group_within(Worker& worker, const Blocks& blocks, std::size_t b, const TakeOfBlock& take);
   template <class T>
   void run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take);
 
@@ -75,6 +89,7 @@ class Rows {
   std::vector<std::size_t> target_column_;  // which column each target is; columns in no face are not among them
   DistanceOptions options_;                 // of one row
   ThreadTeam team_;
+  std::unique_ptr<carried_source::GroupedRows> grouped_;  // of blocks_by_place()
   std::vector<Worker> workers_;
 };
 

@@ -1,4 +1,4 @@
-// Sleeves: the faces that a piece of a path runs through, unfolded into the plane.
+// Sleeves: the faces that a piece of a path runs through, and the shortest path through them.
 #pragma once
 
 #include <brushfire/core/detail/double_double.h>
@@ -16,8 +16,8 @@ struct Step {
   Index out = kNoIndex, in = kNoIndex;
 };
 
-// A piece of a path between two points, by the faces that it runs through.
-struct Leg {
+// The faces that a piece of a path between two points runs through.
+struct Sleeve {
   PointLocation begin, end;  // begin lies in first_face, end in the last face
   Index first_face = kNoIndex;
   std::vector<Step> steps;
@@ -27,29 +27,29 @@ struct Leg {
 
 // Takes away what a shortest path in the same sleeve never needs: steps over an edge and back again, and faces at both
 // ends that the end point can do without.
-void tidy(const Mesh& mesh, Leg& leg);
+void tidy(const Mesh& mesh, Sleeve& sleeve);
 
 // A point of a step's edge by its weights at the ends of `out`: both, since 1 minus a small one has lost it.
 struct Crossing {
   double from = 1, to = 0;
 };
 
-// A leg whose sleeve holds the straight line from begin to end.
-struct StraightLeg {
-  Leg leg;
+// A sleeve that holds, unfolded into the plane, the straight line from begin to end.
+struct StraightPiece {
+  Sleeve sleeve;
   std::vector<Crossing> crossing;  // [steps]
   DoubleDouble length;             // mesh.unit(); wide, so that what a round gains at the smallest corner is seen
 };
 
-// The shortest path through the leg's sleeve: straight pieces that meet at vertices. Also splits where a straight piece
+// The shortest path through the sleeve: straight pieces that meet at vertices. Also splits where a straight piece
 // runs over a vertex (passes it at kTouch of the way to the nearer end), so that every vertex on the path is an end of
 // a piece.
 // O(steps x pieces) at worst, O(steps) where pieces are long.
-std::vector<StraightLeg> shortest_in_sleeve(const Mesh& mesh, Leg leg);
+std::vector<StraightPiece> shortest_in_sleeve(const Mesh& mesh, Sleeve sleeve);
 inline constexpr double kTouch = 1e-9;  // the bend; its cost is the square of that: below rounding
 
-// The leg's points from begin to end, begin left out where it repeats `points.back()`.
-void append_points(const Mesh& mesh, const StraightLeg& leg, std::vector<SurfacePoint>& points);
+// The points of a straight piece from begin to end, begin left out where it repeats `points.back()`.
+void append_points(const Mesh& mesh, const StraightPiece& straight, std::vector<SurfacePoint>& points);
 
 // A direction at a vertex: within the corner that halfedge `corner` names, `angle` from that halfedge.
 struct Direction {
@@ -60,11 +60,11 @@ struct Direction {
 // From a vertex of face f towards another point of f.
 Direction direction_towards(const Mesh& mesh, Index vertex, Index f, const std::array<double, 3>& point);
 
-// The direction in which a straight leg that begins (ends) at a vertex leaves it (comes from).
-Direction direction_at_begin(const Mesh& mesh, const StraightLeg& leg);
-Direction direction_at_end(const Mesh& mesh, const StraightLeg& leg);
+// The direction in which a straight piece that begins (ends) at a vertex leaves it (comes from).
+Direction direction_at_begin(const Mesh& mesh, const StraightPiece& straight);
+Direction direction_at_end(const Mesh& mesh, const StraightPiece& straight);
 
-// An angle that misses pi by less gains less than rounding loses: cutting the corner shortens the two legs by a share
+// An angle that misses pi by less gains less than rounding loses: cutting the corner shortens the two pieces by a share
 // of its square.
 inline constexpr double kStraightAngle = 1e-8;
 

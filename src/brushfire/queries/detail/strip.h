@@ -26,7 +26,7 @@ struct Stop {
 };
 
 // Straight in a face, or along an edge.
-struct Leg {
+struct StripLeg {
   Index face = kNoIndex;  // kNoIndex: along `edge`
   Index edge = kNoIndex;  // kNoIndex: in `face`
   double weight = 0;
@@ -34,7 +34,7 @@ struct Leg {
 
 struct Strip {
   std::vector<Stop> stops;
-  std::vector<Leg> legs;  // [stops - 1]
+  std::vector<StripLeg> legs;  // [stops - 1]
 };
 
 Stop at_vertex(Index v);
@@ -42,13 +42,13 @@ Stop on_edge(Index e, double at);
 Stop at_place(const PointLocation& place);  // a vertex where it is one
 
 // The cheapest leg between two stops that have a face or an edge in common; weight +inf where they have none.
-Leg cheapest_leg(const WeightedMesh& mesh, const Stop& from, const Stop& to);
+StripLeg cheapest_leg(const WeightedMesh& mesh, const Stop& from, const Stop& to);
 
 // Where a stop is in the plane of a leg (or on the line of its edge): origin + at * direction.
 struct Rail {
   Vec2 origin, direction;
 };
-Rail rail(const WeightedMesh& mesh, const Leg& leg, const Stop& stop, bool stop_is_first);
+Rail rail(const WeightedMesh& weighted, const StripLeg& leg, const Stop& stop, bool stop_is_first);
 
 double length_of(const WeightedMesh& mesh, const Strip& strip, std::size_t leg);  // mesh.unit()
 double cost_of(const WeightedMesh& mesh, const Strip& strip);                     // mesh.unit()

@@ -11,6 +11,7 @@
 #include <brushfire/solvers/detail/sheets.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -49,12 +50,24 @@ class Marcher {
     march_.label_fronts(sources_.front().label != sources_.back().label);  // labels ascend
     for (const LocatedSource& s : sources_) {
       const double offset = s.offset - base_;
-      for (const Points::Near& n : points_.around(s.at, records_.most_unrolled, max_distance - s.offset)) {
+      for (const Points::Near& n : points_.around(s.at, crossings(s.at), max_distance - s.offset)) {
         const auto value = static_cast<T>(offset + n.distance);
         march_.begin_at({n.vertex, value, n.seen ? static_cast<T>(offset) : value, static_cast<T>(n.to_source.x),
                          static_cast<T>(n.to_source.y), n.sector, s.label});
       }
     }
+  }
+
+  // Of the edges that what begins at a source sees through. A source on a wall is one on each side of it: where the
+  // wall ends beside it, its light comes to the tip from both sides at once, and one of them is not carried on.
+  int crossings(const PointLocation& at) const {
+    if (at.on != PointLocation::On::Vertex) return records_.most_unrolled;
+    const auto is_boundary = [&](Index h) { return mesh_.opposite(h) == h; };
+    const auto corners = mesh_.corners(at.vertex);
+    const bool on_wall = sources_.size() > 1 && std::any_of(corners.begin(), corners.end(), [&](Index h) {
+                           return is_boundary(h) || is_boundary(Mesh::previous(h));
+                         });
+    return on_wall ? 1 : 0;
   }
 
   void march(const Problem& problem) {
@@ -116,47 +129,26 @@ class Marcher {
       for (const detail::Seed& c : points_.corners(at)) {
         offer(base_ + value(c.vertex) + c.distance, march_.label(c.vertex));
       }
-      if (mesh_.is_face_usable(at.face)) through_faces(at, offer);
+      if (mesh_.is_face_usable(at.face)) {
+        detail::for_edges_around(mesh_, at, [&](Index h, Vec2 p) { through_edge(h, p, offer); });
+      }
       for (const LocatedSource& s : sources_) offer(s.offset + detail::straight_distance(mesh_, s.at, at), s.label);
     }
     field.target_distance[i] = best;
     field.target_source[i] = source;
   }
 
-  template <class Offer>
-  void through_faces(const PointLocation& at, const Offer& offer) {
-    if (at.on == PointLocation::On::Interior) {
-      for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
-        if (mesh_.length(h) == 0) continue;
-        const double third = at.weights[Mesh::previous(h) % 3], ahead = at.weights[Mesh::next(h) % 3];
-        const Vec2 apex = apex_over(mesh_, h, h);
-        through_edge(h, {ahead * mesh_.length(h) + third * apex.x, third * apex.y}, offer);
-      }
-      return;
-    }
-    Index g = at.halfedge;
-    do {
-      const bool same_way = mesh_.from(g) == mesh_.from(at.halfedge);
-      const double t = at.weights[(same_way ? Mesh::next(at.halfedge) : at.halfedge) % 3];  // share of the way along g
-      for (const Index h : {Mesh::next(g), Mesh::previous(g)}) {
-        const double length = mesh_.length(h);
-        if (length == 0) continue;
-        // The third corner over h is an end of g; the target lies between it and the end that h shares with g.
-        const Vec2 apex = apex_over(mesh_, h, h);
-        const Vec2 shared = h == Mesh::next(g) ? Vec2{0, 0} : Vec2{length, 0};
-        const double share = h == Mesh::next(g) ? 1 - t : t;
-        through_edge(h, shared + share * (apex - shared), offer);
-      }
-      g = mesh_.opposite(g);
-    } while (g != at.halfedge);
-  }
-
   // `at`: the target in the frame of halfedge h.
   template <class Offer>
   void through_edge(Index h, Vec2 at, const Offer& offer) {
-    const Index v = mesh_.from(h), w = mesh_.to(h), l = march_.label(v);
-    if (l == kNoIndex || l != march_.label(w)) return;
-    offer(base_ + points_.through_edge(h, at, known(v), known(w)), l);
+    const Index v = mesh_.from(h), w = mesh_.to(h), here = march_.label(v), there = march_.label(w);
+    if (here == kNoIndex || there == kNoIndex) return;
+    if (here == there) {
+      offer(base_ + points_.through_edge(h, at, known(v), known(w)), here);
+    } else {
+      const std::array<double, 2> values = points_.from_either_end(h, at, known(v), known(w));
+      offer(base_ + values[0], here), offer(base_ + values[1], there);
+    }
   }
 
   Points::Known known(Index v) const {

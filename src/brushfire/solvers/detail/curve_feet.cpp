@@ -113,4 +113,15 @@ CurveValue straight_from_curves(const Mesh& mesh, std::span<const LocatedSource>
   return best;
 }
 
+CurveValue from_regions(const Mesh& mesh, std::span<const LocatedSource> sources, const PointLocation& point) {
+  CurveValue best;
+  for (const LocatedSource& source : sources) {
+    if (!source.curve || !source.curve->holds(mesh, point)) continue;
+    if (std::pair(source.offset, source.label) < std::pair(best.distance, best.label)) {
+      best = {source.offset, source.label};
+    }
+  }
+  return best;
+}
+
 }  // namespace brushfire::detail

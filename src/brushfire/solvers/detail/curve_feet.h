@@ -24,4 +24,7 @@ struct CurveValue {
 };
 CurveValue straight_from_curves(const Mesh& mesh, std::span<const LocatedSource> sources, const PointLocation& target);
 
+// The least that a point reads because it lies in a region (LocatedCurve::inside); +inf and kNoIndex where it does not.
+CurveValue from_regions(const Mesh& mesh, std::span<const LocatedSource> sources, const PointLocation& point);
+
 }  // namespace brushfire::detail

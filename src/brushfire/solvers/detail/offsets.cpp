@@ -90,9 +90,11 @@ void Offsets::split(const Mesh& mesh, std::span<LocatedSource> located) {
   }
 }
 
-double Offsets::bound(double engine_bound, double value, double unit) const {
+double Offsets::bound(double engine_bound, double engine_value, double value, double unit) const {
   const double of_sum = bases_.empty() ? 0 : std::numeric_limits<double>::epsilon() * std::abs(value);
-  return engine_bound * unit + of_sum;
+  using Limits = std::numeric_limits<double>;
+  const double of_small = engine_value > 0 && engine_value * unit < Limits::min() ? Limits::denorm_min() : 0;
+  return engine_bound * unit + of_sum + of_small;
 }
 
 double Offsets::radius(double max_distance, double unit) const {

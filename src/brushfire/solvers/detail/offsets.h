@@ -3,7 +3,9 @@
 
 #include <brushfire/solvers/detail/engine.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -26,14 +28,18 @@ class Offsets {
   // A value of the engine's from this source (kNoIndex: none), in the mesh's units.
   // `bound`: on which side of it, whatever the sum rounds to.
   double value(double engine_value, Index source, double unit, Bound bound = Bound::Estimate) const {
-    const double above = engine_value * unit;
+    double above = engine_value * unit;
+    // The only products that round: those below the numbers with all digits.
+    if (bound != Bound::Estimate && above < std::numeric_limits<double>::min() && above / unit != engine_value) {
+      above = bound == Bound::Upper ? std::nextafter(above, kInfinity) : std::max(0.0, std::nextafter(above, 0.0));
+    }
     if (bases_.empty() || source == kNoIndex || !(above < kInfinity)) return above;
     const double sum = bases_[source] + above;
     if (bound == Bound::Estimate) return sum;
     return std::nextafter(sum, bound == Bound::Lower ? -kInfinity : kInfinity);
   }
-  // The engine's bound of such a value, with what adding the base rounds away.
-  double bound(double engine_bound, double value, double unit) const;
+  // The engine's bound of such a value, with what adding the base, or a number too small for its digits, rounds away.
+  double bound(double engine_bound, double engine_value, double value, double unit) const;
 
   // The radius for the engine: where bases differ it serves all, and what lies beyond its own is left to the caller.
   double radius(double max_distance, double unit) const;

@@ -208,6 +208,8 @@ std::shared_ptr<const LocatedCurve> Sheets::to_single(const std::shared_ptr<cons
     s.from = from.weights;
     s.to = to.weights;
   }
+  for (Index& f : moved.inside) f = number_[f];
+  std::sort(moved.inside.begin(), moved.inside.end());
   return std::make_shared<const LocatedCurve>(std::move(moved));
 }
 

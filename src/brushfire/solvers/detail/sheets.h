@@ -42,7 +42,7 @@ class Sheets {
   SurfacePoint from_single(const SurfacePoint& at) const { return {face_[at.face], at.weights}; }
 
  private:
-  explicit Sheets(const Mesh& mesh) : mesh_(mesh) {}
+  explicit Sheets(const Mesh& mesh) : mesh_(mesh) {}  // NOLINT(modernize-pass-by-value): its caller keeps it
 
   Mesh mesh_, single_;
   std::vector<Index> number_;    // [face_count] of the face in the single mesh

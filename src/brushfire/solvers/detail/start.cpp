@@ -59,45 +59,7 @@ void first_sights(const Mesh& mesh, const Net& net, const PointLocation& at, std
     }
     return;
   }
-  const auto add = [&](Index h, double ahead, double third) {
-    if (net.length(h) == 0) return;
-    const Vec2 own = apex_over(mesh, h, h);
-    sights.push_back(whole_edge(net, h, {ahead * net.length(h) + third * own.x, -third * own.y}));
-  };
-  if (at.on == PointLocation::On::Interior) {
-    for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
-      add(h, at.weights[Mesh::next(h) % 3], at.weights[Mesh::previous(h) % 3]);
-    }
-    return;
-  }
-  const double at_first = at.weights[at.halfedge % 3], at_second = at.weights[Mesh::next(at.halfedge) % 3];
-  Index g = at.halfedge;
-  do {
-    const bool same_way = net.from(g) == net.from(at.halfedge);
-    const double at_from = same_way ? at_first : at_second, at_to = same_way ? at_second : at_first;
-    add(Mesh::next(g), 0, at_from);  // from to(g) to the apex; from(g) is its third corner
-    add(Mesh::previous(g), at_from, at_to);
-    g = net.opposite(g);
-  } while (g != at.halfedge);
-}
-
-double distance_in_face(const Mesh& mesh, Index f, const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  if (!mesh.is_face_usable(f)) {  // a segment, or a point: the one corner that differs from the others says where
-    const Face& t = mesh.faces()[f];
-    for (Index k = 0; k < 3; ++k) {
-      if (t[k] != t[(k + 1) % 3] && t[k] != t[(k + 2) % 3]) return std::abs(a[k] - b[k]) * mesh.length(3 * f + k);
-    }
-    return 0;
-  }
-  Index k = 0;  // the frame of the longest edge, which is not 0 unless all are
-  for (Index i = 1; i < 3; ++i) {
-    if (mesh.length(3 * f + i) > mesh.length(3 * f + k)) k = i;
-  }
-  const double length = mesh.length(3 * f + k);
-  if (length == 0) return 0;
-  const Vec2 apex = apex_over(mesh, 3 * f + k, 3 * f + k);
-  const double ahead = a[(k + 1) % 3] - b[(k + 1) % 3], third = a[(k + 2) % 3] - b[(k + 2) % 3];
-  return std::hypot(ahead * length + third * apex.x, third * apex.y);
+  for_edges_around(mesh, at, [&](Index h, Vec2 p) { sights.push_back(whole_edge(net, h, {p.x, -p.y})); });
 }
 
 // From inside a face, across one of its edges; +inf where b is not to be seen there.
@@ -106,9 +68,7 @@ double distance_across_edge(const Mesh& mesh, const PointLocation& a, const Poin
   for (Index h = 3 * a.face; h < 3 * a.face + 3; ++h) {
     const double length = mesh.length(h);
     if (length == 0 || !mesh.is_face_usable(a.face)) continue;
-    const Vec2 own = apex_over(mesh, h, h);
-    const double ahead = a.weights[Mesh::next(h) % 3], third = a.weights[Mesh::previous(h) % 3];
-    const Vec2 below{ahead * length + third * own.x, third * own.y};  // a lies at (x,-y)
+    const Vec2 below = point_over(mesh, h, a.weights);  // a lies at (x,-y)
     for (Index g = mesh.opposite(h); g != h; g = mesh.opposite(g)) {
       const auto wb = weights_in(mesh, b, Mesh::face_of(g));
       if (!wb) continue;
@@ -176,7 +136,7 @@ double straight_distance(const Mesh& mesh, const PointLocation& a, const PointLo
   double shortest = kInfinity;
   const auto try_face = [&](Index f) {
     const auto wa = weights_in(mesh, a, f), wb = weights_in(mesh, b, f);
-    if (wa && wb) shortest = std::min(shortest, distance_in_face(mesh, f, *wa, *wb));
+    if (wa && wb) shortest = std::min(shortest, distance_within(mesh, f, *wa, *wb));
   };
   try_face(a.face);
   try_face(b.face);

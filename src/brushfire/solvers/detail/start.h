@@ -1,6 +1,7 @@
 // Where fronts start and where they are read: straight lines inside one face and across one edge.
 #pragma once
 
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 
@@ -45,6 +46,26 @@ class SeedSearch {
 };
 
 inline constexpr std::size_t kMaxSights = 1024;
+
+// The edges opposite of a point inside a face (all three) or on an edge (the two others of every face there), without
+// those of length 0: visit(halfedge, the point in the frame of that halfedge).
+template <class Visit>
+void for_edges_around(const Mesh& mesh, const PointLocation& at, const Visit& visit) {
+  const auto add = [&](Index h, const std::array<double, 3>& weights) {
+    if (mesh.length(h) > 0) visit(h, point_over(mesh, h, weights));
+  };
+  if (at.on == PointLocation::On::Interior) {
+    for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) add(h, at.weights);
+    return;
+  }
+  Index g = at.halfedge;
+  do {
+    const std::array<double, 3> weights = on_other_halfedge(mesh, at, g).weights;
+    add(Mesh::next(g), weights);
+    add(Mesh::previous(g), weights);
+    g = mesh.opposite(g);
+  } while (g != at.halfedge);
+}
 
 // The straight distance of two points that share a face, or of a point inside a face and one that it sees across one
 // edge, in mesh.unit(); +inf for all others.

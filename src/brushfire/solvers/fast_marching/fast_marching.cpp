@@ -199,7 +199,9 @@ class Marcher {
       for (const detail::Seed& seed : seeds_.in_own_faces(mesh_, at)) {
         consider(base_ + value(seed.vertex) + seed.distance, label(seed.vertex));
       }
-      if (mesh_.is_face_usable(at.face)) through_faces(problem, at, consider);
+      if (mesh_.is_face_usable(at.face)) {
+        detail::for_edges_around(mesh_, at, [&](Index h, Vec2 p) { through_edge(problem, h, p, consider); });
+      }
       for (const detail::LocatedSource& s : problem.sources) {
         const double d = detail::straight_distance(mesh_, s.at, at);
         consider(s.offset + d, s.label);
@@ -207,34 +209,6 @@ class Marcher {
     }
     field.target_distance[i] = best;
     field.target_source[i] = source;
-  }
-
-  template <class Consider>
-  void through_faces(const detail::Problem& problem, const PointLocation& at, const Consider& consider) const {
-    if (at.on == PointLocation::On::Interior) {
-      for (Index h = 3 * at.face; h < 3 * at.face + 3; ++h) {
-        const double third = at.weights[Mesh::previous(h) % 3], ahead = at.weights[Mesh::next(h) % 3];
-        if (mesh_.length(h) == 0) continue;
-        const Vec2 apex = apex_over(mesh_, h, h);
-        through_edge(problem, h, {ahead * mesh_.length(h) + third * apex.x, third * apex.y}, consider);
-      }
-      return;
-    }
-    Index g = at.halfedge;
-    do {
-      const bool same_way = mesh_.from(g) == mesh_.from(at.halfedge);
-      const double t = at.weights[(same_way ? Mesh::next(at.halfedge) : at.halfedge) % 3];  // share of the way along g
-      for (const Index h : {Mesh::next(g), Mesh::previous(g)}) {
-        const double length = mesh_.length(h);
-        if (length == 0) continue;
-        // The third corner over h is an end of g; the target lies between it and the end that h shares with g.
-        const Vec2 apex = apex_over(mesh_, h, h);
-        const Vec2 shared = h == Mesh::next(g) ? Vec2{0, 0} : Vec2{length, 0};
-        const double share = h == Mesh::next(g) ? 1 - t : t;
-        through_edge(problem, h, shared + share * (apex - shared), consider);
-      }
-      g = mesh_.opposite(g);
-    } while (g != at.halfedge);
   }
 
   // `at`: the target in the frame of halfedge h.

@@ -25,7 +25,8 @@ struct Abreast {
   std::array<Scalar, N> at{};
 
   Abreast() = default;
-  Abreast(double value) { at.fill(Scalar(value)); }  // as Eigen makes its constants
+  // NOLINTNEXTLINE(google-explicit-constructor): as Eigen makes its constants
+  Abreast(double value) { at.fill(Scalar(value)); }
   Abreast& operator+=(const Abreast& b) { return *this = *this + b; }
   Abreast& operator-=(const Abreast& b) { return *this = *this - b; }
   friend Abreast operator+(const Abreast& a, const Abreast& b) {

@@ -1,5 +1,6 @@
 // Edge flips on lengths, up to the intrinsic Delaunay triangulation.
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/planar.h>
 #include <brushfire/solvers/heat/triangulation.h>
 
 #include <cmath>
@@ -11,8 +12,7 @@ namespace {
 // The corner opposite of h, in the frame in which h runs from the origin along the x axis; above it.
 Vec2 apex_over(const Triangulation& t, Index h) {
   const double a = t.length[h], b = t.length[Mesh::next(h)], c = t.length[Mesh::previous(h)];
-  const FlatTriangle flat = lay_flat(t, h / 3);
-  return {0.5 * (a + (c - b) * (c + b) / a), flat.double_area() / a};
+  return apex_over_edge(a, c, b, lay_flat(t, h / 3).double_area());
 }
 
 // The edge between the two apexes of h's edge. 0 where numbers fail.

@@ -2,6 +2,7 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/components.h>
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/solvers/heat/connection.h>
 #include <brushfire/solvers/heat/level_sets.h>
 #include <brushfire/solvers/heat/system.h>
@@ -32,41 +33,14 @@ struct Segment {
   std::array<double, 3> weights;  // of its middle
 };
 
-// A face that both points are in, and their weights there; the lowest one.
-struct InFace {
-  Index face = kNoIndex;
-  std::array<double, 3> a, b;
-};
-
-// The weights of a point in face f; all 0 where it is not in it.
-std::array<double, 3> weights_in(const Mesh& mesh, const PointLocation& p, Index f) {
-  std::array<double, 3> weights{};
-  if (p.face == f) return p.weights;
-  double found = 0;
-  for (int k = 0; k < 3; ++k) {
-    for (int j = 0; j < 3; ++j) {
-      if (mesh.faces()[p.face][j] == mesh.faces()[f][k]) weights[k] = p.weights[j];
-    }
-    found += weights[k];
-  }
-  return std::abs(found - 1) < kWeightError ? weights : std::array<double, 3>{};
-}
-
-InFace shared_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b, std::size_t where) {
-  InFace best;
-  const auto offer = [&](Index f) {
-    const std::array<double, 3> wa = weights_in(mesh, a, f), wb = weights_in(mesh, b, f);
-    if (f < best.face && wa[0] + wa[1] + wa[2] > 0 && wb[0] + wb[1] + wb[2] > 0) best = {f, wa, wb};
-  };
-  for (int k = 0; k < 3; ++k) {
-    if (!(a.weights[k] > 0)) continue;
-    for (const Index h : mesh.corners(mesh.faces()[a.face][k])) offer(Mesh::face_of(h));
-  }
-  if (best.face == kNoIndex) {
+// The lowest face that both points are in.
+Index shared_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b, std::size_t where) {
+  const Index f = common_face(mesh, a, b);
+  if (f == kNoIndex) {
     throw Error(ErrorCode::InvalidArgument,
                 "points " + std::to_string(where) + " and " + std::to_string(where + 1) + " of a curve share no face");
   }
-  return best;
+  return f;
 }
 
 }  // namespace
@@ -112,13 +86,14 @@ std::vector<PointLocation> SignedHeatSolver::State::located(std::span<const Surf
 std::vector<Segment> SignedHeatSolver::State::segments(const std::vector<PointLocation>& nodes) const {
   std::vector<Segment> all;
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const InFace in = shared_face(mesh, nodes[i], nodes[i + 1], i);
-    const heat::FlatTriangle t = heat::lay_flat(flat, in.face);
+    const Index f = shared_face(mesh, nodes[i], nodes[i + 1], i);
+    const std::array<double, 3> a = *weights_in(mesh, nodes[i], f), b = *weights_in(mesh, nodes[i + 1], f);
+    const heat::FlatTriangle t = heat::lay_flat(flat, f);
     const auto place = [&](const std::array<double, 3>& w) {
       return Complex(w[1] * t.length + w[2] * t.apex.x, w[2] * t.apex.y);
     };
-    Segment& s = all.emplace_back(Segment{in.face, place(in.b) - place(in.a), {}});
-    for (int k = 0; k < 3; ++k) s.weights[k] = 0.5 * (in.a[k] + in.b[k]);
+    Segment& s = all.emplace_back(Segment{f, place(b) - place(a), {}});
+    for (int k = 0; k < 3; ++k) s.weights[k] = 0.5 * (a[k] + b[k]);
   }
   return all;
 }

@@ -2,6 +2,7 @@
 #include <brushfire/solvers/heat/triangulation.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/planar.h>
 #include <brushfire/core/error.h>
 
 #include <algorithm>
@@ -158,13 +159,8 @@ void mollify(Triangulation& t, double share) {
 
 FlatTriangle lay_flat(const Triangulation& t, std::size_t face) {
   const double a = t.length[3 * face], b = t.length[3 * face + 1], c = t.length[3 * face + 2];
-  const double x = 0.5 * (a + (c - b) * (c + b) / a);
-  // Kahan's: from the sorted lengths, with the parentheses as they stand.
-  double s[3] = {a, b, c};
-  std::sort(s, s + 3);
-  const double product =
-      (s[2] + (s[1] + s[0])) * (s[0] - (s[2] - s[1])) * (s[0] + (s[2] - s[1])) * (s[2] + (s[1] - s[0]));
-  return {a, {x, 0.5 * std::sqrt(std::max(product, 0.0)) / a}};
+  const double double_area = 0.5 * std::sqrt(std::max(heron_sorted(a, b, c), 0.0));
+  return {a, apex_over_edge(a, c, b, double_area)};
 }
 
 double half_cotangent(const Triangulation& t, Index h) {

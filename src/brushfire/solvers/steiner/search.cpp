@@ -54,7 +54,7 @@ void Search::run(std::span<const detail::LocatedSource> sources, const SearchLim
   }
   first_.assign(edges, kNoIndex);
   last_.assign(edges, 0);
-  waiting_.assign(edges, RowQueue::kNever);
+  waiting_.assign(edges, BucketQueue::kNever);
   queue_.reset();
   for (std::size_t i = 0; i < sources.size(); ++i) start(sources[i], static_cast<Index>(i));
 
@@ -64,7 +64,7 @@ void Search::run(std::span<const detail::LocatedSource> sources, const SearchLim
     const double from = static_cast<double>(queue_.cursor()) * width_;
     front_.horizon = from;
     if (from > limits.max_value || targets_are_final(limits.targets, done)) return;
-    for (std::size_t i = 0; i < queue_.current().size(); ++i) {
+    for (std::size_t i = 0; i < queue_.current().size(); ++i) {  // NOLINT(modernize-loop-convert): it grows
       const Index edge = queue_.current()[i];
       if (waiting_[edge] != queue_.cursor()) continue;  // sent since
       poll();
@@ -123,7 +123,8 @@ void Search::mark(Index edge, Index j, double value) {
   first_[edge] = std::min(first_[edge], j);
   last_[edge] = std::max(last_[edge], j);
   constexpr double kLastBucket = 0x1p62;
-  const auto bucket = std::max(static_cast<RowQueue::Bucket>(std::min(value / width_, kLastBucket)), queue_.cursor());
+  const auto bucket =
+      std::max(static_cast<BucketQueue::Bucket>(std::min(value / width_, kLastBucket)), queue_.cursor());
   if (bucket >= waiting_[edge]) return;
   waiting_[edge] = bucket;
   queue_.push(edge, bucket);
@@ -133,7 +134,7 @@ void Search::send(Index edge) {
   Index first = first_[edge], last = last_[edge];
   first_[edge] = kNoIndex;
   last_[edge] = 0;
-  waiting_[edge] = RowQueue::kNever;
+  waiting_[edge] = BucketQueue::kNever;
   ++front_.rows_sent;
   sweep(edge, first, last);
   const std::span<const Index> opposite = mesh_.mesh().opposite();

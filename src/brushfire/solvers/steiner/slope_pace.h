@@ -10,7 +10,7 @@
 namespace brushfire {
 
 // The cost of a unit of length on the map (not along the slope), by the slope: height gained per length on the map,
-// below 0 downhill. Between samples it is linear, beyond the first and the last one nothing goes. Paths over vertices
+// below 0 downhill. Between samples it is linear, beyond the first and the last it is infinite. Paths over vertices
 // and edges are as good as the function allows; where climbing in zigzags is cheaper than straight up, paths do so only
 // where they cross edges, and not within a face.
 class SlopePace {

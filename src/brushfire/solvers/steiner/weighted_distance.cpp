@@ -3,6 +3,7 @@
 
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
+#include <brushfire/solvers/refraction/detail/run.h>
 #include <brushfire/solvers/steiner/detail/run.h>
 
 #include <algorithm>
@@ -44,6 +45,9 @@ Density density_for(Costs costs, double tolerance, unsigned doublings) {
   if (costs == Costs::Real) return {3 * root, std::min(0.25, 8 * tolerance * finer), most};
   return {2.1 * root / (1 + root), std::min(0.25, 0.7 * tolerance * finer), 4 * most};
 }
+
+// Windows take no less time where they may be farther apart than this.
+constexpr double kWidestWindows = 0.02;
 
 void check(const WeightedOptions& options) {
   if (!(options.tolerance >= kLeastWeightedTolerance && options.tolerance <= kMostWeightedTolerance)) {
@@ -95,11 +99,13 @@ struct WeightedSolver::Workspace {
     std::shared_ptr<const PointLayout> points;
   };
   LaidOut for_real, for_below;  // the last ones: upper bounds need fewer points
+  std::unique_ptr<refraction::Medium> medium;
 
   std::shared_ptr<const PointLayout> points_for(Costs costs, const WeightedOptions& options, unsigned doublings);
   WeightedField run_uniform(std::span<const Source> sources, const WeightedOptions& options);
   WeightedField run(std::span<const Source> sources, const WeightedOptions& options, unsigned doublings);
   void locate(std::span<const Source> sources, const WeightedOptions& options, Run& run) const;
+  bool follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field);
   void search(Run& run, const WeightedOptions& options, const PointLayout* below, WeightedField& field) const;
   void fill_upper(const Run& run, const WeightedOptions& options, WeightedField& field) const;
   void fill_lower(const Search& below, const Run& run, const WeightedOptions& options, WeightedField& field) const;
@@ -229,15 +235,73 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
   field.mean_error_bound = count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
+// Both bounds by windows. False, and the field is empty, where they cannot be followed.
+bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field) {
+  if (!medium) medium = std::make_unique<refraction::Medium>(*mesh);
+  if (!medium->is_followable()) return false;
+  std::vector<PointLocation> places;
+  for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
+  const double unit = mesh->mesh().unit();
+  double farthest = (options.max_distance - run.base) / unit;
+  if (!options.targets.empty() && places.empty()) farthest = -1;  // all targets are nowhere
+  refraction::Run windows(*medium, run.sources,
+                          {std::min(options.tolerance, kWidestWindows), farthest, places, options.progress});
+  if (!windows()) return false;
+  const double horizon = std::min(farthest, windows.horizon());
+  double sum = 0, most = 0;
+  std::size_t count = 0;
+  // The cheapest of several sides.
+  const auto better = [](const refraction::Known& a, const refraction::Known& b) {
+    refraction::Known best = b.upper < a.upper ? b : a;
+    best.lower = std::min(a.lower, b.lower);
+    return best;
+  };
+  const auto give = [&](const refraction::Known& known, bool counts, double& upper, double& lower, Index& source) {
+    upper = lower = kInfinity;
+    source = kNoIndex;
+    if (known.upper == kInfinity || known.upper > horizon) return;
+    upper = run.base + known.upper * unit;
+    lower = std::min(upper, run.base + known.lower * unit);
+    source = run.sources[known.source].label;
+    if (!counts || upper == run.base) return;
+    const double excess = (upper - lower) / (lower - run.base);
+    sum += excess;
+    most = std::max(most, excess);
+    ++count;
+  };
+  std::vector<refraction::Known> known(domain.mesh().vertex_count());
+  for (Index v = 0; v < mesh->mesh().vertex_count(); ++v) {
+    known[mesh->vertex(v)] = better(known[mesh->vertex(v)], windows.at_vertex(v));
+  }
+  field.distance.resize(known.size());
+  field.lower.resize(known.size());
+  field.source.resize(known.size());
+  for (std::size_t v = 0; v < known.size(); ++v) {
+    give(known[v], options.targets.empty(), field.distance[v], field.lower[v], field.source[v]);
+    field.reached += field.distance[v] < kInfinity;
+  }
+  std::size_t place = 0;
+  for (const auto& sides : run.targets) {
+    refraction::Known there;
+    for (std::size_t i = 0; i < sides.size(); ++i) there = better(there, windows.at_target(place++));
+    give(there, true, field.target_distance.emplace_back(), field.target_lower.emplace_back(),
+         field.target_source.emplace_back());
+  }
+  field.max_error_bound = most;
+  field.mean_error_bound = count > 0 ? sum / static_cast<double>(count) : 0;
+  return true;
+}
+
 WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, const WeightedOptions& options,
                                              unsigned doublings) {
   if (!mesh) mesh = std::make_shared<WeightedMesh>(domain, weights);
   auto run = std::make_shared<Run>();
   run->mesh = mesh;
   run->towards = options.towards;
-  run->layout = points_for(Costs::Real, options, doublings);
   locate(sources, options, *run);
   WeightedField field;
+  if (options.lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
+  run->layout = points_for(Costs::Real, options, doublings);
   std::shared_ptr<const PointLayout> below;
   if (options.lower && !weights.pace) below = points_for(Costs::Below, options, doublings);
   search(*run, options, below.get(), field);

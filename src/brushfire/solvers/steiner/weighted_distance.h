@@ -33,14 +33,16 @@ inline constexpr double kMostWeightedTolerance = 1;
 
 struct WeightedOptions {
   // How far apart the bounds may be: (upper - lower) / lower; in [kLeastWeightedTolerance, kMostWeightedTolerance]. A
-  // wish: how dense the points on edges are follows from it, so that most vertices meet it, and max_error_bound says
-  // what was reached. Costs grow as its inverse.
+  // goal, not a promise: windows are cut as small as it takes, points on edges, where windows cannot be followed, made
+  // so dense that most vertices meet it; max_error_bound says what was reached.
   double tolerance = 0.01;
-  // Where the wish is not met at every vertex, run again with points twice as dense, this many times at most.
+  // Where the goal is not met at every vertex, run again with points twice as dense, this many times at most.
   unsigned refinements = 0;
   // Where slopes count: sources are where one goes to, and not where one comes from.
   bool towards = false;
-  bool lower = true;                       // false: upper bounds only, in a third of the time
+  // false: upper bounds only, those of a search over points on edges.
+  bool lower = true;
+  bool keep_paths = false;                 // WeightedField::run, for weighted_path(): by points on edges
   double max_distance = kInfinity;         // vertices that cost more read +inf; >= 0, may be +inf
   std::vector<SurfacePoint> targets = {};  // where there are any, it stops once all of them are final
   Progress progress = {};
@@ -60,9 +62,9 @@ struct WeightedField {
   double max_error_bound = kInfinity;
   double mean_error_bound = kInfinity;
   Index reached = 0;
-  std::uint64_t points = 0;  // on edges, the vertices' copies among them; 0 where the weight is the same everywhere
-  unsigned refinements = 0;  // done
-  std::shared_ptr<const steiner::Run> run;  // for weighted_path(); null where the weight is the same everywhere
+  std::uint64_t points = 0;                 // on edges, the vertices' copies among them; 0 where none were searched
+  unsigned refinements = 0;                 // done
+  std::shared_ptr<const steiner::Run> run;  // for weighted_path(); null where no points on edges were searched
 };
 
 // One mesh and its weights, for many sources. Weights that are one and the same everywhere give what Method::Windows

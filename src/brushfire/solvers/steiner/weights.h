@@ -11,7 +11,7 @@
 
 namespace brushfire {
 
-// What is special about an edge, named by its two vertices.
+// What an edge costs, apart from its faces; named by its two vertices.
 struct EdgeCost {
   std::array<Index, 2> vertices{};
   // Per unit of length along the edge: a road, a river bank. > 0; more than a face beside it costs means nothing, since

@@ -17,13 +17,15 @@
 #include "propagation/own_vertices.cpp"
 #include "propagation/part.cpp"
 #include "propagation/pseudo_sources.cpp"
-#include "propagation/results.cpp"
 #include "propagation/single_windows.cpp"
 #include "propagation/sink.cpp"
 #include "propagation/structure.cpp"
 #include "propagation/targets.cpp"
-#include "propagation/window_engine.cpp"
+#include "propagation/wheels.cpp"
 #include "propagation/window_lists.cpp"
 
 #include "paths/keep_plain.cpp"
 #include "paths/point_values.cpp"
+#include "paths/results.cpp"
+
+#include "window_engine.cpp"

@@ -9,7 +9,8 @@
 namespace brushfire::carried_source {
 namespace {
 
-constexpr double kNotYet = -1;  // of a corner that is in no fan
+constexpr double kNotYet = -1;          // of a corner that is in no fan
+constexpr double kTurnRounding = 1e-9;  // of angles, by far
 
 // At the corner between sides a and b, c opposite.
 double angle_between(double a, double b, double c, double double_area) {
@@ -141,6 +142,13 @@ Direction Fans::within(Index v, Index fan, double angle) const {
     if (at.sector == kSharedSector || all[k].low <= at.angle) at.sector = k;
   }
   return at;
+}
+
+bool Fans::bends_light(Index v) const {
+  const std::span<const Sector> all = sectors(v);
+  if (all.empty() || is_odd(v)) return false;
+  const bool closed = all.back().around < kInfinity;
+  return all.back().high > (closed ? 2 * kPi : kPi) + kTurnRounding;
 }
 
 void Fans::name_edges() {

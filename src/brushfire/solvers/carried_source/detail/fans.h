@@ -54,6 +54,9 @@ class Fans {
   Index side_count(Index v) const { return side_count_[v]; }  // of the sides of fans
   // Whether the faces around a vertex are several fans, or one that ends with edges of three faces and more.
   bool is_odd(Index v) const { return odd_[v]; }
+  // Whether there is a shadow behind the vertex, whatever the light: it has one fan, whose angles sum to more than a
+  // full turn, or to more than half of one where it is open.
+  bool bends_light(Index v) const;
 
   // A corner's two sides: along the halfedge that names it, or along the one before.
   Index side(Index corner, bool own) const {

@@ -69,6 +69,7 @@ void GroupMarch::reset() {
   s.queue.reset();
   s.settled = 0, s.exhausted = false;
   s.turns = s.updates = 0;
+  s.lanes = 0;
 }
 
 void GroupMarch::begin_at(int lane, Index vertex) {
@@ -78,14 +79,17 @@ void GroupMarch::begin_at(int lane, Index vertex) {
   f.sector[lane] = 1;
   GroupVertex& own = s.fronts[vertex].own;
   own.fresh |= 1u << lane;
+  ++s.lanes;
   s.fallen.push_if(!own.listed, vertex);
   own.listed = true;
 }
 
-bool GroupMarch::run(float spread, float last) {
+bool GroupMarch::run(float spread, float last, Beyond beyond) {
   GroupState& s = state_;
+  s.beyond = beyond == Beyond::Ignored ? last : GroupState::kUnreached;
+  s.later = kLater * spread / static_cast<float>(s.lanes);
   do {
-    const float front = static_cast<float>(s.queue.cursor()) / s.per_unit - spread - settling_;
+    const float front = static_cast<float>(s.queue.cursor()) / s.per_unit - (1 + kLater) * spread - settling_;
     if (front > last) return true;
     s.settled = std::max(0.0f, front);
     stop_if_cancelled();

@@ -26,7 +26,11 @@ class GroupMarch {
   void begin_at(int lane, Index vertex);
   // `spread`: by how much the values of two lanes may differ at a vertex. Values up to `last` are final. False: some
   // vertex had so many turns that nothing here should be used. Throws Error(Cancelled).
-  bool run(float spread, float last);
+  //
+  // Beyond::Ignored: vertices that all lanes reach later than `last` have no turn. A fraction of the work where `last`
+  // is near; but the order around them, and with it the rounding of values below, then depends on `last`.
+  enum class Beyond : std::uint8_t { Marched, Ignored };
+  bool run(float spread, float last, Beyond beyond = Beyond::Marched);
 
   // +inf: not reached. [kGroupLanes]
   const float* values(Index v) const { return state_.fronts[v].value; }

@@ -56,6 +56,7 @@ struct GroupTurn {
   Index vertex;
   FrontLanes front;
   Around<float> around;
+  std::uint8_t bends;
   const SideEnd<float>* ends;
   const Side<float>* sides;
   const DarkSets* dark;       // null: none
@@ -81,7 +82,9 @@ BRUSHFIRE_INLINE void offer(GroupState& s, const Records<float>& records, const 
   }
   b.x = Values(by.length) - b.x;
   const OfferFrame<float> f = offer_frame(by, to, u, at.around, s.fronts[target].own.around);
-  const Offer<Values> o = offer_over<Values>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, b);
+  const BendingEnds<float> bending{bending_by<float>(at.bends), bending_by<float>(by.end_bends)};
+  const Offer<Values> o =
+      offer_over<Values>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, b, bending);
   const Values c(f.turn_c), sine(f.turn_s), oy = Values(f.sign) * o.y;
   accept(s, target, {o.value, o.sigma, o.x * c - oy * sine, o.x * sine + oy * c}, u.sector());
 }
@@ -104,6 +107,7 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
   const GroupTurn at{v,
                      front_lanes(s.fronts[v]),
                      own.around,
+                     head.bends,
                      record.ends(),
                      record.sides(),
                      head.has_dark ? record.dark() : nullptr,
@@ -137,11 +141,13 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
   s.updates += offers;
 }
 
-// The mean of the lanes that have a value.
-BRUSHFIRE_INLINE float key_of(const GroupFront& f) {
+// The mean of the lanes that have a value; those that have none yet come later.
+BRUSHFIRE_INLINE float key_of(const GroupState& s, const GroupFront& f) {
   const Values value = load<Values>(f.value);
   const MaskFor<Values> there = value < Values(GroupState::kUnreached);
-  return sum(select(there, value, Values(0.0f))) / static_cast<float>(std::popcount(bits(there)));
+  const int count = std::popcount(bits(there));
+  return sum(select(there, value, Values(0.0f))) / static_cast<float>(count) +
+         static_cast<float>(s.lanes - count) * s.later;
 }
 
 // Those that did fall in a pass wait for their turn: in the next pass of this bucket, or in a later one.
@@ -151,10 +157,11 @@ BRUSHFIRE_INLINE void sort_in(GroupState& s) {
     GroupVertex& own = s.fronts[v].own;
     own.listed = false;
     if ((own.fresh & GroupVertex::kLanes) == 0) continue;
-    s.exhausted |= own.turns >= s.most_turns;
     s.touched.push_if(!own.reached, v);
     own.reached = true;
-    const float key = key_of(s.fronts[v]);
+    if (!any(load<Values>(s.fronts[v].value) <= Values(s.beyond))) continue;
+    s.exhausted |= own.turns >= s.most_turns;
+    const float key = key_of(s, s.fronts[v]);
     const BucketQueue::Bucket bucket = group_bucket(key * s.per_unit);
     if (bucket <= s.queue.cursor()) {
       s.next.emplace_back(key, v);

@@ -55,6 +55,9 @@ struct GroupState {
   float per_unit = 1, slack = 0, farther = 0;  // of the mesh
   int most_turns = 0;                          // of a vertex
   float settled = 0;                           // values below no longer change
+  int lanes = 0;                               // that began
+  float later = 0;                             // what a lane without a value adds to a key
+  float beyond = kUnreached;                   // a vertex all of whose values are greater has no turn
   bool exhausted = false;                      // a vertex used up its turns
   std::uint64_t turns = 0, updates = 0;
 };

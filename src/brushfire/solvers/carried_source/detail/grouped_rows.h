@@ -39,6 +39,7 @@ class GroupedRows {
   detail::LocalMesh local_;  // of domain.open(), where faces over the same vertices are one
   Records<float> records_;
   std::vector<Index> place_;                     // [vertices of domain.mesh()] in the records
+  std::vector<Index> vertex_;                    // [records] of domain.mesh()
   std::vector<std::pair<Index, Index>> copies_;  // further copies of vertices on walls: the vertex, its place
   std::vector<Group> groups_;
 };
@@ -56,16 +57,30 @@ class GroupRunner {
   // known in time, and the group is run by halves; a lane by itself is none. Throws Error(Cancelled).
   std::vector<int> run(const GroupedRows::Group& group, double max_distance, const Take& take);
 
+  // What a lane reaches within max_distance: vertices of domain.mesh(), ascending, and distances to them in unit()s of
+  // the mesh. Valid during the call.
+  using TakeReached = std::function<void(int lane, std::span<const Index> vertices, std::span<const float> distances)>;
+  // The same, at the price of what it reaches. Values may differ from run()'s, by some 0.01 %; for one and the same
+  // max_distance they are always the same bits.
+  std::vector<int> run_within(const GroupedRows::Group& group, double max_distance, const TakeReached& take);
+
   double unit() const { return rows_.unit_; }
   const GroupMarch& march() const { return march_; }
 
  private:
-  bool run_lanes(const GroupedRows::Group& group, int begin, int end, double max_distance);
+  using Beyond = GroupMarch::Beyond;
+  // finish(begin, end) for lanes that marched together.
+  template <class Finish>
+  std::vector<int> run_parts(const GroupedRows::Group& group, double max_distance, Beyond beyond, const Finish& finish);
+  bool run_lanes(const GroupedRows::Group& group, int begin, int end, double max_distance, Beyond beyond);
   void transpose();
+  void list_reached();
 
   const GroupedRows& rows_;
   GroupMarch march_;
-  std::vector<float> values_;  // [kGroupLanes][vertices of domain.mesh()], in units of the open mesh
+  std::vector<float> values_;                     // [kGroupLanes][vertices of domain.mesh()], in units of the open mesh
+  std::vector<std::pair<Index, Index>> reached_;  // the vertex and its place, ascending
+  std::vector<Index> columns_;                    // of a lane
 };
 
 }  // namespace brushfire::carried_source

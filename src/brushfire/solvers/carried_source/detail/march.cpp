@@ -126,10 +126,23 @@ BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, 
   SourceAt<T> b = see(other, by, true, there, at.lenses ? at.lenses[support].end[there] : kNoIndex, dark_there);
   b.x = by.length - b.x;
   const OfferFrame<T> f = offer_frame(by, to, u, at.front.around, fronts_[target.end].around);
-  const Offer<T> o = offer_over<T>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, b);
-  const T oy = f.sign * o.y;
-  accept<kLabelled>(target.end, {o.value, o.sigma, o.x * f.turn_c - oy * f.turn_s, o.x * f.turn_s + oy * f.turn_c},
-                    u.sector(), at.front.label);
+  const BendingEnds<T> bending{bending_by<T>(at.record.head().bends), bending_by<T>(by.end_bends)};
+  const auto take = [&](const Offer<T>& o, Index label) {
+    const T oy = f.sign * o.y;
+    accept<kLabelled>(target.end, {o.value, o.sigma, o.x * f.turn_c - oy * f.turn_s, o.x * f.turn_s + oy * f.turn_c},
+                      u.sector(), label);
+  };
+  if (kLabelled && other.label != at.front.label) {
+    take(offer_beside<T>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, bending), at.front.label);
+    const T x = by.length - f.x, beyond = std::sqrt(x * x + f.y * f.y);
+    b.x = by.length - b.x;
+    Offer<T> o =
+        offer_beside<T>(by.length, x, f.y, beyond, other.value, at.front.value, b, {bending.at_b, bending.at_v});
+    o.x = -o.x;
+    take(o, other.label);
+  } else {
+    take(offer_over<T>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, b, bending), at.front.label);
+  }
   ++updates_;
 }
 
@@ -158,9 +171,7 @@ BRUSHFIRE_INLINE void March<T>::turn(Index v) {
     const Front& end = fronts_[e.end];
     lists_.ahead[ahead] = k;
     ahead += end.value > now + e.need - e.bulge * later ? 1u : 0u;
-    bool closed = end.state == kClosed;
-    if constexpr (kLabelled) closed &= end.label == front.label;
-    lists_.closed[k] = closed ? 1 : 0;
+    lists_.closed[k] = end.state == kClosed ? 1 : 0;
   }
   for (Index i = 0; i < ahead; ++i) {
     const Index k = lists_.ahead[i], before = offers;

@@ -16,6 +16,10 @@ inline constexpr double kFarther = 0.1;
 // reached over an edge one end of which is farther than itself, and so late. Flat meshes stay exact with this.
 inline constexpr double kSettling = 2;
 
+// In a group, in the greatest difference of its lanes: how much later a vertex has its turn while no lane but one has
+// come to it. Near the sources turns wait for the others so, instead of being repeated.
+inline constexpr float kLater = 0.25f;
+
 template <class T>
 inline constexpr T kNews = 1 - 4 * kEpsilon<T>;
 

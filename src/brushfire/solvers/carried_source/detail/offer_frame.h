@@ -3,6 +3,7 @@
 
 #include <brushfire/core/detail/inline.h>
 #include <brushfire/solvers/carried_source/detail/records.h>
+#include <brushfire/solvers/carried_source/detail/update.h>
 
 #include <cmath>
 
@@ -24,6 +25,11 @@ template <class T>
 BRUSHFIRE_INLINE SideTurn<T> side_turn(T c, T s, Index hand, Around<T> around) {
   const T sign = minus_if<T>(hand), turn = sign * around.s;
   return {c, s, c * around.c - s * turn, s * around.c + c * turn, sign};
+}
+
+template <class T>
+BRUSHFIRE_INLINE T bending_by(std::uint8_t bends) {
+  return bends != 0 ? kGrazing<T> : T(-1);
 }
 
 // The target in the frame of the edge, and how vectors turn from there into the target's own frame.

@@ -22,7 +22,7 @@ class Optics {
   Optics(const Mesh& mesh, const Fans& fans);
 
   const Optic& side(Index v, Index number) const { return sides_[begin_[v] + number]; }
-  Optic of(Index v, const Direction& at);
+  Optic of(Index v, const Direction& named);
 
   // A closed fan's first side may be named as its last, with the sum of all angles. (Odd vertices have two.)
   bool is_seam(Index v, const Direction& at) const;

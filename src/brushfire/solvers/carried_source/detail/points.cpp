@@ -15,14 +15,11 @@ const Fans& Points::fans() {
 
 void Points::add_face(Index f, const std::array<double, 3>& weights) {
   for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-    const double length = mesh_.length(h);
-    if (length == 0) {
+    if (mesh_.length(h) == 0) {
       near_.push_back({mesh_.from(h), mesh_.length(Mesh::previous(h)) * weights[Mesh::previous(h) % 3], {}, false, 0});
       continue;
     }
-    const Vec2 apex = apex_over(mesh_, h, h);
-    const double ahead = weights[Mesh::next(h) % 3], third = weights[Mesh::previous(h) % 3];
-    const Vec2 at{ahead * length + third * apex.x, third * apex.y};
+    const Vec2 at = point_over(mesh_, h, weights);
     const FanCorner& corner = fans().corner(h);
     const double turn = std::atan2(at.y, at.x), distance = norm(at);
     const double angle = corner.mirrored ? corner.high - turn : corner.low + turn;
@@ -36,21 +33,7 @@ PointLocation Points::by_lowest_halfedge(const PointLocation& at) const {
   const Index h = at.halfedge;
   Index lowest = h;
   for (Index g = mesh_.opposite(h); g != h; g = mesh_.opposite(g)) lowest = std::min(lowest, g);
-  return at_edge(at, lowest);
-}
-
-// The same point in the face of another halfedge of the edge.
-PointLocation Points::at_edge(const PointLocation& at, Index g) const {
-  const Index h = at.halfedge;
-  const bool same_way = mesh_.from(g) == mesh_.from(h);
-  PointLocation there = at;
-  there.halfedge = g;
-  there.face = Mesh::face_of(g);
-  there.weights = {0, 0, 0};
-  there.weights[g % 3] = at.weights[(same_way ? h : Mesh::next(h)) % 3];
-  there.weights[Mesh::next(g) % 3] = at.weights[(same_way ? Mesh::next(h) : h) % 3];
-  there.t = there.weights[Mesh::next(g) % 3];
-  return there;
+  return on_other_halfedge(mesh_, at, lowest);
 }
 
 std::span<const Points::Near> Points::around(const PointLocation& named, int crossings, double limit) {
@@ -66,11 +49,11 @@ std::span<const Points::Near> Points::around(const PointLocation& named, int cro
   } else {
     Index g = at.halfedge;
     do {
-      add_face(Mesh::face_of(g), at_edge(at, g).weights);
+      add_face(Mesh::face_of(g), on_other_halfedge(mesh_, at, g).weights);
       g = mesh_.opposite(g);
     } while (g != at.halfedge);
   }
-  if (at.on == PointLocation::On::Vertex) return near_;
+  if (at.on == PointLocation::On::Vertex && crossings == 0) return near_;
   for (const detail::Seed& s : seeds_.in_sight(mesh_, at, crossings, limit)) {
     if (s.corner == kNoIndex) continue;
     const FanCorner& corner = fans().corner(s.corner);
@@ -99,7 +82,7 @@ SourceAt<double> Points::see(Index v, const Known& known, const Direction& side,
                               length);
 }
 
-double Points::through_edge(Index h, Vec2 at, const Known& from, const Known& to) {
+Points::Lights Points::below_edge(Index h, const Known& from, const Known& to) {
   const Index next = Mesh::next(h);
   const double length = mesh_.length(h);
   const Hand here = fans().corner(h).mirrored ? Hand::Right : Hand::Left;
@@ -109,10 +92,24 @@ double Points::through_edge(Index h, Vec2 at, const Known& from, const Known& to
     const Direction d = fans().direction(corner, own);
     return fans().within(v, d.fan, d.angle);
   };
-  const SourceAt<double> a = see(mesh_.from(h), from, side(mesh_.from(h), h, true), here, length);
-  SourceAt<double> b = see(mesh_.to(h), to, side(mesh_.to(h), next, false), there, length);
-  b.x = length - b.x;
-  return offer_over<double>(length, at.x, at.y, norm(at), from.value, to.value, a, b).value;
+  Lights lights{see(mesh_.from(h), from, side(mesh_.from(h), h, true), here, length),
+                see(mesh_.to(h), to, side(mesh_.to(h), next, false), there, length)};
+  lights.to.x = length - lights.to.x;
+  return lights;
+}
+
+double Points::through_edge(Index h, Vec2 at, const Known& from, const Known& to) {
+  const Lights l = below_edge(h, from, to);
+  return offer_over<double>(mesh_.length(h), at.x, at.y, norm(at), from.value, to.value, l.from, l.to).value;
+}
+
+std::array<double, 2> Points::from_either_end(Index h, Vec2 at, const Known& from, const Known& to) {
+  Lights l = below_edge(h, from, to);
+  const double length = mesh_.length(h);
+  l.to.x = length - l.to.x;
+  return {offer_beside<double>(length, at.x, at.y, norm(at), from.value, to.value, l.from).value,
+          offer_beside<double>(length, length - at.x, at.y, norm(Vec2{length - at.x, at.y}), to.value, from.value, l.to)
+              .value};
 }
 
 }  // namespace brushfire::carried_source

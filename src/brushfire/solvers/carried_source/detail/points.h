@@ -5,6 +5,7 @@
 #include <brushfire/solvers/carried_source/detail/sight.h>
 #include <brushfire/solvers/detail/start.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,7 +28,7 @@ class Points {
   // The corners of its faces; of a point that is no vertex also those that it sees across up to `crossings` edges, not
   // farther than `limit`: an obtuse corner is offered nothing over its own edge, behind which the point may lie. Lasts
   // until the next call.
-  std::span<const Near> around(const PointLocation& at, int crossings, double limit);
+  std::span<const Near> around(const PointLocation& named, int crossings, double limit);
 
   // The vertices at the corners of all faces that hold the point, and how far they are.
   std::span<const detail::Seed> corners(const PointLocation& at) { return seeds_.in_own_faces(mesh_, at); }
@@ -40,11 +41,16 @@ class Points {
   };
   // What the front of the two ends of halfedge h has at a point in the frame of h, above it.
   double through_edge(Index h, Vec2 at, const Known& from, const Known& to);
+  // Where the ends belong to different sources: of each one by itself.
+  std::array<double, 2> from_either_end(Index h, Vec2 at, const Known& from, const Known& to);
 
  private:
+  struct Lights {
+    SourceAt<double> from, to;  // both from the first end on
+  };
+  Lights below_edge(Index h, const Known& from, const Known& to);
   const Fans& fans();
   PointLocation by_lowest_halfedge(const PointLocation& at) const;
-  PointLocation at_edge(const PointLocation& at, Index g) const;
   void add_face(Index f, const std::array<double, 3>& weights);
   SourceAt<double> see(Index v, const Known& known, const Direction& side, Hand hand, double length);
 

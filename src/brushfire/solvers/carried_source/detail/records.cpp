@@ -198,6 +198,7 @@ class RecordBuilder {
                               : Around<T>{});
     head_ = {};
     head_.sides = static_cast<Index>(sides_.size());
+    head_.bends = fans_.bends_light(v) ? 1 : 0;
     for (const DraftUpdate& u : updates_) head_.reach = std::max(head_.reach, static_cast<T>(u.length));
     out_.most_sides = std::max(out_.most_sides, head_.sides);
     out_.most_updates = std::max(out_.most_updates, static_cast<Index>(updates_.size()));
@@ -252,6 +253,7 @@ class RecordBuilder {
       s.c = static_cast<T>(d.here.c), s.s = static_cast<T>(d.here.s);
       s.end_c = static_cast<T>(d.there.c), s.end_s = static_cast<T>(d.there.s);
       s.sector = static_cast<std::uint8_t>(d.there.sector);
+      s.end_bends = fans_.bends_light(d.end) ? 1 : 0;
       for (int i = 0; i < 2; ++i) {
         s.turned[i] = d.here.sets.turned[i], s.end_turned[i] = d.there.sets.turned[i];
         dark_[k].here[i] = d.here.sets.dark[i], dark_[k].end[i] = d.there.sets.dark[i];

@@ -31,6 +31,7 @@ struct alignas(8 * sizeof(T)) Side {
   T end_c = 1, end_s = 0;              // the direction back, at the end; 0, 0: not known there
   SectorSet turned[2], end_turned[2];  // SightSets, by Hand
   std::uint8_t sector = 0;             // of the direction back
+  std::uint8_t end_bends = 0;          // Fans::bends_light() of the end
 };
 
 // What few sides need.
@@ -62,8 +63,9 @@ struct Update {
 template <class T>
 struct RecordHead {
   Index sides = 0;
-  std::uint16_t has_dark = 0, has_lenses = 0;
-  T reach = 0;  // the longest side that anything is offered over
+  std::uint8_t has_dark = 0, has_lenses = 0;
+  std::uint8_t bends = 0;  // Fans::bends_light()
+  T reach = 0;             // the longest side that anything is offered over
 };
 
 // A direction turned by the sum of a vertex's angles is multiplied by this.

@@ -101,6 +101,7 @@ Index SourceGrouping::farthest(Index start, Range range, std::vector<float>& dis
     if (d > distance[v]) continue;
     last = v, ++reached;
     for_neighbours(mesh_, v, [&](Index w, float length) {
+      // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): numbers of vertices are below its size
       if (piece_[w] != pieces_ || !(d + length < distance[w])) return;
       distance[w] = d + length;
       heap_.emplace_back(d + length, w);
@@ -146,6 +147,7 @@ std::vector<Index> SourceGrouping::cluster(std::vector<Index>& left, double& spr
     if (d > to_[v]) continue;
     if (v != first && std::binary_search(left.begin(), left.end(), v)) --missing, farthest_found = d;
     for_neighbours(mesh_, v, [&](Index w, float length) {
+      // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): numbers of vertices are below its size
       if (d + length > limit || !(d + length < to_[w])) return;
       if (to_[w] == kNowhere) seen.push_back(w);
       to_[w] = d + length;

@@ -28,7 +28,9 @@ inline constexpr T kGrazing = std::is_same_v<T, float> ? T(0x1p-12) : T(0x1p-26)
 
 namespace brushfire::carried_source {
 
+using portable::BendingEnds;
 using portable::Offer;
+using portable::offer_beside;
 using portable::offer_over;
 using portable::source_below;
 using portable::SourceAt;

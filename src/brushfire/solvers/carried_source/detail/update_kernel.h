@@ -35,6 +35,15 @@ BRUSHFIRE_INLINE SourceAt<V> source_below(V value, V sigma, V px, V py, MaskFor<
   return {select(own, zero, x), select(own, zero, y), select(own, value, sigma)};
 }
 
+// Ends of the edge that bend light: behind a saddle or a boundary there is a shadow. A ray that passes such an end by
+// this share of its own length goes on from there, as from a source: it may be lit on one side of the ray only, and the
+// nearer source is right on both. (Where it is lit, neighbours that see the farther one say so.)
+template <class T>
+struct BendingEnds {
+  static constexpr T kNever = -1;
+  T at_v = kNever, at_b = kNever;  // kGrazing, or kNever
+};
+
 // The offer of v (value `at_v`, source a) and b (value `at_b`, source b, x from v as well) to c = (x, y). `along` is
 // the distance from v to c; lanes of v or b that have no value must hold +inf.
 //
@@ -46,7 +55,8 @@ BRUSHFIRE_INLINE SourceAt<V> source_below(V value, V sigma, V px, V py, MaskFor<
 //   interpolant that keeps values and slopes at both ends and convexity between.
 template <class V>
 BRUSHFIRE_INLINE Offer<V> offer_over(NumberIn<V> length, NumberIn<V> to_x, NumberIn<V> to_y, NumberIn<V> along, V at_v,
-                                     V at_b, const SourceAt<V>& a, const SourceAt<V>& b) {
+                                     V at_b, const SourceAt<V>& a, const SourceAt<V>& b,
+                                     BendingEnds<NumberIn<V>> bending = {}) {
   using T = NumberIn<V>;
   const V zero = V(T(0)), one = V(T(1)), l = V(length), x = V(to_x), y = V(to_y);
   // Whether they see c: crossing / wide is where, from v (0) to b (1).
@@ -84,12 +94,28 @@ BRUSHFIRE_INLINE Offer<V> offer_over(NumberIn<V> length, NumberIn<V> to_x, Numbe
   }
   const V edge = at_v + V(along);
   constexpr T kNever = std::numeric_limits<T>::infinity();
+  const V cross = select(first_seen, cross_a, cross_b), wide = select(first_seen, wide_a, wide_b);
+  const auto round_v = without(fan, cross < V(bending.at_v) * wide);
+  const auto round_b = without(fan, V(T(1) - bending.at_b) * wide < cross);
   // The way through v, whose source is nearer, does not win by rounding.
-  const auto over = (seen_a | seen_b) & (through < V(kTie<T>) * edge) & (at_v < V(kNever)) & (at_b < V(kNever));
-  V dx = select(over, (part * (b.x - a.x) - ax) * shorter, zero - x);
-  V dy = select(over, (part * (b.y - a.y) - deep_a) * shorter, zero - y);
+  const auto over =
+      without(round_v, (seen_a | seen_b) & (through < V(kTie<T>) * edge) & (at_v < V(kNever)) & (at_b < V(kNever)));
+  const auto straight = without(round_b, over);
+  const V dx = select(straight, (part * (b.x - a.x) - ax) * shorter, select(over, l, zero) - x);
+  const V dy = select(straight, (part * (b.y - a.y) - deep_a) * shorter, zero - y);
   const V value = select(over, through, edge);
-  return {value, select(over, through - radius * shorter, at_v), dx, dy};
+  return {value, select(straight, through - radius * shorter, select(over, at_b, at_v)), dx, dy};
+}
+
+// Where v and b belong to different sources their fronts meet on the edge, and each one offers by itself: this one v's,
+// past the edge where its light is not stopped before b, else along the side.
+template <class V>
+BRUSHFIRE_INLINE Offer<V> offer_beside(NumberIn<V> length, NumberIn<V> to_x, NumberIn<V> to_y, NumberIn<V> along,
+                                       V at_v, V at_b, const SourceAt<V>& a, BendingEnds<NumberIn<V>> bending = {}) {
+  using T = NumberIn<V>;
+  const V x = V(length) - a.x, foretold = a.sigma + square_root(x * x + a.y * a.y);
+  const V reached = select(V(kTie<T>) * foretold < at_b, V(std::numeric_limits<T>::infinity()), foretold);
+  return offer_over<V>(length, to_x, to_y, along, at_v, reached, a, a, bending);
 }
 
 }  // namespace brushfire::carried_source::BRUSHFIRE_TARGET

@@ -68,7 +68,7 @@ struct MarchState {
     T value, sigma;
   };
 
-  explicit MarchState(const partition::VertexPartition& parts);
+  explicit MarchState(const partition::VertexPartition& shared_out);
 
   const partition::VertexPartition* layout;
   UninitializedArray<Front> front_at;     // [places]

@@ -29,7 +29,7 @@ class PointLayout {
   static constexpr Index kLanes = 4;
 
   // Throws Error(TooLarge) where the numbers, or the memory that a search needs, are too many.
-  PointLayout(const WeightedMesh& mesh, const Density& density);
+  PointLayout(const WeightedMesh& weighted, const Density& density);
 
   Index row(Index edge) const { return rows_[edge]; }      // its first point
   Index count(Index edge) const { return counts_[edge]; }  // of its points, both ends among them

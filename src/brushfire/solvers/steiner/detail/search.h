@@ -3,12 +3,12 @@
 #pragma once
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/bucket_queue.h>
 #include <brushfire/core/progress.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/steiner/detail/places.h>
 #include <brushfire/solvers/steiner/detail/relax.h>
-#include <brushfire/solvers/steiner/detail/row_queue.h>
 
 #include <cstdint>
 #include <span>
@@ -58,10 +58,10 @@ class Search {
   Places places_;
   std::span<const detail::LocatedSource> sources_;
   double width_ = 1;  // of a bucket
-  RowQueue queue_;
+  BucketQueue queue_;
   Front front_;
-  std::vector<Index> first_, last_;        // [edges] what has changed since the row was last sent
-  std::vector<RowQueue::Bucket> waiting_;  // [edges] the bucket it waits in
+  std::vector<Index> first_, last_;           // [edges] what has changed since the row was last sent
+  std::vector<BucketQueue::Bucket> waiting_;  // [edges] the bucket it waits in
   Offers offers_;
   LowerTerms near_, far_;
 };

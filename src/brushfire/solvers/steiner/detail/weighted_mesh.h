@@ -44,7 +44,7 @@ class WeightedMesh {
   struct Opened {  // weights in the numbers of domain.open()
     Weights weights;
   };
-  WeightedMesh(const Domain& domain, const Opened& opened);
+  WeightedMesh(const Domain& domain, const Opened& given);
   void find_bridges(const std::vector<EdgeCost>& fences);
   std::vector<Index> open_halfedges(Index a, Index b) const;
 

@@ -1,6 +1,6 @@
 // What a run in doubles leaves behind for paths.
 #include <brushfire/solvers/windows/paths/record.h>
-#include <brushfire/solvers/windows/propagation/results.h>
+#include <brushfire/solvers/windows/paths/results.h>
 
 #include <limits>
 #include <memory>

@@ -1,6 +1,6 @@
 // What a run in wider numbers leaves behind for paths; part of in_double_doubles.cpp.
 #include <brushfire/solvers/windows/paths/plain_run.h>
-#include <brushfire/solvers/windows/propagation/results.h>
+#include <brushfire/solvers/windows/paths/results.h>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {

@@ -8,12 +8,13 @@
 
 #include <brushfire/mesh/detail/wide_face.h>
 #include <brushfire/solvers/windows/paths/leg_origins.h>
+#include <brushfire/solvers/windows/paths/leg_sources.h>
+#include <brushfire/solvers/windows/paths/seen_wedges.h>
 #include <brushfire/solvers/windows/paths/wedge.h>
 
 #include <algorithm>
 #include <cmath>
 #include <queue>
-#include <unordered_map>
 #include <vector>
 
 namespace brushfire::windows {
@@ -22,11 +23,7 @@ namespace {
 using On = PointLocation::On;
 using detail::WideFrame, detail::wide_corners, detail::wide_frame, detail::wide_point;
 
-// Two wedges over one edge are one where their places and limits agree to this share of the value.
-constexpr double kSamePlace = 1e-15;
-// Wedges that are one come soon after each other: only so many are looked at.
-constexpr std::ptrdiff_t kRecent = 32;
-// And so many faces of a way: no way winds round more of them in a circle for long.
+// A way is looked back over so many faces: none winds round more of them in a circle for long.
 constexpr int kMostBack = 64;
 // Once the value is explained, so many more wedges are looked into for the pseudo-source that the field names itself.
 constexpr int kPatience = 256;
@@ -41,20 +38,8 @@ class LegSearch {
         mesh_(question.mesh),
         value_(question.value),
         room_(question.room),
-        origins_(question.mesh, question.at, question.value) {
-    for (Index s = 0; s < ask_.sources.size(); ++s) {
-      if (ask_.sources[s].curve) {
-        add_places(*ask_.sources[s].curve, s);
-        continue;
-      }
-      const PointLocation& place = ask_.sources[s].at;
-      if (place.on == On::Vertex) {
-        source_at_.emplace(place.vertex, AtVertex{s, 0});
-        continue;
-      }
-      for (const PointInFace& f : names_of(mesh_, place)) sources_in_.emplace(f.face, Inside{s, f.weights});
-    }
-  }
+        origins_(question.mesh, question.at, question.value),
+        sources_(question.mesh, question.sources) {}
 
   WindowField::Leg operator()() {
     // Along the hint, as long as the value allows. Where the value itself does not hold, by length alone; where values
@@ -72,32 +57,12 @@ class LegSearch {
 
  private:
   enum class Pass { AlongHint, ByLength, WithoutValues };
-  struct Inside {
-    Index source;
-    std::array<double, 3> weights;
-  };
-  struct AtVertex {
-    Index source;
-    double offset;  // of the place, beyond that of the source
-  };
   struct Open {
     Index wedge;
     double key;
     double reach;  // of equal keys the farthest first
     bool operator<(const Open& o) const { return key > o.key || (key == o.key && reach < o.reach); }
   };
-  struct Seen {
-    Vec2 place;  // of the point, in the frame of the edge
-    double first, last;
-  };
-
-  // Of a curve those at vertices; the others are looked up.
-  void add_places(const LocatedCurve& curve, Index source) {
-    for (const CurvePlace& p : curve.places) {
-      if (p.at.on == On::Vertex) source_at_.emplace(p.at.vertex, AtVertex{source, p.offset});
-    }
-  }
-
   double value_of(Index v) const { return ask_.vertex_value(v); }
   double start_of(Index source) const { return ask_.sources[source].offset + ask_.shift; }
 
@@ -243,7 +208,7 @@ class LegSearch {
     const Vec2 span = visible_part(w);
     const double least = least_total(w, span);
     if (!(least <= (by_length() ? best_.total : value_ + room_))) return;
-    if (has_been_seen(w, span)) return;
+    if (!seen_.is_new(mesh_, w, span, kSamePlace * value_)) return;
     wedges_.push_back(w);
     const auto number = static_cast<Index>(wedges_.size() - 1);
     if (by_length()) {
@@ -273,34 +238,13 @@ class LegSearch {
   // A run that stopped early does not know values that are larger than where it stopped: those are NaN.
   double known(Index v) const { return value_of(v) >= 0 ? value_of(v) : value_; }
 
-  // Over edges of many faces one place is reached on many ways, twice as many at each such edge.
-  bool has_been_seen(const Wedge& w, Vec2 span) {
-    Index first = w.halfedge;
-    for (Index g = mesh_.opposite()[first]; g != w.halfedge; g = mesh_.opposite()[g]) first = std::min(first, g);
-    const double length = mesh_.length(w.halfedge);
-    const Vec2 edge = (1 / length) * rounded(w.left - w.right), right = rounded(w.right);
-    const double along = -dot(edge, right), across = std::abs(cross(edge, right));
-    const bool forward = w.right_vertex < w.left_vertex;
-    const Seen now{
-        {forward ? along : length - along, across}, forward ? span.x : 1 - span.y, forward ? span.y : 1 - span.x};
-    const double room = kSamePlace * value_;
-    std::vector<Seen>& others = seen_[first];
-    const auto recent = others.end() - std::min<std::ptrdiff_t>(std::ssize(others), kRecent);
-    const bool seen = std::any_of(recent, others.end(), [&](const Seen& s) {
-      return std::abs(s.place.x - now.place.x) <= room && std::abs(s.place.y - now.place.y) <= room &&
-             (s.first - now.first) * length <= room && (now.last - s.last) * length <= room;
-    });
-    if (!seen) others.push_back(now);
-    return seen;
-  }
-
   // ---- goals
 
   // A source at a vertex that is at no distance.
   void offer_source_at(Index origin) {
     const PointLocation& at = origins_[origin].at;
     if (at.on != On::Vertex) return;
-    const auto [begin, end] = source_at_.equal_range(at.vertex);
+    const auto [begin, end] = sources_.at(at.vertex);
     for (auto s = begin; s != end; ++s) {
       LegGoal goal;
       goal.face = at.face;
@@ -313,7 +257,7 @@ class LegSearch {
 
   // Those within the face that a way of the wedge has entered.
   void offer_sources(LegGoal goal, const std::array<WideVec2, 3>& corners) {
-    const auto [begin, end] = sources_in_.equal_range(goal.face);
+    const auto [begin, end] = sources_.in(goal.face);
     for (auto s = begin; s != end; ++s) {
       goal.place = wide_point(corners, s->second.weights);
       if (goal.wedge != kStart && !in_wedge(wedges_[goal.wedge], goal.place)) continue;
@@ -423,12 +367,11 @@ class LegSearch {
   const Mesh& mesh_;
   const double value_, room_;
   const LegOrigins origins_;
-  std::unordered_multimap<Index, Inside> sources_in_;   // by face
-  std::unordered_multimap<Index, AtVertex> source_at_;  // by vertex
+  const LegSources sources_;
   std::vector<Wedge> wedges_;
   std::size_t first_wedges_ = 0, on_hint_ = 0;  // so many of them: where the pass began, aside; along the hint
   std::priority_queue<Open> open_;
-  std::unordered_map<Index, std::vector<Seen>> seen_;  // by the lowest halfedge of the edge
+  SeenWedges seen_;
   LegGoal best_;
   Pass pass_ = Pass::AlongHint;
   bool done_ = false;

@@ -3,7 +3,7 @@
 
 #include <brushfire/solvers/windows/algebra/frame.h>
 #include <brushfire/solvers/windows/algebra/line_source.h>
-#include <brushfire/solvers/windows/propagation/results.h>
+#include <brushfire/solvers/windows/paths/results.h>
 
 #include <limits>
 #include <utility>

@@ -2,6 +2,7 @@
 // found. Only where that is beyond doubt: over edges of two faces, past vertices at a distance that can be told.
 #include <brushfire/solvers/windows/paths/trace.h>
 
+#include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/solvers/windows/algebra/frame.h>
 #include <brushfire/solvers/windows/algebra/line_source.h>
 #include <brushfire/solvers/windows/paths/leg_search.h>
@@ -69,7 +70,20 @@ class Tracer {
   // A real path of this length is there; is it the one that the value means?
   bool is_explained() const {
     const Real start = leg_.vertex != kNoIndex ? value_of(leg_.vertex) : start_of_source_;
-    return abs(start + leg_.length - value_) <= room_;
+    return abs(start + leg_.length - value_) <= room_ && (!ends_on_curve_ || is_straight());
+  }
+
+  // A ray that ends at a point has met it; one that ends somewhere on a curve may have been led astray by frames, which
+  // in needles are turned by much. Then the way that was found is longer than it was thought to be.
+  bool is_straight() const {
+    Real length = 0;
+    PointLocation here = locate(mesh_, leg_.points.front(), 0);
+    for (std::size_t i = 1; i < leg_.points.size(); ++i) {
+      const PointLocation next = locate(mesh_, leg_.points[i], 0);
+      length += distance_within(mesh_, leg_.points[i].face, here, next);
+      here = next;
+    }
+    return abs(length - leg_.length) <= room_;
   }
 
   // Over the position's edge into the face beyond, or to a vertex in the way.
@@ -205,6 +219,7 @@ class Tracer {
     const Real length = length_of(way.x, way.y);
     if (!(length > 0) || !(abs(start + leg_.length + length - value_) <= room_)) return false;
     start_of_source_ = start;
+    ends_on_curve_ = true;
     return finish(c.face, weights, length);
   }
 
@@ -218,6 +233,7 @@ class Tracer {
   const Real start_;  // the pseudo-source's value, where that is a vertex
   const CrossingListener& knows_the_rest_;
   WindowField::Leg leg_;
+  bool ends_on_curve_ = false;
   Real start_of_source_ = 0;  // where the leg begins, if that is at a source
 };
 

@@ -4,6 +4,7 @@
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/solvers/detail/curve_feet.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/windows/algebra/frame.h>
 #include <brushfire/solvers/windows/paths/leg_search.h>
@@ -54,6 +55,18 @@ class Look {
 
   Found point(const PointLocation& at) const {
     if (at.on == PointLocation::On::Vertex) return vertex(at.vertex);
+    Found found = on_the_surface(at);
+    const detail::CurveValue in_region = detail::from_regions(mesh_, data_.sources, at);
+    if (in_region.label != kNoIndex && in_region.distance + data_.shift <= found.record.value) {
+      found = {{at.face, at.weights}, {in_region.distance + data_.shift, in_region.label, {}}};
+      found.record.ray.pseudo_source = mesh_.vertex_count() + in_region.label;
+    }
+    return found;
+  }
+
+ private:
+  // As the front sees it.
+  Found on_the_surface(const PointLocation& at) const {
     if (data_.all_points) return evaluate(at);
     for (std::size_t i = 0; i < data_.targets.size(); ++i) {
       const PointLocation& target = data_.targets[i];
@@ -68,7 +81,6 @@ class Look {
     throw not_a_target(at.face);
   }
 
- private:
   Found evaluate(const PointLocation& at) const {
     const windows::PointValue p = data_.all_points->at(at);
     return {{p.face, p.weights}, {p.value, p.label, windows::ray_of(p.ray)}};
@@ -92,7 +104,11 @@ WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Fou
   WindowField::Leg leg;
   if (pseudo_source == kNoIndex) return leg;
   if (pseudo_source >= n) {
-    if (!is_at_vertex(data.sources[pseudo_source - n], vertex)) return {};
+    const detail::LocatedSource& source = data.sources[pseudo_source - n];
+    const auto is_inside = [&] {
+      return source.curve && source.curve->holds(mesh, locate(mesh, {found.at.face, found.at.weights}));
+    };
+    if (!is_at_vertex(source, vertex) && !is_inside()) return {};
     leg.source = pseudo_source - n;
     leg.points.push_back({found.at.face, found.at.weights});
     return leg;
@@ -101,8 +117,8 @@ WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Fou
 }
 
 // A point in a face is where its weights say, to the rounding of three products and two sums in each of two
-// coordinates; so is the other end of the leg: twenty roundings of lengths of the face, which is many times the leg's
-// own where that is short.
+// coordinates; so is the other end of the leg, in its face: twenty roundings of lengths of the face, which is many
+// times the leg's own where that is short.
 double room_of_places(const Mesh& mesh, Index face) {
   constexpr double kPlaces = 20 * std::numeric_limits<double>::epsilon();
   return kPlaces * std::max({mesh.length(3 * face), mesh.length(3 * face + 1), mesh.length(3 * face + 2)});
@@ -114,7 +130,8 @@ void hold_to_value(const windows::WindowFieldData& data, const Found& found, con
   const PointRecord& record = found.record;
   const double start =
       leg.vertex != kNoIndex ? data.vertices[leg.vertex].value : data.sources[leg.source].offset + data.shift;
-  const double room = data.most_room_for(record) + room_of_places(data.mesh, found.at.face);
+  const double room = data.most_room_for(record) + std::max(room_of_places(data.mesh, found.at.face),
+                                                            room_of_places(data.mesh, leg.points.back().face));
   if (!(start + leg.length > record.value + room)) return;
   const double unit = data.mesh.unit();
   throw Error(ErrorCode::Internal, "the path was lost: the shortest way that was found comes to " +

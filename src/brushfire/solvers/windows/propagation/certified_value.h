@@ -41,11 +41,14 @@ struct CertifiedValue {
 inline CertifiedValue certified_value(Real lower, Real upper, Real estimate, Real start, Real shift, double share,
                                       const Rounding& rounding, Bound wanted) {
   lower = std::min(lower, upper);  // in exact runs they differ by rounding
+  // Parallel light beside its segment, to rounding: no path is shorter than nothing.
+  const bool is_beside = lower < start;
+  if (is_beside) lower = start, upper = std::max(upper, start);
   const Real length = lower - start;
   const bool exact = !(share > 0);
   if (exact) upper = lower;
   const double of_offset = kOffsetRounding * (std::abs(to_double(start)) + std::abs(to_double(shift)));
-  const double rounded = rounding.of(to_double(length)) + of_offset;
+  const double rounded = (is_beside ? rounding.absolute : rounding.of(to_double(length))) + of_offset;
   Real value = lower;
   switch (wanted) {
     case Bound::Lower:

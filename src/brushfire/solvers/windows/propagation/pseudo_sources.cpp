@@ -73,6 +73,8 @@ bool leave_to_segments(const Frame& frame, Index k, std::span<const SegmentEnd> 
     const bool is_wide = e.is_first ? line.slope > 0 : line.slope < 0;
     if (is_wide || line.length < kShortSegment * longest) continue;
     const Vec2 p = e.is_first ? line.begin : line.end();
+    // So near to the edge all directions leave through one point of it, to rounding: see is_on_edge().
+    if (p.y <= kOnEdge * frame.length) continue;
     x.keep_beside(p, line.light(e.is_first ? 1 : -1), 1);
     x.keep_beside(p, line.light(e.is_first ? -1 : 1), -1);
   }
@@ -85,7 +87,7 @@ bool leave_to_segments(const Frame& frame, Index k, std::span<const SegmentEnd> 
 // The targets in the face of a segment.
 void reach_targets(PartState& part, const SegmentInFace& s, Index pseudo_source) {
   const WindowFace& f = part.run->structure.faces[s.face];
-  const Index k = f.length[0] > 0 ? 0 : 1;
+  const auto k = static_cast<Index>(std::max_element(std::begin(f.length), std::end(f.length)) - std::begin(f.length));
   if (!(f.length[k] > 0)) return;
   const Frame frame = frame_of(f, k);
   const LineSource line = line_source_in(frame, k, s);

@@ -113,11 +113,19 @@ void enter_list(PartState& part, Index h, const Window& w, Origin origin) {
   queue_list(part, f, h, std::min({w.d0, w.d1, part.vertices.nearer_end(f, h % 3)}));
 }
 
-// What is new of it.
+// What is new of it; where hundreds of faces meet, carried to the last of them that it crosses.
 void enter_after_trail(PartState& part, Index h, Window w) {
   WindowFace& f = part.face(h);
   if (f.double_area > 0 && part.trails.has_been(w.trail, h / 3)) return;
-  if (!f.thin || part.memory.learn(h, w)) wait(part, f, h, w);
+  if (f.thin && !part.memory.learn(h, w)) return;
+  if (f.thin && !part.run->structure.wheels.empty() && !part.run->problem->options->keep_windows) {
+    const Index later = part.run->structure.wheels.carry(h, w);
+    if (later != h) {
+      w.trail = part.trails.with(w.trail, h / 3);
+      return enter_face_once(part, later, w, Origin::Anywhere);
+    }
+  }
+  wait(part, f, h, w);
 }
 
 // Where the source lies on the edge: lists are for windows that can be trimmed.

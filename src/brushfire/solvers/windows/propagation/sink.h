@@ -45,7 +45,7 @@ inline bool leads_on(const PartState& part, Index h) { return part.face(h).beyon
   // The key is the arrival at the far corner: by then everything that enters over the edge has come.
   EventQueue& queue = part.activity->queue;
   const std::int64_t bucket = queue.bucket_of(to_double(at_apex.value));
-  if (part.activity->windows.push(f.waiting, h, w, bucket)) queue.push_list(h, to_double(at_apex.value), bucket);
+  if (part.activity->windows.push(f.waiting, h, w, bucket)) queue.push_list_into(bucket, h);
 }
 
 // A window is about to enter the face of h: unless it is of no use, it waits there.

@@ -31,6 +31,7 @@ constexpr Index kCrowd = 64;
 // At so many, light that winds round the vertex from face to face would be as many windows as faces squared: they are
 // remembered as if the faces were thin.
 constexpr Index kWinding = 256;
+bool is_winding(const WindowStructure::Crowd& crowd) { return crowd.corners.size() >= kWinding; }
 // At more, shortest ways in the link of a vertex take longer than light that goes everywhere.
 constexpr Index kManyFaces = 4096;
 
@@ -167,16 +168,25 @@ struct AngleSum {
 // What the corners at a vertex are.
 struct Around {
   AngleSum angles;
+  Index faces = 0;
   float shortest = std::numeric_limits<float>::infinity(), longest = 0;  // of their edges
 
   // Whether a corner's edges may differ by more than kUnevenEdges; also where floats cannot tell.
   bool is_uneven() const { return !(static_cast<double>(longest) < kUnevenEdges * static_cast<double>(shortest)); }
+
+  // Whether the angles are less than this, whatever rounding has made of them: a side of a face is known to some ten
+  // epsilons of the ratio of its edges (docs/tolerance.md), and so is its angle.
+  bool is_surely_below(double sum, double ratio) const {
+    constexpr double kEachFace = 32 * kEpsilon;
+    return angles.value() + kEachFace * ratio * faces < sum;
+  }
 
   // Corner k of a face that has an area.
   void add(const WindowFace& f, Index k) {
     const Real a = f.length[k], b = f.length[previous3(k)], inverse = 1 / (a * b);
     const Vec2 opening = opening_at(f, k);
     angles.add(opening.x * inverse, opening.y * inverse);
+    ++faces;
     shortest = std::min({shortest, static_cast<float>(a), static_cast<float>(b)});
     longest = std::max({longest, static_cast<float>(a), static_cast<float>(b)});
   }
@@ -311,8 +321,15 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
   }
   for (Index h = 0; h < mesh.halfedge_count() && any_several && !has_spines; ++h)
     has_spines = opposite[opposite[h]] != h;
+  // The vertices of a crowd's rim are as uneven as it has faces, and if all of them sent light everywhere, that would
+  // be as many windows as faces squared.
+  const bool crowded = std::any_of(crowds.begin(), crowds.end(), is_winding);
+  const auto never_bends = [&](Index v) {
+    const double straight = links[v] == Link::Circle ? 2 * kPi : links[v] == Link::Arc ? kPi : 0;
+    return crowded && around[v].is_surely_below(straight, unevenness.ratio());
+  };
   for (Index v = 0; v < n; ++v) {
-    if (around[v].is_uneven()) vertex_type[v] = VertexType::Full;
+    if (around[v].is_uneven() && !never_bends(v)) vertex_type[v] = VertexType::Full;
     if (vertex_type[v] == VertexType::Full) continue;
     if (links[v] == Link::Other) vertex_type[v] = VertexType::Fans;
     if (links[v] == Link::Circle && around[v].angles.exceeds_two_pi()) vertex_type[v] = VertexType::Saddle;
@@ -320,9 +337,10 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
   }
   std::vector<std::tuple<Index, Index, Index>> by_part;
   for (Crowd& c : crowds) {
-    if (c.corners.size() >= kWinding) {
+    if (is_winding(c)) {
       has_needles = true;
       for (const Index h : c.corners) faces[h / 3].thin = true;
+      wheels.add(faces, c.corners.front());
     }
     by_part.clear();
     for (const Index h : c.corners) by_part.emplace_back(part_of_face(h / 3), outer_halfedge(h), h);

@@ -6,6 +6,7 @@
 #include <brushfire/solvers/partition/face_partition.h>
 #include <brushfire/solvers/windows/propagation/face.h>
 #include <brushfire/solvers/windows/propagation/rounding.h>
+#include <brushfire/solvers/windows/propagation/wheels.h>
 
 #include <span>
 #include <vector>
@@ -71,6 +72,7 @@ struct WindowStructure {
   std::vector<VertexType> vertex_type;  // [vertex_count()]
   partition::FacePartition partition;
   std::vector<Crowd> crowds;   // ascending
+  Wheels wheels;               // of the largest of them
   bool has_spines = false;     // some edge has three faces or more
   bool has_needles = false;    // as a rule, or around some vertex: light passes many vertices in one bucket
   double bucket_width = 1;     // half a typical edge, or less where faces are needles

@@ -23,6 +23,10 @@ void Targets::place(std::span<const PointLocation> targets, WindowStructure& str
   std::sort(in_faces_.begin(), in_faces_.end(), [](const TargetInFace& a, const TargetInFace& b) {
     return std::tie(a.face, a.target) < std::tie(b.face, b.target);
   });
+  if (structure.wheels.empty()) return;
+  std::vector<Index> faces(in_faces_.size());
+  std::transform(in_faces_.begin(), in_faces_.end(), faces.begin(), [](const TargetInFace& t) { return t.face; });
+  structure.wheels.stop_at(faces);
 }
 
 void Targets::clear(WindowStructure& structure) {

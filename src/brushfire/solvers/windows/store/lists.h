@@ -15,7 +15,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 // first, so that a run in steady state allocates nothing.
 class WindowLists {
  public:
-  // `bucket`: in which the window is to be taken (EventQueue::turn_of). Returns true where no window of the halfedge
+  // `bucket`: in which the window is to be taken (EventQueue::bucket_of). Returns true where no window of the halfedge
   // has waited for a bucket as early.
   [[gnu::always_inline]] bool push(Index& first, Index h, const Window& w, std::int64_t bucket) {
     std::int64_t earliest = std::numeric_limits<std::int64_t>::max();

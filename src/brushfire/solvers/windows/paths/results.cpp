@@ -1,5 +1,5 @@
 // Bounds into values, inner numbers into the mesh's own, and what is known of a vertex in several parts into one.
-#include <brushfire/solvers/windows/propagation/results.h>
+#include <brushfire/solvers/windows/paths/results.h>
 
 #include <algorithm>
 #include <limits>
@@ -222,15 +222,15 @@ bool Results::is_chord(Index outer, const VertexValues& values) const {
   if (!values.direct || !mesh.has_positions() || sources.size() > kFewSources || detail::any_curve(sources))
     return false;
   if (sources.size() == 1) return true;
-  const Real unit = mesh.unit();
+  const double scale = 1 / mesh.unit();  // first, as squares of coordinates may have no number
   // None is nearer, or not surely farther: then windows decided.
   return std::none_of(sources.begin(), sources.end(), [&](const detail::LocatedSource& s) {
     const Face& t = mesh.faces()[s.at.face];
     brushfire::Vec3 chord;
     for (std::size_t k = 0; k < 3; ++k) {
-      chord = chord + s.at.weights[k] * (mesh.positions()[t[k]] - mesh.positions()[outer]);
+      chord = chord + s.at.weights[k] * (scale * (mesh.positions()[t[k]] - mesh.positions()[outer]));
     }
-    return run_.start_of(s.label) + norm(chord) / unit < values.lower * (1 - 1e-12);
+    return run_.start_of(s.label) + norm(chord) < values.lower * (1 - 1e-12);
   });
 }
 

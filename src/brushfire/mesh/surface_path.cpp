@@ -1,5 +1,5 @@
 // The length of a polyline on a mesh.
-#include <brushfire/queries/surface_path.h>
+#include <brushfire/mesh/surface_path.h>
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>

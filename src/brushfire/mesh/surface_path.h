@@ -3,7 +3,7 @@
 
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/mesh.h>
-#include <brushfire/mesh/surface_point.h>
+#include <brushfire/mesh/surface_point.h>  // IWYU pragma: export
 
 #include <span>
 #include <vector>

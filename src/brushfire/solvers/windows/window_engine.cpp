@@ -9,12 +9,12 @@
 #include <brushfire/solvers/partition/rounds.h>
 #include <brushfire/solvers/partition/worker_team.h>
 #include <brushfire/solvers/windows/engine.h>
+#include <brushfire/solvers/windows/paths/results.h>
 #include <brushfire/solvers/windows/propagation/arrivals.h>
 #include <brushfire/solvers/windows/propagation/least_budget.h>
 #include <brushfire/solvers/windows/propagation/part.h>
 #include <brushfire/solvers/windows/propagation/prefetching.h>
 #include <brushfire/solvers/windows/propagation/pseudo_sources.h>
-#include <brushfire/solvers/windows/propagation/results.h>
 #include <brushfire/solvers/windows/propagation/run_state.h>
 #include <brushfire/solvers/windows/propagation/sink.h>
 

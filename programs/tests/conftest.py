@@ -1,0 +1,7 @@
+import pytest
+from octahedron import FACES, VERTICES
+
+
+@pytest.fixture
+def octahedron():
+    return VERTICES, FACES
