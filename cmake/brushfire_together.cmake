@@ -1,21 +1,16 @@
-# Builds from nothing take half the time where files are compiled together: what they include is read once, and what they
-# use of templates compiled once.
+# A guest's build is one from nothing: what many files include is read once.
 #
-# BRUSHFIRE_TOGETHER does that for the tests, and for the library of builds with sanitizers, as files of a dozen files
-# (UNITY_BUILD), and reads the standard library once for all other files of the library and the program (precompiled
-# headers; our own are left out of those, so that a change to one costs what it did and warnings in them are seen). The
-# library that is used is compiled file by file: what a compiler makes of one does not depend on its neighbours.
-#
-# Files still name all that they use, and names within two of a room that are the same are no error. Builds without this
-# hold the first: those with a compiler cache, which is of more use file by file, WebAssembly, ./run lint and ./run compilers.
+# The files of each of the library's folders are compiled as one (UNITY_BUILD), and the standard library and our commonest
+# headers are precompiled. Files that have options of their own, the inner loops, stay alone, and so do those that have
+# a name that another one of the folder has. Where we develop, files are compiled one by one: each names what it uses,
+# and a compiler cache knows them. docs/decisions/build-time.md
 set(brushfire_from_nothing ON)
-if(CMAKE_CXX_COMPILER_LAUNCHER OR EMSCRIPTEN)
+if(PROJECT_IS_TOP_LEVEL OR CMAKE_CXX_COMPILER_LAUNCHER OR EMSCRIPTEN)
   set(brushfire_from_nothing OFF)
 endif()
-option(BRUSHFIRE_TOGETHER "Compile what can be together: a build from nothing takes half the time" ${brushfire_from_nothing})
+option(BRUSHFIRE_TOGETHER "Compile the files of a folder as one, with precompiled headers" ${brushfire_from_nothing})
 
-# brushfire_together(TARGET [APART pattern...]): the files of each of its folders are compiled as one, but for those APART,
-# in which something has the name that it has in another.
+# brushfire_together(TARGET [APART pattern...]): those that match one of APART stay alone.
 function(brushfire_together target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "APART")
   if(NOT BRUSHFIRE_TOGETHER)
@@ -23,9 +18,15 @@ function(brushfire_together target)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # Types of an anonymous namespace in others: of interest in headers, which is what these files seem to be.
-    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+    # Types of an anonymous namespace in others: of interest in headers, which is what these files seem to be. And what
+    # GCC concludes after inlining it forgets that it was in the standard library's own code, once that is precompiled.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage
+      -Wno-array-bounds -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-stringop-overread)
   endif()
+  target_precompile_headers(${target} PRIVATE <algorithm> <array> <atomic> <bit> <cmath> <cstddef> <cstdint> <cstdio>
+    <cstring> <functional> <limits> <map> <memory> <numeric> <optional> <queue> <span> <string> <string_view> <tuple>
+    <type_traits> <unordered_map> <utility> <vector> <brushfire/core/cancel.h> <brushfire/core/error.h>
+    <brushfire/mesh/mesh.h> <brushfire/mesh/surface_point.h>)
   get_target_property(files ${target} SOURCES)
   list(JOIN arg_APART "|" apart)
   foreach(file ${files})
@@ -35,19 +36,4 @@ function(brushfire_together target)
       set_property(SOURCE ${file} TARGET_DIRECTORY ${target} PROPERTY UNITY_GROUP "${group}")
     endif()
   endforeach()
-endfunction()
-
-# brushfire_precompile(TARGET header...): reads what most files of the target include, and these, once.
-function(brushfire_precompile target)
-  if(NOT BRUSHFIRE_TOGETHER)
-    return()
-  endif()
-  target_precompile_headers(${target} PRIVATE <algorithm> <array> <atomic> <bit> <cmath> <cstddef> <cstdint> <cstdio>
-    <cstring> <functional> <limits> <map> <memory> <numeric> <optional> <queue> <span> <string> <string_view> <tuple>
-    <type_traits> <unordered_map> <utility> <vector> ${ARGN})
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # Of what GCC concludes after inlining it forgets that it was in the standard library's own code: false alarms.
-    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-maybe-uninitialized -Wno-stringop-overflow
-      -Wno-stringop-overread)
-  endif()
 endfunction()

@@ -180,7 +180,8 @@ std::vector<Where> read_where_file(const std::string& path) {
     try {
       for (const std::string& place : split_places({std::string(content)})) places.push_back(parse_where(place));
     } catch (const Error& e) {
-      lines.fail(e.what());
+      const bool of_curves = places.empty() && parse_curve(path).value_or(CurvePlace{}).kind == CurvePlace::Kind::File;
+      lines.fail(of_curves ? e.what() + ("; a file of curves is a source by its name: --source " + path) : e.what());
     }
   }
   return places;
