@@ -23,13 +23,14 @@ def strip() -> bf.Mesh:
 def test_costs_lie_between_their_bounds(strip: bf.Mesh) -> None:
     costs = strip.weighted(W).costs(5)
     assert costs.lower is not None
-    assert costs.upper[9] == pytest.approx(8)
+    assert costs.lower[9] <= 8 <= costs.upper[9]
     assert (costs.lower <= costs.upper).all()
     excess = (costs.upper - costs.lower)[costs.upper > 0] / costs.lower[costs.upper > 0]
     assert excess.max() == pytest.approx(costs.max_error_bound)
     assert excess.mean() == pytest.approx(costs.mean_error_bound)
-    assert strip.weighted(W).distance(5) == pytest.approx(costs.upper)
-    assert strip.weighted(W).distance(5, targets=[9, 0]) == pytest.approx(costs.upper[[9, 0]])
+    distance = strip.weighted(W).distance(5)
+    assert (distance >= costs.lower).all() and distance == pytest.approx(costs.upper, rel=0.01)
+    assert strip.weighted(W).distance(5, targets=[9, 0]) == pytest.approx(costs.upper[[9, 0]], rel=0.01)
     assert strip.weighted(W).costs(5, tolerance=0.1, refine=True).max_error_bound <= 0.1
 
 
