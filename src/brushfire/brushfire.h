@@ -24,17 +24,21 @@
 #include <brushfire/mesh/terrain.h>
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/heat.h>
 #include <brushfire/solvers/heat_options.h>
-#include <brushfire/solvers/laplacian.h>
-#include <brushfire/solvers/signed_heat.h>
+#include <brushfire/solvers/window_field.h>
+#include <brushfire/version.h>
+#if BRUSHFIRE_WEIGHTS
 #include <brushfire/solvers/steiner/slope_pace.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
 #include <brushfire/solvers/steiner/weighting.h>
 #include <brushfire/solvers/steiner/weights.h>
+#endif
+#if BRUSHFIRE_HEAT
+#include <brushfire/solvers/heat.h>
+#include <brushfire/solvers/laplacian.h>
+#include <brushfire/solvers/signed_heat.h>
 #include <brushfire/solvers/vector_heat.h>
-#include <brushfire/solvers/window_field.h>
-#include <brushfire/version.h>
+#endif
 #if BRUSHFIRE_QUERIES
 #include <brushfire/queries/centroidal.h>
 #include <brushfire/queries/certify.h>

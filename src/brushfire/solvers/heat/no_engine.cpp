@@ -1,4 +1,4 @@
-// In place of engine.cpp where there is no Eigen: what cannot run is not linked either, and the WebAssembly stays
+// In place of engine.cpp where there is no Eigen, or no BRUSHFIRE_HEAT: what cannot run is not linked either, and the WebAssembly stays
 // small.
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/heat/cholesky.h>
