@@ -198,6 +198,7 @@ def write_distance_matrix(
     weights: Weighing | None = None,
     symmetric: Symmetric | None = None,
     shard: tuple[int, int] | None = None,
+    nearest: int = 0,
     chunk_rows: int = 0,
     zarr_format: int = 3,
     threads: int = 0,
@@ -215,6 +216,10 @@ def write_distance_matrix(
     :param symmetric: ``"mean"`` or ``"min"`` of both directions, for rows and columns that are the same places.
     :param shard: (3, 16) is the third of sixteen parts of the rows: in a .npy file of its own for
         :func:`merge_shards`; those of a .zarr store write into it together.
+    :param nearest: not 0: of every row only so many columns, the nearest ones, from near to far, and which they are in a
+        second file of int32: ``d.index.npy`` beside ``d.npy``. What is not reached comes last. Sorted rows with indices
+        are what ``brainsmash.mapgen.Sampled(x, D, index)`` takes. Where the columns are all vertices, a row costs what
+        it has to reach.
     :param chunk_rows: rows of a chunk of .zarr; 0 means as many as take 16 MB.
     :param zarr_format: 3 or 2.
     :return: where it is: ``path``, or the file of the shard.
@@ -235,7 +240,8 @@ def write_distance_matrix(
     with shown(progress, "matrix") as report:
         return _core.write_matrix(
             space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, _symmetry(symmetric),
-            whole(chunk_rows, "chunk_rows", _MOST_ROWS), whole(zarr_format, "zarr_format", 3), part, parts, report
+            whole(chunk_rows, "chunk_rows", _MOST_ROWS), whole(zarr_format, "zarr_format", 3), part, parts,
+            whole(nearest, "nearest", _MOST_ROWS), report
         )  # fmt: skip
 
 
@@ -253,12 +259,14 @@ def merge_shards(
     output: str | os.PathLike[str],
     *,
     symmetric: Symmetric | None = None,
+    nearest: int = 0,
     chunk_rows: int = 0,
     zarr_format: int = 3,
 ) -> None:
     """The shards that ``write_distance_matrix(shard=)`` wrote, as one matrix: .npy or .zarr.
 
     It has the bytes of one that was computed at once. Shards of different matrices and missing ones are refused.
+    The other arguments are those of ``write_distance_matrix()``.
 
     >>> import brushfire as bf, numpy as np, tempfile, os
     >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
@@ -271,7 +279,8 @@ def merge_shards(
     """
     paths = [path_text(p) for p in shards]
     rows, layout = whole(chunk_rows, "chunk_rows", _MOST_ROWS), whole(zarr_format, "zarr_format", 3)
-    _core.merge_shards(paths, path_text(output), _symmetry(symmetric), rows, layout)
+    kept = whole(nearest, "nearest", _MOST_ROWS)
+    _core.merge_shards(paths, path_text(output), _symmetry(symmetric), rows, layout, kept)
 
 
 def _symmetry(symmetric: Any) -> str:

@@ -37,6 +37,7 @@ Examples:
   brushfire matrix cortex.gii -o d.npy
   brushfire matrix cortex.gii --method carried-source --symmetric mean -o d.zarr
   brushfire matrix cortex.gii --rows 0,5,9 --columns landmarks.txt --dtype float64 -o d.npy
+  brushfire matrix cortex.gii --nearest 1001 -o d.npy   # sorted rows, and d.index.npy
   brushfire matrix cortex.gii --radius 20 --method exact -o near.npz
   brushfire matrix cortex.gii --shard 3/16 -o d.npy     # writes d.03-of-16.npy, for brushfire merge
   brushfire matrix pose1.off pose2.off pose3.off -o matrices/
@@ -142,7 +143,8 @@ Written write_dense(const Arguments& a, const Domain& domain, Places rows, Place
   };
   MatrixJob job(a.output, domain, rows, columns, type, told, file_options(a.file_options));
   Written w{.output = job.output().string(), .rows = job.rows(), .found = job.found()};
-  w.entries = w.rows * job.columns();
+  const std::uint64_t nearest = file_options(a.file_options).nearest;
+  w.entries = w.rows * (nearest > 0 ? nearest : job.columns());
   if (job.is_complete()) {
     talk.say(w.output + ": is complete already");
     return w;
