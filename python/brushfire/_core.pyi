@@ -82,7 +82,7 @@ class WeightedSolver:
         towards: bool,
         max_distance: float,
         progress: _Progress,
-    ) -> tuple[_Floats, _Signed, _Floats | None, float, float]: ...
+    ) -> tuple[_Floats, _Signed, _Floats | None, float, float, str]: ...
     def paths(
         self,
         index: _Ints,

@@ -85,7 +85,8 @@ class Weighted {
   std::mutex mutex_;
 };
 
-// (distance, source, lower bounds or None, greatest and mean relative error bound): of the targets where there are any.
+// (distance, source, lower bounds or None, greatest and mean relative error bound, engine): of the targets where there
+// are any.
 nb::tuple solve(Weighted& weighted, const Vector<std::int64_t>& index, const OptionalWeights& weights,
                 const Vector<double>& offsets, const std::optional<Vector<std::int64_t>>& target_index,
                 const OptionalWeights& target_weights, double tolerance, unsigned refinements, bool lower, bool towards,
@@ -110,7 +111,7 @@ nb::tuple solve(Weighted& weighted, const Vector<std::int64_t>& index, const Opt
   if (!below.empty()) lower_bounds = nb::cast(to_numpy(std::move(below)));
   return nb::make_tuple(to_numpy(std::move(values)),
                         to_numpy_signed(std::move(target_index ? field.target_source : field.source)), lower_bounds,
-                        field.max_error_bound, field.mean_error_bound);
+                        field.max_error_bound, field.mean_error_bound, name_of(field.engine));
 }
 
 // (path, cost, lower, legs: face, length, weight, toll, edge [legs, 2]).
