@@ -139,8 +139,8 @@ void read_off(const Mesh& mesh, const System& system, std::span<const Origin> or
       o = kSeveral;
     }
   }
-  std::vector<double> moves;
-  for (const Origin& o : origins) moves.push_back(o.offset - reading.at(o));
+  std::vector<double> own;
+  for (const Origin& o : origins) own.push_back(reading.at(o));
   std::vector<Index> owner;
   if (any_several) owner = flooded(mesh, origins, starting(system, origins, reading), reading);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -150,7 +150,8 @@ void read_off(const Mesh& mesh, const System& system, std::span<const Origin> or
     if (by == kSeveral) by = owner[v];
     if (by == kNoIndex) continue;
     const double offset = origins[by].offset;
-    distance[v] = system.is_point(system.component(v)) ? offset : std::max(reading.at(v) + moves[by], offset);
+    // The offset last: one that is far below the readings would be lost in them, and the source not read it.
+    distance[v] = system.is_point(system.component(v)) ? offset : offset + std::max(0.0, reading.at(v) - own[by]);
     source[v] = origins[by].label;
   }
 }
