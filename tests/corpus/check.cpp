@@ -343,7 +343,8 @@ Outcome Examination::targets() {
     const Real truth = truth_.target[i];
     // Where the run ended before any vertex off the curve was reached, no vertex has a bound to go by.
     const Real beside = curves_ ? 32 * lever_rounding(case_.mesh) : 0;
-    const Real room = std::max(Real{largest_bound(field)}, beside) + rounding_of(case_.mesh, case_.targets[i]) + kLeastStep;
+    const Real room =
+        std::max(Real{largest_bound(field)}, beside) + rounding_of(case_.mesh, case_.targets[i]) + kLeastStep;
     const Real length = std::abs(truth - offset);
     const bool wrong = same_reach({field.target_distance[i], truth, length, kInfinity}, "", out) &&
                        std::abs(field.target_distance[i] - truth) > room + Real{kExactPromise} * length;
