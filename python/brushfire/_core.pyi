@@ -56,6 +56,10 @@ class Solver:
         progress: _Progress,
     ) -> tuple[_Floats, _Signed, _Floats | None]: ...
 
+class Weighting:
+    @property
+    def domain(self) -> Domain: ...
+
 class WeightedSolver:
     def __init__(
         self,
@@ -69,11 +73,10 @@ class WeightedSolver:
         paces: _Floats | None,
         steepest: float,
     ) -> None: ...
+    def weighting(self, tolerance: float, towards: bool) -> Weighting: ...
     def solve(
         self,
-        index: _Ints,
-        weights: _Floats | None,
-        offsets: _Floats,
+        sources: Sources,
         target_index: _Ints | None,
         target_weights: _Floats | None,
         tolerance: float,
@@ -85,9 +88,7 @@ class WeightedSolver:
     ) -> tuple[_Floats, _Signed, _Floats | None, float, float]: ...
     def paths(
         self,
-        index: _Ints,
-        weights: _Floats | None,
-        offsets: _Floats,
+        sources: Sources,
         target_index: _Ints,
         target_weights: _Floats | None,
         tolerance: float,

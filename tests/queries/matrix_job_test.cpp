@@ -3,6 +3,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/matrix_job.h>
+#include <brushfire/solvers/steiner/weighting.h>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -120,6 +122,21 @@ TEST_F(MatrixJobs, SymmetricIsTheMeanOfBothDirections) {
       ASSERT_EQ(mean[i * n + j], plain[i * n + j] / 2 + plain[j * n + i] / 2) << i << ' ' << j;
     }
   }
+}
+
+TEST_F(MatrixJobs, ShardsOfOtherWeightsAreNotMerged) {
+  const std::vector<Place> rows{Index{0}, Index{9}};
+  std::vector<fs::path> shards;
+  for (std::uint64_t k = 1; k <= 2; ++k) {
+    Weights weights;
+    weights.face.assign(mesh_.face_count(), 2);
+    weights.face[0] = 2 + static_cast<double>(k);
+    options_.distance.weighting = std::make_shared<const Weighting>(mesh_, weights);
+    MatrixJob job(path("d.npy"), mesh_, Places(rows), {}, ValueType::Float32, options_, {.shard = k, .shards = 2});
+    job.run();
+    shards.push_back(job.output());
+  }
+  EXPECT_THROW(merge_shards(shards, path("merged.npy")), Error);
 }
 
 TEST_F(MatrixJobs, AStoppedOneIsGoneOnWithAndRowsOfAnotherMatrixLeaveItAlone) {

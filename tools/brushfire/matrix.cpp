@@ -6,6 +6,7 @@
 #include "row_lists.h"
 #include "sources.h"
 #include "surface.h"
+#include "weights.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/queries/distance_matrix.h>
@@ -172,6 +173,7 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
   const std::optional<std::vector<Place>> row_places = places_on(surface, finder, row_list);
   const std::optional<std::vector<Place>> column_places = places_on(surface, finder, column_list);
   finder.tell(talk);
+  weigh(options.distance, arguments.shared, surface);
   const Places rows = row_places ? Places(*row_places) : std::nullopt;
   const Places columns = column_places ? Places(*column_places) : std::nullopt;
   const std::uint64_t column_count = columns ? columns->size() : mesh.vertex_count();
@@ -187,9 +189,11 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
   if (talk.json && arguments.more.empty()) {
     Record record;
     record.add("file", arguments.file)
-        .add("method", std::string(name_of(options.distance.method)))
+        .add("method",
+             options.distance.weighting ? std::string("steiner") : std::string(name_of(options.distance.method)))
         .add("precision", precision_of(options.distance))
-        .add("tolerance", tolerance_of(options.distance))
+        .add("tolerance", options.distance.weighting ? options.distance.weighting->options().tolerance
+                                                     : tolerance_of(options.distance))
         .add("vertices", std::int64_t{mesh.vertex_count()})
         .add("rows", static_cast<std::int64_t>(written.rows))
         .add("resumed_at_row", static_cast<std::int64_t>(written.found))

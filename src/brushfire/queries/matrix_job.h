@@ -12,6 +12,8 @@
 //     job.run();
 #pragma once
 
+#include <brushfire/core/progress.h>
+#include <brushfire/mesh/domain.h>
 #include <brushfire/queries/distance_matrix.h>
 
 #include <cstdint>
