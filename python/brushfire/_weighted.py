@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, Labels, floats, number, offsets
+from brushfire._arrays import Floats, Labels, floats, number, offsets, radius_of
 from brushfire._curves import Path, path_of
 from brushfire._errors import BrushfireError
 from brushfire._places import Places
@@ -191,7 +191,7 @@ class Weighted:
                 refinements,
                 lower,
                 bool(towards),
-                number(radius, "radius"),
+                radius_of(radius),
                 report,
             )
         return Costs(upper, below, source, most, mean)
@@ -248,7 +248,7 @@ class Weighted:
             end.weights,
             number(tolerance, "tolerance"),
             bool(towards),
-            number(radius, "radius"),
+            radius_of(radius),
         )
         return [self._weighted_path(*p) for p in found], source
 
