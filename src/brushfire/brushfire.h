@@ -30,6 +30,7 @@
 #if BRUSHFIRE_WEIGHTS
 #include <brushfire/solvers/steiner/slope_pace.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/steiner/weighting.h>
 #include <brushfire/solvers/steiner/weights.h>
 #endif
 #if BRUSHFIRE_HEAT
@@ -71,6 +72,7 @@
 #include <brushfire/io/byte_stream.h>
 #include <brushfire/io/formats.h>
 #include <brushfire/io/npy.h>
+#include <brushfire/io/read_face_values.h>
 #include <brushfire/io/read_field.h>
 #include <brushfire/io/read_grid.h>
 #include <brushfire/io/read_lines.h>

@@ -195,13 +195,6 @@ void solve_dense(std::span<const double>, std::span<double>) { require_factoriza
 
 #endif
 
-namespace {
-
-double conjugate(double a) { return a; }
-std::complex<double> conjugate(std::complex<double> a) { return std::conj(a); }
-
-}  // namespace
-
 template <class Scalar>
 template <std::size_t kWidth>
 void Factors<Scalar>::solve_columns(std::size_t k, Scalar* x) const {
