@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, Labels, floats, number
+from brushfire._arrays import Floats, Labels, floats, number, radius_of
 from brushfire._curves import Path, path_of
 from brushfire._errors import BrushfireError
 from brushfire._options import Options, options, thread_count, tolerance_of
@@ -204,7 +204,7 @@ class Weighted:
                 refinements,
                 lower,
                 self._direction(towards),
-                number(radius, "radius"),
+                radius_of(radius),
                 report,
             )
         return Costs(upper, below, source, most, mean, engine)
@@ -259,7 +259,7 @@ class Weighted:
             end.weights,
             number(tolerance, "tolerance"),
             self._direction(towards),
-            number(radius, "radius"),
+            radius_of(radius),
         )
         return [self._weighted_path(*p) for p in found], source
 
@@ -299,7 +299,7 @@ def chosen_in(
     within = _TOLERANCE if tolerance is None else tolerance_of(tolerance)
     weighting = weighted._solver.weighting(within, weighted._towards)
     chosen: Options = {
-        "max_distance": number(radius, "radius"),
+        "max_distance": radius_of(radius),
         "threads": thread_count(threads),
         "weighting": weighting,
     }
