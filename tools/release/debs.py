@@ -29,7 +29,7 @@ def build(release: str) -> list[Path]:
     say(f"{release}: building the packages")
     launcher = {"CMAKE_CXX_COMPILER_LAUNCHER": "ccache", "CCACHE_DIR": "/var/cache/ccache", "CCACHE_NOHASHDIR": "1",
                 "CCACHE_BASEDIR": "/root/brushfire"} if machine.cache else {}  # fmt: skip
-    machine.inside("cd /root/brushfire && dpkg-buildpackage -b -us -uc -j2", DEB_BUILD_PROFILES=profile, **launcher)
+    machine.inside("cd /root/brushfire && dpkg-buildpackage -b -us -uc -j4", DEB_BUILD_PROFILES=profile, **launcher)
     said = machine.inside("cd /root && lintian --allow-root --info --display-info brushfire_*.changes || true")
     (out / "lintian.txt").write_text(said or "(nothing)\n")
     found = sorted(machine.folder.glob("root/*.deb"))

@@ -22,7 +22,7 @@ def source_tarball() -> Path:
 
 
 def sdist() -> Path:
-    run(sys.executable, "-m", "build", "--sdist", "--outdir", DIST)
+    run(sys.executable, "-m", "build", "--sdist", "--no-isolation", "--outdir", DIST)
     return DIST / f"brushfire-{version()}.tar.gz"
 
 

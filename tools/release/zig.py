@@ -12,6 +12,7 @@ from pathlib import Path
 from common import SCRATCH, run
 
 VERSION = "0.15.2"
+CMAKE = "3.31.6"  # knows Python's stable ABI, which Debian 12's does not
 
 
 @dataclass(frozen=True)
@@ -44,8 +45,12 @@ def zig() -> Path:
     folder = SCRATCH.parent / "zig"
     if not (folder / "bin/python").exists():
         venv.create(folder, with_pip=True)
-    run(folder / "bin/python", "-m", "pip", "install", "-q", "--disable-pip-version-check", f"ziglang=={VERSION}")
-    return Path(run(folder / "bin/python", "-c", "import ziglang; print(ziglang.__path__[0])")) / "zig"
+    wanted = (f"ziglang=={VERSION}", f"cmake=={CMAKE}")
+    if (folder / "installed").exists() and (folder / "installed").read_text() == " ".join(wanted):
+        return next(folder.glob("lib/python*/site-packages/ziglang/zig"))
+    run(folder / "bin/python", "-m", "pip", "install", "-q", "--disable-pip-version-check", *wanted)
+    (folder / "installed").write_text(" ".join(wanted))
+    return next(folder.glob("lib/python*/site-packages/ziglang/zig"))
 
 
 def toolchain(target: Target) -> Path:
@@ -93,9 +98,10 @@ def cmake(target: Target, source: Path, build: Path, *options: str, targets: tup
     launcher = [f"-DCMAKE_{language}_COMPILER_LAUNCHER=ccache" for language in ("C", "CXX")]
     if subprocess.run(["sh", "-c", "command -v ccache"], capture_output=True, check=False).returncode:
         launcher = []
-    run("cmake", "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+    program = zig().parents[4] / "bin/cmake"
+    run(program, "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
         f"-DCMAKE_TOOLCHAIN_FILE={toolchain(target)}", *launcher, *options)  # fmt: skip
-    run("cmake", "--build", build, *(f"--target={name}" for name in targets),
+    run(program, "--build", build, *(f"--target={name}" for name in targets),
         CCACHE_COMPILERTYPE="clang", CCACHE_COMPILERCHECK="content")  # fmt: skip
 
 
