@@ -30,6 +30,7 @@ from brushfire._flatten import Distortion, Flattening, decal, distortion, flatte
 from brushfire._heat import HeatSolver, SignedHeatSolver, VectorHeatSolver, laplacian
 from brushfire._io import FileInfo, read
 from brushfire._lines import read_lines
+from brushfire._matrices import merge_shards
 from brushfire._mesh import Mesh, methods
 from brushfire._patches import Patches, patches
 from brushfire._picture import Panel, animate, render, render_svg
@@ -99,6 +100,7 @@ __all__ = [
     "from_any",
     "k_medoids",
     "laplacian",
+    "merge_shards",
     "methods",
     "patches",
     "read",

@@ -292,8 +292,14 @@ def write_matrix(
     column_weights: _Floats | None,
     options: _Options,
     threads: int,
+    symmetric: str,
+    chunk_rows: int,
+    zarr_format: int,
+    shard: int,
+    shards: int,
     progress: _Progress,
-) -> None: ...
+) -> str: ...
+def merge_shards(shards: list[str], path: str, symmetric: str, chunk_rows: int, zarr_format: int) -> None: ...
 def require_dense_memory(rows: int, columns: int, float32: bool, limit: int) -> None: ...
 def nearest_sources(
     domain: Space,

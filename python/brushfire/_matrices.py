@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -24,6 +25,7 @@ Symmetric = Literal["mean", "min"]
 
 _BLOCK_BYTES = 1 << 26
 _SYMMETRIC_BLOCK = 1024
+_MOST_ROWS = 2**62
 
 
 def distance_matrix(
@@ -188,20 +190,33 @@ def write_distance_matrix(
     radius: float = np.inf,
     precision: str | None = None,
     dtype: npt.DTypeLike = np.float32,
+    symmetric: Symmetric | None = None,
+    shard: tuple[int, int] | None = None,
+    chunk_rows: int = 0,
+    zarr_format: int = 3,
     threads: int = 0,
     progress: Progress = None,
-) -> None:
-    """``distance_matrix()`` into a .npy file, a row at a time, for what is larger than memory.
+) -> str:
+    """``distance_matrix()`` into a .npy file or a .zarr store, a row at a time, for what is larger than memory.
 
-    Interrupted, it goes on where it stopped when it is called again with the same arguments; until it is complete
-    the rows stand in ``path + ".part"``. Open the result with ``numpy.load(path, mmap_mode="r")``.
+    It is a job: interrupted or killed, it goes on where it stopped when it is called again with the same arguments;
+    a second process that makes the same call helps. Rows of another matrix that was begun at this path are refused
+    and not discarded. Until it is complete, what is there stands in ``path + ".part"`` (of .zarr in its folder) and
+    ``path + ".part.rows"``. Open it with ``numpy.load(path, mmap_mode="r")``, ``zarr.open(path)["distance"]`` or
+    ``xarray.open_zarr(path).distance``.
 
+    :param symmetric: ``"mean"`` or ``"min"`` of both directions, for rows and columns that are the same places.
+    :param shard: (3, 16) is the third of sixteen parts of the rows: in a .npy file of its own for
+        :func:`merge_shards`; those of a .zarr store write into it together.
+    :param chunk_rows: rows of a chunk of .zarr; 0 means as many as take 16 MB.
+    :param zarr_format: 3 or 2.
+    :return: where it is: ``path``, or the file of the shard.
     :raises BrushfireError: code ``file_not_writable``, also where the disk has not enough room left.
 
     >>> import brushfire as bf, numpy as np, tempfile, os
     >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     mesh.write_distance_matrix(os.path.join(folder, "d.npy"), [1], method="dijkstra")
+    ...     _ = mesh.write_distance_matrix(os.path.join(folder, "d.npy"), [1], method="dijkstra")
     ...     np.load(os.path.join(folder, "d.npy")).tolist()
     [[3.0, 0.0, 4.0, 7.0]]
     """
@@ -209,8 +224,12 @@ def write_distance_matrix(
     chosen = options(method, tolerance, radius, bound, precision)
     single = bool(float_type(dtype) == np.float32)
     team = thread_count(threads)
+    part, parts = (1, 1) if shard is None else (whole(n, "shard", _MOST_ROWS) for n in shard)
     with shown(progress, "matrix") as report:
-        _core.write_matrix(mesh._space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, report)
+        return _core.write_matrix(
+            mesh._space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, _symmetry(symmetric),
+            whole(chunk_rows, "chunk_rows", _MOST_ROWS), whole(zarr_format, "zarr_format", 3), part, parts, report
+        )  # fmt: skip
 
 
 def _optional(mesh: Mesh, places: Any, what: str) -> PlaceArrays | None:
@@ -220,6 +239,38 @@ def _optional(mesh: Mesh, places: Any, what: str) -> PlaceArrays | None:
 
 def _count(mesh: Mesh, places: PlaceArrays | None) -> int:
     return mesh._mesh.vertex_count if places is None else len(places.index)
+
+
+def merge_shards(
+    shards: Iterable[str | os.PathLike[str]],
+    output: str | os.PathLike[str],
+    *,
+    symmetric: Symmetric | None = None,
+    chunk_rows: int = 0,
+    zarr_format: int = 3,
+) -> None:
+    """The shards that ``write_distance_matrix(shard=)`` wrote, as one matrix: .npy or .zarr.
+
+    It has the bytes of one that was computed at once. Shards of different matrices and missing ones are refused.
+
+    >>> import brushfire as bf, numpy as np, tempfile, os
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = os.path.join(folder, "d.npy")
+    ...     parts = [mesh.write_distance_matrix(path, method="dijkstra", shard=(i, 2)) for i in (1, 2)]
+    ...     bf.merge_shards(parts, path)
+    ...     np.load(path)[1].tolist()
+    [3.0, 0.0, 4.0, 7.0]
+    """
+    paths = [path_text(p) for p in shards]
+    rows, layout = whole(chunk_rows, "chunk_rows", _MOST_ROWS), whole(zarr_format, "zarr_format", 3)
+    _core.merge_shards(paths, path_text(output), _symmetry(symmetric), rows, layout)
+
+
+def _symmetry(symmetric: Any) -> str:
+    if symmetric not in (None, "mean", "min"):
+        raise BrushfireError(f"symmetric: 'mean' or 'min' is needed, not {symmetric!r}")
+    return symmetric or ""
 
 
 def _pair(places: PlaceArrays | None) -> tuple[Any, Any]:

@@ -5,6 +5,9 @@
 #include <brushfire/core/detail/memory.h>
 #include <brushfire/core/error.h>
 #include <brushfire/queries/distance_matrix.h>
+#include <brushfire/queries/matrix_job.h>
+
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <cmath>
@@ -101,13 +104,39 @@ nb::tuple sparse_rows(Solver& solver, double radius, const Vector<std::int64_t>&
   return nb::make_tuple(to_numpy(std::move(values)), to_numpy_signed(std::move(vertices)), to_numpy(std::move(starts)));
 }
 
-void write(const Domain& domain, const std::string& path, bool float32, const OptionalIndex& row_index,
-           const OptionalWeights& row_weights, const OptionalIndex& column_index, const OptionalWeights& column_weights,
-           const nb::dict& given, unsigned threads, nb::object progress) {
+MatrixFileOptions file_options_from(const std::string& symmetric, std::uint64_t chunk_rows, int zarr_format,
+                                    std::uint64_t shard, std::uint64_t shards) {
+  MatrixFileOptions options;
+  options.chunk_rows = chunk_rows;
+  options.zarr_format = zarr_format;
+  options.shard = shard;
+  options.shards = shards;
+  if (!symmetric.empty()) options.symmetry = symmetric == "mean" ? Symmetry::Mean : Symmetry::Minimum;
+  return options;
+}
+
+// Returns where the matrix, or this shard of it, is.
+std::string write(const Domain& domain, const std::string& path, bool float32, const OptionalIndex& row_index,
+                  const OptionalWeights& row_weights, const OptionalIndex& column_index,
+                  const OptionalWeights& column_weights, const nb::dict& given, unsigned threads,
+                  const std::string& symmetric, std::uint64_t chunk_rows, int zarr_format, std::uint64_t shard,
+                  std::uint64_t shards, nb::object progress) {
   Call call(row_index, row_weights, column_index, column_weights, given, threads, std::move(progress));
-  call.computation.run(false, [&] {
-    write_distance_matrix(path, domain, view(call.rows), view(call.columns),
-                          float32 ? ValueType::Float32 : ValueType::Float64, call.options);
+  const MatrixFileOptions file = file_options_from(symmetric, chunk_rows, zarr_format, shard, shards);
+  return call.computation.run(false, [&] {
+    MatrixJob job(path, domain, view(call.rows), view(call.columns), float32 ? ValueType::Float32 : ValueType::Float64,
+                  call.options, file);
+    job.run();
+    return job.output().string();
+  });
+}
+
+void merge(const std::vector<std::string>& shards, const std::string& path, const std::string& symmetric,
+           std::uint64_t chunk_rows, int zarr_format) {
+  const std::vector<std::filesystem::path> paths(shards.begin(), shards.end());
+  Computation computation{nb::none()};
+  computation.run(false, [&] {
+    merge_shards(paths, path, file_options_from(symmetric, chunk_rows, zarr_format, 1, 1));
     return true;
   });
 }
@@ -137,7 +166,10 @@ void bind_matrix(nb::module_& m) {
         nb::arg("weights").noconvert().none(), nb::arg("options"), nb::arg("progress").none());
   m.def("write_matrix", write, nb::arg("domain"), nb::arg("path"), nb::arg("float32"), nb::arg("row_index").none(),
         nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
-        nb::arg("options"), nb::arg("threads"), nb::arg("progress").none());
+        nb::arg("options"), nb::arg("threads"), nb::arg("symmetric"), nb::arg("chunk_rows"), nb::arg("zarr_format"),
+        nb::arg("shard"), nb::arg("shards"), nb::arg("progress").none());
+  m.def("merge_shards", merge, nb::arg("shards"), nb::arg("path"), nb::arg("symmetric"), nb::arg("chunk_rows"),
+        nb::arg("zarr_format"));
   m.def("require_dense_memory", require_dense, nb::arg("rows"), nb::arg("columns"), nb::arg("float32"),
         nb::arg("limit"));
 }

@@ -23,7 +23,7 @@ def strip() -> bf.Mesh:
 def test_costs_lie_between_their_bounds(strip: bf.Mesh) -> None:
     costs = strip.weighted(W).costs(5)
     assert costs.lower is not None
-    assert costs.upper[9] == pytest.approx(8)
+    assert costs.lower[9] <= 8 <= costs.upper[9]
     assert (costs.lower <= costs.upper).all()
     excess = (costs.upper - costs.lower)[costs.upper > 0] / costs.lower[costs.upper > 0]
     assert excess.max() == pytest.approx(costs.max_error_bound)

@@ -51,6 +51,7 @@
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/karcher_mean.h>
 #include <brushfire/queries/log_coordinates.h>
+#include <brushfire/queries/matrix_job.h>
 #include <brushfire/queries/nearest_sources.h>
 #include <brushfire/queries/parcels.h>
 #include <brushfire/queries/path.h>

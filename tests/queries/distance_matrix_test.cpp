@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Matrix, testing::ValuesIn(all_methods().begin(
                            return name;
                          });
 
-TEST(MatrixFile, RowsOfAnotherMeshAreNotTakenOver) {
+TEST(MatrixFile, RowsOfAnotherMeshAreNeitherTakenOverNorDiscarded) {
   const Mesh mesh = bumpy(6), other = bumpy(7);
   const fs::path path = fs::path(testing::TempDir()) / "matrix-other.npy";
   MatrixOptions o;
@@ -201,8 +201,12 @@ TEST(MatrixFile, RowsOfAnotherMeshAreNotTakenOver) {
   o.distance.progress = [&](double) { cancel.cancel(); };
   EXPECT_THROW(write_distance_matrix(path, other, {}, {}, ValueType::Float64, o), Error);
   o.distance.cancel = nullptr;
-  write_distance_matrix(path, mesh, {}, {}, ValueType::Float64, o);
-  const std::vector<double> values = distance_matrix<double>(mesh, {}, {}, o);
+  o.distance.progress = nullptr;
+  const std::string begun = bytes_of(path.string() + ".part");
+  EXPECT_THROW(write_distance_matrix(path, mesh, {}, {}, ValueType::Float64, o), Error);
+  EXPECT_EQ(bytes_of(path.string() + ".part"), begun) << "nor discarded";
+  write_distance_matrix(path, other, {}, {}, ValueType::Float64, o);
+  const std::vector<double> values = distance_matrix<double>(other, {}, {}, o);
   const std::string bytes = bytes_of(path);
   EXPECT_EQ(std::memcmp(bytes.data() + bytes.size() - values.size() * 8, values.data(), values.size() * 8), 0);
   fs::remove(path);

@@ -1,11 +1,15 @@
 // brushfire matrix: distances from many places to many places.
 #include "computing.h"
 #include "interrupt.h"
+#include "job_progress.h"
+#include "matrix_files.h"
+#include "row_lists.h"
 #include "sources.h"
 #include "surface.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/queries/distance_matrix.h>
+#include <brushfire/queries/matrix_job.h>
 
 #include <algorithm>
 #include <chrono>
@@ -20,21 +24,27 @@ namespace {
 
 constexpr const char* kExamples = R"(Rows and columns:
   all               every vertex, in the file's order
+  0:1000, 0:1000:5  vertices from the first to before the last; 0-999,5000 has the last, too
   0,5,9             these vertices; at:1.5,0,-2, f:120:.2,.3,.5 and others as for `brushfire distance --source`
-  FILE              one place, or a list of vertices, per line, as for `brushfire distance --sources`
+  FILE              one place, or a list of vertices, per line, as for `brushfire distance --sources`; vertices in .npy;
+                    a mask or label file: where it is above 0
+  FILE:LABEL,...    vertices with these labels: lh.aparc.annot:insula,cuneus
 
 --source and --sources are another way to say --rows.
 
 Examples:
   brushfire matrix cortex.gii -o d.npy
+  brushfire matrix cortex.gii --method carried-source --symmetric mean -o d.zarr
   brushfire matrix cortex.gii --rows 0,5,9 --columns landmarks.txt --dtype float64 -o d.npy
   brushfire matrix cortex.gii --radius 20 --method exact -o near.npz
+  brushfire matrix cortex.gii --shard 3/16 -o d.npy     # writes d.03-of-16.npy, for brushfire merge
   brushfire matrix pose1.off pose2.off pose3.off -o matrices/
 
 Of several meshes every matrix becomes FOLDER/NAME.npy, by the name of the mesh's file.
 
-.npy is the dense matrix, written row by row: interrupted, the same command goes on where it stopped. With --radius,
-.npz (scipy.sparse.load_npz) and .mtx (MatrixMarket) hold what is within it; there, columns are all vertices.)";
+.npy and .zarr are the dense matrix; with --radius, .npz (scipy.sparse.load_npz) and .mtx (MatrixMarket) hold what is
+within it; there, columns are all vertices. All are jobs: interrupted or killed, the same command goes on where it
+stopped; started a second time, it helps the first one. Shards of a .zarr store on a shared disk write into it together.)";
 
 struct Arguments {
   std::string file, output;
@@ -42,35 +52,20 @@ struct Arguments {
   SharedArguments shared;
   std::string rows, columns;  // "": all
   std::string type = "float32";
+  MatrixFileArguments file_options;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool is_file(const std::string& text) {
-  return !text.starts_with("f:") && !text.starts_with("at:") &&
-         text.find_first_not_of("0123456789,") != std::string::npos;
-}
-
-std::vector<Where> parse_list(const std::string& text) {
-  if (is_file(text)) return read_where_file(text);
-  return parse_places({text}, "a row or column");
-}
-
 // Nothing for all vertices.
-std::optional<std::vector<Where>> parse_rows(const Arguments& a) {
+std::optional<std::vector<Where>> parse_rows(const Arguments& a, Index count) {
   if (given(a.shared, {Shared::Source, Shared::Sources})) {
     if (!a.rows.empty()) refuse("--rows and --source both say where the rows start from: give one");
     return parse_point_sources(a.shared, "rows start from places");
   }
-  if (a.rows.empty() || a.rows == "all") return std::nullopt;
-  return parse_list(a.rows);
-}
-
-std::optional<std::vector<Where>> parse_columns(const Arguments& a) {
-  if (a.columns.empty() || a.columns == "all") return std::nullopt;
-  return parse_list(a.columns);
+  return parse_row_list(a.rows, "--rows", count);
 }
 
 // The places of a list; nullopt for all vertices, which are those of the file.
@@ -100,7 +95,8 @@ bool is_sparse(const std::string& path) { return path.ends_with(".npz") || path.
 
 void check(const Arguments& a) {
   const bool sparse = is_sparse(a.output);
-  if (!sparse && !a.output.ends_with(".npy")) refuse("where to? give -o FILE.npy, .npz or .mtx");
+  if (!sparse && !is_dense(a.output)) refuse("where to? give -o FILE.npy, .zarr, .npz or .mtx");
+  check(a.file_options, a.output);
   if (!sparse) return;
   if (!a.shared.radius || *a.shared.radius == kInfinity) refuse(a.output + ": a sparse matrix needs a --radius");
   if (a.shared.weld) {
@@ -109,12 +105,52 @@ void check(const Arguments& a) {
   if (!a.columns.empty() && a.columns != "all") refuse(a.output + ": the columns of a sparse matrix are all vertices");
 }
 
-template <class T>
-std::uint64_t write_sparse(const Arguments& arguments, const Domain& domain, Places rows,
-                           const MatrixOptions& options) {
-  const SparseMatrix<T> matrix = distances_within<T>(domain, *arguments.shared.radius, rows, options);
-  write_sparse_matrix(arguments.output, matrix);
-  return matrix.value.size();
+// What a run has written.
+struct Written {
+  std::string output;  // of a shard its own file
+  std::uint64_t rows = 0, entries = 0, found = 0;
+  bool complete = true;
+};
+
+Written write_sparse(const Arguments& a, const Domain& domain, Places rows, ValueType type,
+                     const MatrixOptions& options, const Talk& talk) {
+  Written w{.output = a.output};
+  std::size_t found = 0;
+  w.rows = rows ? rows->size() : domain.mesh().vertex_count();
+  MatrixOptions told = options;
+  Progress report;
+  told.distance.progress = [&](double share) {
+    if (!report) {
+      if (found > 0) talk.say(resuming(a.output, found, w.rows));
+      report = job_progress(talk, w.rows, found);
+    }
+    if (report) report(share);
+  };
+  w.entries = write_distances_within(a.output, domain, *a.shared.radius, rows, type, told, file_options(a.file_options),
+                                     &found);
+  w.found = found;
+  return w;
+}
+
+Written write_dense(const Arguments& a, const Domain& domain, Places rows, Places columns, ValueType type,
+                    const MatrixOptions& options, const Talk& talk) {
+  Progress report;
+  MatrixOptions told = options;
+  told.distance.progress = [&](double share) {
+    if (report) report(share);
+  };
+  MatrixJob job(a.output, domain, rows, columns, type, told, file_options(a.file_options));
+  Written w{.output = job.output().string(), .rows = job.rows(), .found = job.found()};
+  w.entries = w.rows * job.columns();
+  if (job.is_complete()) {
+    talk.say(w.output + ": is complete already");
+    return w;
+  }
+  if (w.found > 0) talk.say(resuming(w.output, w.found, w.rows));
+  report = job_progress(talk, w.rows, w.found);
+  job.run();
+  w.complete = job.is_complete();
+  return w;
 }
 
 // Of one mesh.
@@ -123,10 +159,11 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
   MatrixOptions options;
   options.distance = computation(arguments.shared);
   options.threads = std::exchange(options.distance.threads, 1);  // they share out the rows
-  options.distance.progress = talk.progress("matrix");
-  const std::optional<std::vector<Where>> row_list = parse_rows(arguments), column_list = parse_columns(arguments);
 
   const Surface surface(arguments.file, arguments.shared);
+  const Index count = surface.file().mesh.vertex_count();
+  const std::optional<std::vector<Where>> row_list = parse_rows(arguments, count);
+  const std::optional<std::vector<Where>> column_list = parse_row_list(arguments.columns, "--columns", count);
   const Mesh& mesh = surface.mesh();
   stop_if_interrupted();
   PlaceFinder finder(mesh, arguments.shared.snap_within);
@@ -135,19 +172,13 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
   finder.tell(talk);
   const Places rows = row_places ? Places(*row_places) : std::nullopt;
   const Places columns = column_places ? Places(*column_places) : std::nullopt;
-  const std::uint64_t row_count = rows ? rows->size() : mesh.vertex_count();
   const std::uint64_t column_count = columns ? columns->size() : mesh.vertex_count();
 
   const auto start = std::chrono::steady_clock::now();
-  const bool is_float = arguments.type == "float32";
-  std::uint64_t entries = row_count * column_count;
-  if (is_sparse(arguments.output)) {
-    entries = is_float ? write_sparse<float>(arguments, surface.domain(), rows, options)
-                       : write_sparse<double>(arguments, surface.domain(), rows, options);
-  } else {
-    write_distance_matrix(arguments.output, surface.domain(), rows, columns,
-                          is_float ? ValueType::Float32 : ValueType::Float64, options);
-  }
+  const ValueType type = arguments.type == "float32" ? ValueType::Float32 : ValueType::Float64;
+  const Written written = is_sparse(arguments.output)
+                              ? write_sparse(arguments, surface.domain(), rows, type, options, talk)
+                              : write_dense(arguments, surface.domain(), rows, columns, type, options, talk);
   const double solve_s = seconds_since(start);
   talk.end_progress();
 
@@ -158,20 +189,23 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
         .add("precision", precision_of(options.distance))
         .add("tolerance", tolerance_of(options.distance))
         .add("vertices", std::int64_t{mesh.vertex_count()})
-        .add("rows", static_cast<std::int64_t>(row_count))
+        .add("rows", static_cast<std::int64_t>(written.rows))
+        .add("resumed_at_row", static_cast<std::int64_t>(written.found))
+        .add("complete", written.complete)
         .add("columns", static_cast<std::int64_t>(column_count))
-        .add("entries", static_cast<std::int64_t>(entries))
+        .add("entries", static_cast<std::int64_t>(written.entries))
         .add("radius", options.distance.max_distance)
         .add("unit", unit_of(arguments.shared))
         .add("dtype", arguments.type)
         .add("solve_s", solve_s);
     finder.add_to(record);
-    write_stdout(record.add("output", arguments.output).json());
+    write_stdout(record.add("output", written.output).json());
   } else if (!talk.json) {
-    talk.say(arguments.output + ": " + std::to_string(row_count) + " x " + std::to_string(column_count) + ", " +
-             counted(entries, "entry", "entries") + ", in " + duration(solve_s));
+    talk.say(written.output + ": " + std::to_string(written.rows) + " x " + std::to_string(column_count) + ", " +
+             counted(written.entries, "entry", "entries") + ", in " + duration(solve_s) +
+             (written.complete ? "" : "; rows of other shards are still missing"));
   }
-  return entries;
+  return written.entries;
 }
 
 // Where the matrix of each of several meshes goes.
@@ -230,10 +264,12 @@ void add_matrix(CommandLine& command_line) {
   command_line.add("matrix", "Distances from many places to many places", [&](Verb& verb) {
     add_surface(verb, arguments->file);
     verb.arguments("MORE", arguments->more, "Further meshes: every one's matrix goes into a folder, -o FOLDER/");
-    verb.option("--rows", arguments->rows, "PLACES", "all, a list of vertices, or a file with one place per line");
+    verb.option("--rows", arguments->rows, "PLACES", "all, vertices, ranges of them, labels, or a file of places");
     verb.option("--columns,--cols", arguments->columns, "PLACES", "The same for the columns");
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
-    verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy, with --radius also .npz .mtx");
+    verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy .zarr, with --radius also .npz .mtx");
+    add_matrix_files(verb, arguments->file_options);
+    verb.option("--shard", arguments->file_options.shard, "I/N", "Only the I-th (from 1) of N parts of the rows");
     verb.talks();
     add_shared(verb, arguments->shared,
                {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});

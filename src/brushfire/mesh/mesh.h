@@ -52,8 +52,8 @@ class Mesh {
   // No vertices, no faces.
   Mesh();
 
-  // Copies the arrays: positions[vertex_count], faces[face_count]. Throws Error(InvalidMesh) naming the first vertex with
-  // a coordinate that is not finite, or beyond 2^990 (1e298), or the first face with an index >= vertex_count, and
+  // Copies the arrays: positions[vertex_count], faces[face_count]. Throws Error(InvalidMesh) naming the first vertex
+  // with a coordinate that is not finite, or beyond 2^990 (1e298), or the first face with an index >= vertex_count, and
   // Error(TooLarge) beyond 2^32/3 faces. O(vertices + faces).
   Mesh(std::span<const Vec3> positions, std::span<const Face> faces);
 

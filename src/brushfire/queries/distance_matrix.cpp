@@ -156,21 +156,24 @@ void Rows::compute_dense_row(unsigned worker, std::size_t i, const TakeDense<T>&
 }
 
 template <class T>
-void Rows::run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take) {
-  if (can_group()) return run_grouped<T>(numbers, progress, take);
+void Rows::run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take,
+                     const Claim& claim) {
+  if (can_group()) return run_grouped<T>(numbers, progress, take, claim);
   const CancelScope listen(options_.cancel);
   std::atomic<std::size_t> done{0};
   const auto body = [&](unsigned worker, std::size_t k) {
     stop_if_cancelled();
-    compute_dense_row<T>(worker, numbers[k], take);
+    if (!claim || claim(numbers[k])) compute_dense_row<T>(worker, numbers[k], take);
     const std::size_t finished = done.fetch_add(1, std::memory_order_relaxed) + 1;
     if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(numbers.size()));
   };
   team_.run(numbers.size(), body, current_cancel_token());
 }
 
-template void Rows::run_dense<float>(std::span<const std::size_t>, const Progress&, const TakeDense<float>&);
-template void Rows::run_dense<double>(std::span<const std::size_t>, const Progress&, const TakeDense<double>&);
+template void Rows::run_dense<float>(std::span<const std::size_t>, const Progress&, const TakeDense<float>&,
+                                     const Claim&);
+template void Rows::run_dense<double>(std::span<const std::size_t>, const Progress&, const TakeDense<double>&,
+                                      const Claim&);
 template void Rows::compute_dense_row<float>(unsigned, std::size_t, const TakeDense<float>&);
 template void Rows::compute_dense_row<double>(unsigned, std::size_t, const TakeDense<double>&);
 
@@ -310,6 +313,11 @@ SparseMatrix<T> join(std::vector<SparseBlock<T>>& entries, const detail::Rows::B
 
 }  // namespace
 
+void detail::require_sparse_memory(Rows& all, ValueType type, std::uint64_t limit) {
+  type == ValueType::Float32 ? check_expected_size(all, SparseBudget<float>(all.count(), limit))
+                             : check_expected_size(all, SparseBudget<double>(all.count(), limit));
+}
+
 template <class T>
 SparseMatrix<T> distances_within(const Domain& domain, double radius, Places rows, const MatrixOptions& options) {
   if (!std::isfinite(radius) || radius < 0) {
@@ -325,13 +333,14 @@ SparseMatrix<T> distances_within(const Domain& domain, double radius, Places row
   std::vector<SparseBlock<T>> of_block(blocks.begin.size() - 1);
   std::vector<RowPlace> row_place(all.count());
   std::atomic<std::uint64_t> entries{0};
-  all.run_blocks(blocks, options.distance.progress, [&](std::size_t b, std::size_t i, const SparseField& f) {
+  const auto take = [&](std::size_t b, std::size_t i, const SparseField& f) {
     SparseBlock<T>& block = of_block[b];
     row_place[i] = {block.column.size(), static_cast<Index>(f.vertex.size())};
     block.column.insert(block.column.end(), f.vertex.begin(), f.vertex.end());
     block.value.insert(block.value.end(), f.distance.begin(), f.distance.end());
     budget.require(static_cast<double>(entries += f.vertex.size()));
-  });
+  };
+  all.run_blocks(blocks, 0, of_block.size(), options.distance.progress, take);
   return join<T>(of_block, blocks, row_place, all.columns());
 }
 

@@ -54,30 +54,75 @@ bool Rows::can_group() const {
                      [&](const SurfacePoint& p) { return vertex_at(mesh_, p) != kNoIndex; });
 }
 
+Index Rows::vertex_of_row(std::size_t i) const {
+  const std::optional<SurfacePoint> p = place(i);
+  return p ? vertex_at(mesh_, *p) : kNoIndex;
+}
+
+const carried_source::GroupedRows& Rows::groups() {
+  if (!groups_) {
+    std::vector<Index> asked;
+    for (std::size_t i = 0; i < row_count_; ++i) {
+      if (const Index v = vertex_of_row(i); v != kNoIndex) asked.push_back(v);
+    }
+    groups_ = std::make_shared<const carried_source::GroupedRows>(domain_, asked);
+  }
+  return *groups_;
+}
+
+Rows::ByUnits Rows::by_units() {
+  ByUnits units;
+  if (!can_group()) {
+    units.numbers = units.unit_start = numbers_below(row_count_);
+    units.unit_start.push_back(row_count_);
+    return units;
+  }
+  std::vector<Wish> wishes;
+  for (std::size_t i = 0; i < row_count_; ++i) wishes.emplace_back(vertex_of_row(i), i);
+  std::sort(wishes.begin(), wishes.end());
+  std::vector<bool> in_a_unit(row_count_, false);
+  for (const auto& group : groups().groups()) {
+    units.unit_start.push_back(units.numbers.size());
+    for (const Index v : group.vertices) {
+      for (auto w = std::lower_bound(wishes.begin(), wishes.end(), Wish{v, 0}); w != wishes.end() && w->first == v;
+           ++w) {
+        units.numbers.push_back(w->second);
+        in_a_unit[w->second] = true;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < row_count_; ++i) {
+    if (in_a_unit[i]) continue;
+    units.unit_start.push_back(units.numbers.size());
+    units.numbers.push_back(i);
+  }
+  units.unit_start.push_back(row_count_);
+  return units;
+}
+
 template <class T>
-void Rows::run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take) {
+void Rows::run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take,
+                       const Claim& claim) {
   const CancelScope listen(options_.cancel);
   std::vector<Wish> wishes;
   std::vector<std::size_t> alone;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const std::optional<SurfacePoint> p = place(numbers[k]);
-    const Index v = p ? vertex_at(mesh_, *p) : kNoIndex;
+  for (const std::size_t i : numbers) {
+    const Index v = vertex_of_row(i);
     if (v == kNoIndex) {
-      alone.push_back(numbers[k]);
+      alone.push_back(i);
     } else {
-      wishes.emplace_back(v, numbers[k]);
+      wishes.emplace_back(v, i);
     }
   }
   std::sort(wishes.begin(), wishes.end());
-  std::vector<Index> asked, columns;
-  for (const auto& [v, i] : wishes) asked.push_back(v);
+  std::vector<Index> columns;
   for (const SurfacePoint& p : options_.targets) columns.push_back(vertex_at(mesh_, p));
-  const carried_source::GroupedRows rows(domain_, asked);
+  const carried_source::GroupedRows& rows = groups();
 
-  // The rows that are wanted of a vertex.
-  const auto wanted = [&](Index v) {
-    const auto begin = std::lower_bound(wishes.begin(), wishes.end(), Wish{v, 0});
-    return std::span(begin, std::upper_bound(begin, wishes.end(), Wish{v, ~std::size_t{0}}));
+  // The rows of a vertex among some.
+  const auto rows_of = [](std::span<const Wish> some, Index v) {
+    const auto begin = std::lower_bound(some.begin(), some.end(), Wish{v, 0});
+    return std::span(begin, std::upper_bound(begin, some.end(), Wish{v, ~std::size_t{0}}));
   };
   std::vector<bool> in_a_group(mesh_.vertex_count(), false);
   for (const auto& g : rows.groups()) {
@@ -93,9 +138,20 @@ void Rows::run_grouped(std::span<const std::size_t> numbers, const Progress& pro
     if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(numbers.size()));
   };
   const auto run_group = [&](unsigned worker, const carried_source::GroupedRows::Group& group) {
+    std::size_t count = 0;
+    std::vector<Wish> mine;
+    for (const Index v : group.vertices) {
+      for (const Wish& w : rows_of(wishes, v)) {
+        ++count;
+        if (!claim || claim(w.second)) mine.push_back(w);
+      }
+    }
+    if (count == 0) return;
+    if (mine.empty()) return tell(worker, count);
+    std::sort(mine.begin(), mine.end());
     Worker& w = workers_[worker];
     if (!w.groups) w.groups = std::make_unique<carried_source::GroupRunner>(rows);
-    const auto of_lane = [&](int lane) { return wanted(group.vertices[static_cast<std::size_t>(lane)]); };
+    const auto of_lane = [&](int lane) { return rows_of(mine, group.vertices[static_cast<std::size_t>(lane)]); };
     const auto take_lane = [&](int lane, std::span<const float> distances) {
       if (of_lane(lane).empty()) return;
       std::vector<T>& values = w.values<T>();
@@ -113,22 +169,22 @@ void Rows::run_grouped(std::span<const std::size_t> numbers, const Progress& pro
     for (const int lane : w.groups->run(group, options_.max_distance, take_lane)) {
       for (const auto& [v, i] : of_lane(lane)) compute_dense_row<T>(worker, i, take);
     }
-    std::size_t count = 0;
-    for (const Index v : group.vertices) count += wanted(v).size();
     tell(worker, count);
   };
   const auto body = [&](unsigned worker, std::size_t index) {
     stop_if_cancelled();
     if (index < rows.groups().size()) return run_group(worker, rows.groups()[index]);
-    compute_dense_row<T>(worker, alone[index - rows.groups().size()], take);
+    const std::size_t i = alone[index - rows.groups().size()];
+    if (!claim || claim(i)) compute_dense_row<T>(worker, i, take);
     tell(worker, 1);
   };
   team_.run(rows.groups().size() + alone.size(), body, current_cancel_token());
-  for (Worker& w : workers_) w.groups.reset();
 }
 
-template void Rows::run_grouped<float>(std::span<const std::size_t>, const Progress&, const TakeDense<float>&);
-template void Rows::run_grouped<double>(std::span<const std::size_t>, const Progress&, const TakeDense<double>&);
+template void Rows::run_grouped<float>(std::span<const std::size_t>, const Progress&, const TakeDense<float>&,
+                                       const Claim&);
+template void Rows::run_grouped<double>(std::span<const std::size_t>, const Progress&, const TakeDense<double>&,
+                                        const Claim&);
 
 Rows::Blocks Rows::blocks_by_place(std::size_t block) {
   Blocks blocks;
@@ -137,15 +193,9 @@ Rows::Blocks Rows::blocks_by_place(std::size_t block) {
   if (can_group()) {
     const CancelScope listen(options_.cancel);
     std::vector<Wish> wishes;
-    std::vector<Index> asked;
-    for (std::size_t i = 0; i < row_count_; ++i) {
-      const std::optional<SurfacePoint> p = place(i);
-      const Index v = p ? vertex_at(mesh_, *p) : kNoIndex;
-      if (v != kNoIndex) wishes.emplace_back(v, i), asked.push_back(v);
-    }
+    for (std::size_t i = 0; i < row_count_; ++i) wishes.emplace_back(vertex_of_row(i), i);
     std::sort(wishes.begin(), wishes.end());
-    grouped_ = std::make_unique<carried_source::GroupedRows>(domain_, asked);
-    for (const auto& g : grouped_->groups()) {
+    for (const auto& g : groups().groups()) {
       for (const Index v : g.vertices) {
         const auto first = std::lower_bound(wishes.begin(), wishes.end(), Wish{v, 0});
         for (auto w = first; w != wishes.end() && w->first == v; ++w) {
@@ -155,7 +205,7 @@ Rows::Blocks Rows::blocks_by_place(std::size_t block) {
       }
       blocks.begin.push_back(blocks.numbers.size());
     }
-    blocks.groups = grouped_->groups().size();
+    blocks.groups = groups().groups().size();
   }
   for (const std::size_t i : numbers_by_place()) {
     if (in_a_group[i]) continue;
@@ -167,8 +217,8 @@ Rows::Blocks Rows::blocks_by_place(std::size_t block) {
 }
 
 void Rows::run_group_within(Worker& w, const Blocks& blocks, std::size_t b, const TakeOfBlock& take) {
-  if (!w.groups) w.groups = std::make_unique<carried_source::GroupRunner>(*grouped_);
-  const carried_source::GroupedRows::Group& group = grouped_->groups()[b];
+  if (!w.groups) w.groups = std::make_unique<carried_source::GroupRunner>(groups());
+  const carried_source::GroupedRows::Group& group = groups().groups()[b];
   const auto for_rows_of = [&](int lane, const auto& body) {
     for (std::size_t k = blocks.begin[b]; k < blocks.begin[b + 1]; ++k) {
       if (blocks.vertex[k] == group.vertices[static_cast<std::size_t>(lane)]) body(blocks.numbers[k]);
@@ -190,12 +240,14 @@ void Rows::run_group_within(Worker& w, const Blocks& blocks, std::size_t b, cons
   }
 }
 
-void Rows::run_blocks(const Blocks& blocks, const Progress& progress, const TakeOfBlock& take) {
+void Rows::run_blocks(const Blocks& blocks, std::size_t first, std::size_t last, const Progress& progress,
+                      const TakeOfBlock& take) {
   const CancelScope listen(options_.cancel);
   std::atomic<std::size_t> done{0};
-  const auto body = [&](unsigned worker, std::size_t b) {
+  const std::size_t rows = blocks.begin[last] - blocks.begin[first];
+  const auto body = [&](unsigned worker, std::size_t index) {
     Worker& w = workers_[worker];
-    const std::size_t begin = blocks.begin[b], end = blocks.begin[b + 1];
+    const std::size_t b = first + index, begin = blocks.begin[b], end = blocks.begin[b + 1];
     stop_if_cancelled();
     if (b < blocks.groups) {
       run_group_within(w, blocks, b, take);
@@ -207,10 +259,9 @@ void Rows::run_blocks(const Blocks& blocks, const Progress& progress, const Take
       }
     }
     const std::size_t finished = done.fetch_add(end - begin, std::memory_order_relaxed) + end - begin;
-    if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(row_count_));
+    if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(rows));
   };
-  team_.run(blocks.begin.size() - 1, body, current_cancel_token());
-  for (Worker& w : workers_) w.groups.reset();
+  team_.run(last - first, body, current_cancel_token());
 }
 
 }  // namespace brushfire::detail

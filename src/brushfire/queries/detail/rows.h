@@ -40,16 +40,28 @@ class Rows {
     std::size_t groups = 0;                   // the first blocks are theirs
   };
   Blocks blocks_by_place(std::size_t block);
-  // The same as run_sparse(), by block; i: the row's number. The rows of a block come on one thread, in any order.
+  // The same as run_sparse(), for the blocks from `first` to before `last`; i: the row's number. The rows of a block
+  // come on one thread, in any order.
   using TakeOfBlock = std::function<void(std::size_t block, std::size_t i, const SparseField& field)>;
-  void run_blocks(const Blocks& blocks, const Progress& progress, const TakeOfBlock& take);
+  void run_blocks(const Blocks& blocks, std::size_t first, std::size_t last, const Progress& progress,
+                  const TakeOfBlock& take);
 
   // The same as a row of columns() values, +inf where nothing was reached; i: the row's number. T is float or double;
   // floats are rounded doubles.
   template <class T>
   using TakeDense = std::function<void(unsigned worker, std::size_t i, std::span<const T> values)>;
+  // `claim`, where there is one, is asked for each row before it is computed, from any thread: false leaves it out.
+  using Claim = std::function<bool(std::size_t i)>;
   template <class T>
-  void run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take);
+  void run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take,
+                 const Claim& claim = nullptr);
+
+  // The numbers of all rows so that those that are computed together are together, unit after unit; `unit_start`: the
+  // position of each unit's first row, and at the end count().
+  struct ByUnits {
+    std::vector<std::size_t> numbers, unit_start;
+  };
+  ByUnits by_units();
 
   // The numbers of all rows: those near each other on the surface one after the other where there are many, so that
   // short rows find in the cache what they need.
@@ -79,7 +91,11 @@ class Rows {
   bool can_group() const;
   void run_group_within(Worker& worker, const Blocks& blocks, std::size_t b, const TakeOfBlock& take);
   template <class T>
-  void run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take);
+  void run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take,
+                   const Claim& claim);
+  // Of all rows' vertices; made when first asked for.
+  const carried_source::GroupedRows& groups();
+  Index vertex_of_row(std::size_t i) const;  // kNoIndex: none
 
   Domain domain_;
   Mesh mesh_;  // the whole
@@ -89,9 +105,13 @@ class Rows {
   std::vector<std::size_t> target_column_;  // which column each target is; columns in no face are not among them
   DistanceOptions options_;                 // of one row
   ThreadTeam team_;
-  std::unique_ptr<carried_source::GroupedRows> grouped_;  // of blocks_by_place()
-  std::vector<Worker> workers_;
+  std::shared_ptr<const carried_source::GroupedRows> groups_;
+  std::vector<Worker> workers_;  // whose runners refer to groups_
 };
+
+// Throws Error(TooLarge) where the rows within the radius of `all` are expected to take more than `limit` bytes (0:
+// what is available), from an evenly spread sample of them.
+void require_sparse_memory(Rows& all, ValueType type, std::uint64_t limit);
 
 // 0, 1, ..., count - 1.
 std::vector<std::size_t> numbers_below(std::size_t count);

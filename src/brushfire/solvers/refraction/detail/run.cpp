@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace brushfire::refraction {
 
@@ -41,7 +40,7 @@ Run::Run(Medium& medium, std::span<const detail::LocatedSource> sources, const R
 bool Run::operator()() {
   for (Index s = 0; s < sources_.size(); ++s) start(sources_[s], s);
   windows::EventQueue::Event event{};
-  while (queue_.pop(std::numeric_limits<std::int64_t>::max(), event)) {
+  while (queue_.pop(windows::EventQueue::kLastBucket, event)) {
     poll_();
     if (passed_ >= next_look_) look_up();
     if (passed_ > most_) return false;

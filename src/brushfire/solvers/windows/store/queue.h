@@ -16,6 +16,9 @@ namespace brushfire::windows {
 // early or twice. Keys below the current bucket go into it.
 class EventQueue {
  public:
+  // Keys beyond what 64 bits count share it.
+  static constexpr std::int64_t kLastBucket = 4'000'000'000'000'000'000;
+
   // Buckets of this width from number `current` on; later ones may be pushed.
   void reset(double width, std::int64_t current) {
     buckets_.reset(current);
@@ -28,8 +31,7 @@ class EventQueue {
   // Whether the two keys fall into one bucket.
   bool same_bucket(double a, double b) const { return bucket_of(a) == bucket_of(b); }
   std::int64_t bucket_of(double key) const {
-    constexpr double kLastBucket = 4e18;  // keys beyond what 64 bits count share the last bucket
-    return static_cast<std::int64_t>(std::min(key * inverse_width_, kLastBucket));
+    return static_cast<std::int64_t>(std::min(key * inverse_width_, static_cast<double>(kLastBucket)));
   }
 
   void push_list(Index h, double key) { push_list_into(bucket_of(key), h); }

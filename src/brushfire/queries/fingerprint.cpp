@@ -1,0 +1,51 @@
+// From everything that a row depends on to one number.
+#include <brushfire/queries/detail/fingerprint.h>
+
+#include <brushfire/version.h>
+
+namespace brushfire::detail {
+
+void Fingerprint::add(const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  for (std::size_t i = 0; i < size; ++i) hash_ = (hash_ ^ bytes[i]) * 0x100000001b3;
+}
+
+void Fingerprint::add(const Place& place) {
+  if (const Index* v = std::get_if<Index>(&place)) return add(std::uint64_t{*v});
+  const SurfacePoint& p = std::get<SurfacePoint>(place);
+  add(std::uint64_t{p.face} | std::uint64_t{1} << 63);
+  add(p.weights.data(), sizeof p.weights);
+}
+
+void Fingerprint::add(const Places& places) {
+  add(std::uint64_t{places.has_value()});
+  if (!places) return;
+  add(std::uint64_t{places->size()});
+  for (const Place& p : *places) add(p);
+}
+
+std::uint64_t fingerprint_of(const Domain& domain, const Places& rows, const Places& columns, ValueType type,
+                             const DistanceOptions& options) {
+  const Mesh& mesh = domain.open();
+  Fingerprint f;
+  f.add(std::string_view(kVersion));
+  f.add(std::uint64_t{mesh.vertex_count()});
+  f.add(mesh.faces().data(), mesh.faces().size_bytes());
+  f.add(mesh.lengths().data(), mesh.lengths().size_bytes());
+  f.add(mesh.unit());
+  if (const CutMesh* cut = domain.cut()) {
+    f.add(cut->original_vertex.data(), cut->original_vertex.size() * sizeof(Index));
+    f.add(cut->original_face.data(), cut->original_face.size() * sizeof(Index));
+  }
+  f.add(rows);
+  f.add(columns);
+  f.add(static_cast<std::uint64_t>(type));
+  f.add(name_of(options.method));
+  f.add(options.tolerance);
+  f.add(static_cast<std::uint64_t>(options.bound));
+  f.add(static_cast<std::uint64_t>(options.precision));
+  f.add(options.max_distance);
+  return f.value();
+}
+
+}  // namespace brushfire::detail
