@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import gzip
+import hashlib
+import os
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
-from common import DIST, ROOT, run, say, version
+from common import DIST, ROOT, commit_date, run, say, version
 
 
 def source_tarball() -> Path:
@@ -33,3 +35,20 @@ def npm_tarball() -> Path | None:
         return None
     run("npm", "pack", "--pack-destination", DIST, cwd=ROOT / "js")
     return DIST / f"brushfire-{version()}.tgz"
+
+
+def all_of_them() -> list[Path]:
+    os.environ["SOURCE_DATE_EPOCH"] = commit_date()
+    return [file for file in (source_tarball(), sdist(), npm_tarball()) if file]
+
+
+def again() -> None:
+    """Builds what is in dist/ once more, and says whether every byte is the same."""
+    before = {file: hashlib.sha256(file.read_bytes()).hexdigest() for file in all_of_them()}
+    for file in before:
+        file.unlink()
+    for file in all_of_them():
+        same = hashlib.sha256(file.read_bytes()).hexdigest() == before[file]
+        print(f"{file.name}: {'the same bytes' if same else 'DIFFERENT'}")
+        if not same:
+            raise SystemExit(1)
