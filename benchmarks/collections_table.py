@@ -6,7 +6,7 @@ A collection is a folder in FOLDER (or FOLDER itself): FAUST (training/registrat
 *.off), surfaces of the Human Connectome Project (*.midthickness.*.surf.gii), or any others that `brushfire info` reads.
 Of each collection the first N meshes by name, evenly spread (default 10), from vertex 0, errors against `exact`; printed as
 Markdown: nanoseconds per vertex are medians over the meshes, mean errors are means, the largest is the largest of all.
-None of these collections may be handed on, so none comes with this; where they are: docs/benchmarks.md.
+None of these collections may be handed on, so none comes with this.
 """
 
 import argparse
