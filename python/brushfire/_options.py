@@ -7,7 +7,7 @@ from typing import Any, Literal, TypeAlias
 from brushfire._arrays import number, whole
 from brushfire._errors import BrushfireError, BrushfireTypeError
 
-Options = dict[str, "str | float"]
+Options = dict[str, Any]
 
 Tolerance: TypeAlias = "float | Literal['draft', 'standard', 'fine', 'exact']"
 """The relative error that ``windows`` keeps at every vertex, 0 to 0.1, or a word for it."""

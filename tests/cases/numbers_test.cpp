@@ -145,7 +145,7 @@ TEST(NumberCases, AVertexInNoFaceIsStillNoSource) {
 // ---- offsets
 
 TEST(NumberCases, AFiniteOffsetOfAnySizeIsAddedByEveryMethod) {
-  for (const double size : {1e-300, 0.01, 1.0, 1e298}) {
+  for (const double size : {1e-300, 0.01, 1.0, 1e297, 1e298}) {
     const std::vector<Vec3> p{{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
     const Mesh mesh(p, std::vector<Face>{{0, 1, 2}});
     for (const double offset : {1e308, -1e308, 1.7e308, 1e40, -1e40, 1e9, 3.0}) {
@@ -161,6 +161,30 @@ TEST(NumberCases, AFiniteOffsetOfAnySizeIsAddedByEveryMethod) {
           EXPECT_NEAR(field.distance[1], offset + size, error * size + kRounding * std::abs(offset))
               << name_of(method) << ", size " << size << ", offset " << offset;
           EXPECT_EQ(field.reached, 3u);
+        }
+      }
+    }
+  }
+}
+
+// However small beside the lengths: it is not to be lost in a difference with them.
+TEST(NumberCases, EverySourceReadsItsOffsetToTheLastBit) {
+  const Shape shape = shapes::saddle(5);
+  for (const double size : {1e-300, 1.0, 1e290}) {
+    std::vector<Vec3> positions = shape.positions;
+    for (Vec3& p : positions) p = size * p;
+    const Mesh mesh(positions, shape.faces);
+    for (const double share : {1e-290, 1e-30, 1e-17, 1e-9, 0.01}) {
+      for (const double offset : {size * share, -size * share}) {
+        if (std::abs(offset) < std::numeric_limits<double>::min()) continue;
+        for (const Method method : all_methods()) {
+          DistanceOptions options;
+          options.method = method;
+          options.precision = Precision::Double;
+          const std::vector<Source> sources{{vertex_point(mesh, 0), offset}, {vertex_point(mesh, 17), 1.1 * offset}};
+          const DistanceField field = distance(mesh, sources, options);
+          EXPECT_EQ(field.distance[0], offset) << name_of(method) << " " << size;
+          EXPECT_EQ(field.distance[17], 1.1 * offset) << name_of(method) << " " << size;
         }
       }
     }
@@ -226,7 +250,6 @@ TEST(NumberCases, OffsetsOnAMeshWithoutSizeAreNoTies) {
   const std::vector<Source> sources{
       {{9, {0, 0.25, 0.75}}, -38512.5}, {{15, {0.25, 0.5, 0.25}}, -330313.75}, {vertex_point(mesh, 2), 129603}};
   for (const Method method : all_methods()) {
-    if (method == Method::Heat) continue;  // it flows through areas, and there are none
     const DistanceField field = field_of(mesh, sources, method);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       EXPECT_EQ(field.distance[v], -330313.75) << name_of(method);

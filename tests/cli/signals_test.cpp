@@ -48,13 +48,18 @@ struct Case {
   Output output = Output::Dropped;
 };
 
-// The files that the cases need, made once.
+// The files that the cases need.
 class Folder {
  public:
-  Folder() {
+  void fill() const {
     run({"shape", "terrain", "-n", "600000", "-o", path("terrain.ply"), "-q"});
+    run({"distance", path("terrain.ply"), "-s", "0", "-m", "dijkstra", "-o", path("field.npy"), "-q"});
     run({"shape", "sphere", "-n", "20000", "-o", path("sphere.ply"), "-q"});
     run({"shape", "sphere", "-n", "600", "-o", path("small.ply"), "-q"});
+    std::ofstream(path("viewer.html")) << "<html>\n<!-- brushfire view: the mesh -->\n</html>\n";
+    setenv("BRUSHFIRE_VIEWER", path("viewer.html").c_str(), 1);
+    write_labels();
+    write_heights();
     mkfifo(path("pipe").c_str(), 0600);
     mkfifo(path("pipe.csv").c_str(), 0600);
     std::ofstream fan(path("fan.obj"));
@@ -68,6 +73,17 @@ class Folder {
   std::string path(const std::string& name) const { return folder_ / name; }
 
  private:
+  // Of the sphere's vertices.
+  void write_labels() const {
+    std::ofstream labels(path("labels.txt"));
+    for (int i = 0; i < 10242; ++i) labels << i / 300 << '\n';
+  }
+  void write_heights() const {
+    std::ofstream grid(path("grid.asc"));
+    constexpr int kSide = 2000;
+    grid << "ncols " << kSide << "\nnrows " << kSide << "\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    for (int i = 0; i < kSide * kSide; ++i) grid << i % 7 << (i % kSide + 1 < kSide ? ' ' : '\n');
+  }
   static void run(const std::vector<std::string>& arguments) {
     std::string command = BRUSHFIRE_PROGRAM;
     for (const std::string& a : arguments) command += " '" + a + "'";
@@ -152,7 +168,7 @@ std::vector<std::string> many_waypoints(const std::string& mesh) {
 
 std::vector<Case> cases(const Folder& f) {
   const std::string terrain = f.path("terrain.ply"), sphere = f.path("sphere.ply"), small = f.path("small.ply");
-  const std::string fan = f.path("fan.obj"), pipe = f.path("pipe"), out = f.path("out");
+  const std::string fan = f.path("fan.obj"), pipe = f.path("pipe"), out = f.path("out"), field = f.path("field.npy");
   std::vector<Case> all{
       {"mesh from a pipe that says nothing", {"info", "-"}, milliseconds(200), Input::Silent},
       {"mesh from a pipe without end", {"info", "-"}, milliseconds(200), Input::Endless},
@@ -187,11 +203,42 @@ std::vector<Case> cases(const Folder& f) {
       {"an animation", {"render", sphere, "-s", "0", "--wave", "500", "-o", out + ".webp"}, milliseconds(500)},
       {"reading a field", {"compare", "-", "-"}, milliseconds(200), Input::Silent},
       {"measuring", {"bench", sphere, "-m", "exact", "--repeat", "1000"}, milliseconds(500)},
+      {"regions", {"isochrones", terrain, field, "--levels", "1,2,3", "-o", out + ".json"}, milliseconds(300)},
+      {"directions", {"log-map", terrain, "-s", "0", "-o", out + ".csv"}, milliseconds(300)},
+      {"landmarks", {"flatten", terrain, "-m", "exact", "-o", out + ".obj"}, milliseconds(300)},
+      {"slopes", {"gradient", terrain, "-s", "0", "-m", "exact", "-o", out + ".vtk"}, milliseconds(300)},
+      {"cells", {"voronoi", terrain, "-s", "0,500,12000", "-m", "exact"}, milliseconds(300)},
+      {"places", {"sample", terrain, "--count", "100", "-m", "exact"}, milliseconds(300)},
+      {"bounds on the diameter", {"measure", sphere, "-m", "exact"}, milliseconds(200)},
+      {"from label to label",
+       {"parcels", sphere, f.path("labels.txt"), "--distance", "mean", "-m", "exact"},
+       milliseconds(200)},
+      {"means", {"smooth", terrain, field, "--sigma", "0.5", "-o", out + ".npy"}, milliseconds(300)},
+      {"proofs", {"certify", terrain, field, "-s", "0"}, milliseconds(300)},
+      {"packing a page", {"view", terrain, "-s", "0", "-o", out + ".html"}, milliseconds(200)},
+      {"writing text", {"convert", terrain, out + ".obj"}, milliseconds(200)},
+      {"reading heights", {"terrain", f.path("grid.asc"), "-o", out + ".ply"}, milliseconds(200)},
   };
   for (const char* shape : {"terrain", "sphere", "cube", "torus", "folded-sphere", "delaunay-square"}) {
     all.push_back({shape, {"shape", shape, "-n", "2e7", "-o", out + ".ply"}, milliseconds(300)});
   }
   return all;
+}
+
+// Those that `brushfire --help` lists.
+std::vector<std::string> verbs() {
+  FILE* const help = popen(BRUSHFIRE_PROGRAM " --help", "r");
+  if (help == nullptr) std::abort();
+  std::vector<std::string> found;
+  bool listed = false;
+  for (std::array<char, 400> line{}; std::fgets(line.data(), line.size(), help) != nullptr;) {
+    const std::string text = line.data();
+    if (listed && text.rfind("  ", 0) != 0) break;
+    if (listed) found.push_back(text.substr(2, text.find(' ', 2) - 2));
+    listed = listed || text == "Verbs:\n";
+  }
+  pclose(help);
+  return found;
 }
 
 struct Met {
@@ -223,8 +270,20 @@ std::optional<Met> meet_in_time(const Case& c, int signal) {
   return std::nullopt;
 }
 
+TEST(Signals, TheTableHasEveryVerb) {
+  const Folder folder;
+  const std::vector<Case> all = cases(folder);
+  const std::vector<std::string> listed = verbs();
+  EXPECT_GE(listed.size(), 20u);
+  for (const std::string& verb : listed) {
+    if (verb == "completion" || verb == "manual") continue;  // what they say is there at once
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Case& c) { return c.arguments[0] == verb; })) << verb;
+  }
+}
+
 TEST(Signals, EveryVerbInEveryPhaseEndsWithin300Milliseconds) {
   const Folder folder;
+  folder.fill();
   std::printf("%-10s %-38s %-8s %8s\n", "verb", "phase", "signal", "ms");
   for (const Case& c : cases(folder)) {
     for (const int signal : {SIGINT, SIGTERM}) {

@@ -322,6 +322,14 @@ static Real lever_rounding(const Mesh& mesh) {
   return kEpsilon * lever * mesh.unit();
 }
 
+static Real shortest_edge(const Mesh& mesh) {
+  double shortest = kInfinity;
+  for (const double l : mesh.lengths()) {
+    if (l > 0) shortest = std::min(shortest, l);
+  }
+  return mesh.unit() * shortest;
+}
+
 Outcome Examination::targets() {
   Outcome out;
   DistanceOptions options;
@@ -335,7 +343,8 @@ Outcome Examination::targets() {
     const Real truth = truth_.target[i];
     // Where the run ended before any vertex off the curve was reached, no vertex has a bound to go by.
     const Real beside = curves_ ? 32 * lever_rounding(case_.mesh) : 0;
-    const Real room = std::max(Real{largest_bound(field)}, beside) + rounding_of(case_.mesh, case_.targets[i]);
+    const Real room =
+        std::max(Real{largest_bound(field)}, beside) + rounding_of(case_.mesh, case_.targets[i]) + kLeastStep;
     const Real length = std::abs(truth - offset);
     const bool wrong = same_reach({field.target_distance[i], truth, length, kInfinity}, "", out) &&
                        std::abs(field.target_distance[i] - truth) > room + Real{kExactPromise} * length;
@@ -381,8 +390,10 @@ Outcome Examination::windows(const Task& task) {
     if (task.kind == Task::Kind::Windows) {
       // From lengths alone nothing is known of what lies next to a source but through frames: see error_bound.
       const bool blind = !case_.mesh.has_positions() && value.length < 1e-6 * case_.mesh.unit();
-      // And beside a curve no vertex is known better than rounding, which is counted twice.
-      const Real beside = curves_ ? 2 * 32 * lever_rounding(case_.mesh) : 0;
+      // Nearer to a curve than the shortest edge is long, where the reserve of the tolerance does not cover it, a
+      // vertex is known no better than what rounding may do.
+      const bool is_beside = curves_ && value.length < shortest_edge(case_.mesh);
+      const Real beside = is_beside ? (1 + task.tolerance) * 32 * lever_rounding(case_.mesh) : 0;
       hold_bound(value, blind ? kInfinity : task.tolerance, offsets, beside, vertex_text(v), out);
     } else {
       hold_side(value, task.kind == Task::Kind::Lower, vertex_text(v), out);

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 
 namespace brushfire::corpus {
@@ -28,22 +27,50 @@ constexpr Once kWrongOnce[] = {
     {"lattice", 20261201, 329, "paths", "the vertex before a source in a face without size was left out"},
     {"zoo", 20261202, 443, "paths", "offsets far beyond a mesh without size that were taken for ties"},
     {"lattice", 20261201, 15, "exact", "a chord that a rounded window undercut, with the bound of the chord"},
+    {"curves-needles", 7, 45, "exact", "a curve's end whose light lost a tie with parallel light that begins there"},
+    {"curves-components", 7, 45, "windows", "a vertex beside a curve, to rounding on it, with a bound of 0"},
+    {"curves-zoo", 7, 11, "paths", "a curve with several values at a vertex, from which a path began with any"},
+    {"curves-far-point", 7, 31, "paths", "a place near the end of a segment 1e16 long, by a share of one double"},
+    {"curves-fans", 7, 25, "paths", "a search that trusted shares of a spoke 1e14 times as long as the leg"},
+    {"curves-collinear", 7, 41, "exact", "parallel light of less than nothing at a place of the curve"},
 };
+
+// curves-NAME: curves on the complexes of NAME.
+Family family_called(const std::string& name) {
+  const std::string curves = "curves-";
+  const bool has_curves = name.rfind(curves, 0) == 0;
+  for (const Family& f : small_families()) {
+    if (f.name == (has_curves ? name.substr(curves.size()) : name)) return has_curves ? with_curves(f) : f;
+  }
+  return {};
+}
 
 TEST(Corpus, WhatWasWrongOnceIsRight) {
   for (const Once& once : kWrongOnce) {
-    const auto families = small_families();
-    const auto family =
-        std::find_if(families.begin(), families.end(), [&](const Family& f) { return f.name == once.family; });
-    ASSERT_NE(family, families.end());
-    Examination examination(*family, once.seed);
-    const std::vector<Task> tasks = tasks_of({once.method}, {});
+    const Family family = family_called(once.family);
+    ASSERT_FALSE(family.name.empty()) << once.family;
+    Examination examination(family, once.seed);
+    const std::vector<Task> tasks = tasks_of({once.method}, {0.01});
     for (const std::size_t start : {0u, 1u}) {
       const Outcome outcome = examination.run(once.index, start, tasks.back());
       limit_processor_time(0);
       EXPECT_TRUE(outcome.good()) << once.family << ", " << once.what << ": " << outcome.text;
     }
   }
+}
+
+// Its bound was as large as its value: docs/decisions/wide-numbers.md.
+TEST(Corpus, AVertexBeyondOneThatTheSourceIsVeryNearToIsShown) {
+  const auto families = small_families();
+  const auto far =
+      std::find_if(families.begin(), families.end(), [](const Family& f) { return f.name == "far-point"; });
+  ASSERT_NE(far, families.end());
+  const Case c = make_case(*far, 20261202, 38);
+  DistanceOptions options;
+  options.method = Method::Exact;
+  const DistanceField field = distance(c.mesh, c.starts[1], options);
+  EXPECT_NEAR(field.distance[11], 1.7695483778716121, 1e-15);
+  EXPECT_LT(field.error_bound[11], 1e-12);
 }
 
 }  // namespace

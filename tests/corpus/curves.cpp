@@ -6,6 +6,7 @@
 #include <brushfire/mesh/detail/flat_face.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -116,14 +117,19 @@ std::optional<double> offset_at(const Mesh& mesh, const Source& source, const Su
   const auto offer = [&](double value) {
     if (!best || std::abs(value - expected) < std::abs(*best - expected)) best = value;
   };
-  for (const CurveSegment& s : curve.segments) {
-    const auto weights = weights_in(mesh, at, s.face);
-    if (!weights) continue;
-    const double from = mesh.unit() * distance_within(mesh, s.face, s.from, *weights);
-    const double to = mesh.unit() * distance_within(mesh, s.face, *weights, s.to);
-    if (from + to - s.length > room) continue;
-    const double t = s.length > 0 ? std::min(1.0, from / s.length) : 0;
-    offer(source.offset + s.from_offset + t * (s.to_offset - s.from_offset));
+  // A segment along an edge is in all of the edge's faces.
+  for (const Index f : faces_at(mesh, at)) {
+    const std::array<double, 3> weights = *weights_in(mesh, at, f);
+    for (const CurveSegment& s : curve.segments) {
+      const auto begin = weights_in(mesh, curve.places[s.from_place].at, f);
+      const auto end = weights_in(mesh, curve.places[s.to_place].at, f);
+      if (!begin || !end || (f != s.face && !s.along_edge)) continue;
+      const double from = mesh.unit() * distance_within(mesh, f, *begin, weights);
+      const double to = mesh.unit() * distance_within(mesh, f, weights, *end);
+      if (from + to - s.length > room) continue;
+      const double t = s.length > 0 ? std::min(1.0, from / s.length) : 0;
+      offer(source.offset + s.from_offset + t * (s.to_offset - s.from_offset));
+    }
   }
   for (const CurvePlace& p : curve.places) {
     const Index f = common_face(mesh, p.at, at);

@@ -59,5 +59,30 @@ TEST(ExactFromCurves, IsWhatTheOracleSaysOnEverySurface) {
   }
 }
 
+// Two rows of vertices on one line, whose faces have no area, and a face on either side. A segment along the line whose
+// value grows as fast as it is long sends its own light along the line only: what lies beside is lit by its end.
+TEST(ExactFromCurves, ASteepSegmentInFacesWithoutAreaLightsWhatLiesBeside) {
+  const std::vector<Vec3> positions{{-0.1, 0, 0}, {0.2, 0, 0}, {0.4, 0, 0}, {0.6, 0, 0}, {0.0, 0, 0}, {0.2, 0, 0},
+                                    {0.4, 0, 0},  {0.6, 0, 0}, {0.1, 1, 0}, {0.3, 1, 0}, {0.5, 1, 0}};
+  const std::vector<Face> faces{{0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5},  {2, 3, 7}, {2, 7, 6},
+                                {4, 5, 8}, {5, 9, 8}, {5, 6, 9}, {6, 10, 9}, {6, 7, 10}};
+  const Mesh mesh(positions, faces);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> anywhere(0, 1);
+  for (int turn = 0; turn < 200; ++turn) {
+    const Index face = 2 + turn % 2;
+    const double at = anywhere(random), to = anywhere(random);
+    CurveSource curve{{{face, {1 - at, at, 0}}, {face, {1 - to, to, 0}}}};
+    curve.offsets = {-0.1, -0.1 + locate(mesh, curve).segments.front().length};
+    const std::vector<Source> sources{source_along(curve)};
+    const Truth truth = polyhedral_distance(mesh, sources);
+    const DistanceField field = distance(mesh, sources, {.method = Method::Exact});
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      EXPECT_NEAR(field.distance[v], static_cast<double>(truth.distance[v]), field.error_bound[v])
+          << "face " << face << ", from " << at << " to " << to << ", vertex " << v;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace brushfire::oracle

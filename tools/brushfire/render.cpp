@@ -5,6 +5,7 @@
 #include "interrupt.h"
 #include "sources.h"
 #include "surface.h"
+#include "weights.h"
 
 #include <brushfire/core/detail/memory.h>
 #include <brushfire/figure/ambient_occlusion.h>
@@ -14,6 +15,7 @@
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/voronoi.h>
+#include <brushfire/queries/weighted_path.h>
 #include <brushfire/solvers/distance.h>
 
 #include <algorithm>
@@ -131,6 +133,9 @@ void check(const Arguments& a) {
   if (has_source || !a.shared.scalar_file.empty()) check_scalar_or_source(a.shared);
   if (!has_source && !a.paths.empty()) refuse("--path needs a --source to come from");
   if (!has_source && a.labels) refuse("--labels colours by the nearest --source: give some");
+  if (const char* name = given(a.shared, kWeights); name != nullptr && !has_source) {
+    refuse(std::string(name) + " needs a --source");
+  }
   if (!has_source && computing) refuse(std::string(computing) + " needs a --source");
   if (a.error && a.shared.methods.size() < 2) refuse("--error compares with the last --method: give at least two");
   if (!a.error_range.empty() && !a.error) refuse("--error-range is the range of the colours of --error");
@@ -168,18 +173,31 @@ struct Shown {
   std::vector<Polyline> paths;
 };
 
-// Paths are exact whatever the method of the colours: that is what a path is compared with.
+// Paths are exact whatever the method of the colours: that is what a path is compared with. Of costs, where they are
+// asked for.
 void find_paths(const Surface& surface, PlaceFinder& places, const DistanceOptions& how, Shown& shown) {
   if (shown.ends.empty()) return;
   const Mesh& mesh = surface.mesh();
   std::vector<SurfacePoint> targets;
   for (const Where& w : shown.ends) targets.push_back(places.target(surface.place(w)));
-  DistanceSolver solver(surface.domain());
-  const std::vector<SourcePath> found = paths_to(solver, shown.sources, targets, how);
+  std::vector<std::vector<SurfacePoint>> found;
+  if (how.weighting) {
+    WeightedSolver solver = how.weighting->solver();
+    WeightedOptions options;
+    options.tolerance = how.weighting->options().tolerance;
+    options.towards = how.weighting->options().towards;
+    options.lower = false;
+    options.max_distance = how.max_distance;
+    for (WeightedPath& p : weighted_paths(solver, shown.sources, targets, options))
+      found.push_back(std::move(p.points));
+  } else {
+    DistanceSolver solver(surface.domain());
+    for (SourcePath& p : paths_to(solver, shown.sources, targets, how)) found.push_back(std::move(p.points));
+  }
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i].points.empty()) throw Unreachable(shown.ends[i].text, how.max_distance < kInfinity);
+    if (found[i].empty()) throw Unreachable(shown.ends[i].text, how.max_distance < kInfinity);
     Polyline& line = shown.paths.emplace_back();
-    for (const SurfacePoint& p : found[i].points) line.points.push_back(position(mesh, p));
+    for (const SurfacePoint& p : found[i]) line.points.push_back(position(mesh, p));
   }
 }
 
@@ -306,8 +324,9 @@ Panel read_panel(const Arguments& a, const Surface& surface) {
 // One for each method.
 std::vector<Panel> solved_panels(const Arguments& a, const Surface& surface, PlaceFinder& places,
                                  RenderOptions& options, const Talk& talk) {
-  const std::vector<DistanceOptions> methods =
+  std::vector<DistanceOptions> methods =
       a.shared.methods.empty() ? std::vector{computation(a.shared)} : computations(a.shared, {});
+  weigh(methods.front(), a.shared, surface);
   Shown shown{sources_on(surface, places, parse_sources(a.shared)), parse_places(a.paths, "the end of a path"), {}};
   find_paths(surface, places, methods.front(), shown);
   std::vector<Panel> panels;

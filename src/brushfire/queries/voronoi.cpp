@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/solvers/detail/walls.h>
+#include <brushfire/solvers/steiner/weighting.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,10 @@ void measure(const Mesh& mesh, const detail::WalledRun& sources, const DistanceO
     const auto bound = [&](const SharedFace& face, std::size_t from, std::size_t to) {
       const Index own = 3 * face.face + static_cast<Index>(from);
       const Index edge = (from + 1) % 3 == to ? own : Mesh::previous(own);
-      const double along = from == to ? 0 : mesh.lengths()[edge] * mesh.unit();
+      const double along = from == to ? 0
+                           : options.weighting
+                               ? options.weighting->along(face.face, static_cast<Index>(from), static_cast<Index>(to))
+                               : mesh.lengths()[edge] * mesh.unit();
       return diagram.distance[mesh.from(own)] + along;
     };
     for (const auto& [i, k] : of_source[s]) {
@@ -246,6 +250,7 @@ VoronoiDiagram voronoi(const Domain& domain, std::span<const Source> sources, co
   run.targets.clear();
   // All of it on the open mesh, where what lies at walls is there once for every side.
   const Mesh& mesh = domain.open();
+  if (run.weighting && domain.has_walls()) run.weighting = std::make_shared<const Weighting>(run.weighting->on_open());
   const detail::WalledRun walled(domain, sources, run);
   DistanceField field = distance(mesh, walled.sources(), run);
   VoronoiDiagram diagram;

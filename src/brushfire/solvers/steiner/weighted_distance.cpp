@@ -4,6 +4,7 @@
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/refraction/detail/run.h>
+#include <brushfire/solvers/steiner/detail/curve_points.h>
 #include <brushfire/solvers/steiner/detail/run.h>
 
 #include <algorithm>
@@ -49,13 +50,17 @@ Density density_for(Costs costs, double tolerance, unsigned doublings) {
 // Windows take no less time where they may be farther apart than this.
 constexpr double kWidestWindows = 0.02;
 
-void check(const WeightedOptions& options) {
-  if (!(options.tolerance >= kLeastWeightedTolerance && options.tolerance <= kMostWeightedTolerance)) {
-    throw Error(ErrorCode::InvalidArgument, "tolerance " + number_as_text(options.tolerance) + " is not in [" +
+void check_tolerance(double tolerance) {
+  if (!(tolerance >= kLeastWeightedTolerance && tolerance <= kMostWeightedTolerance)) {
+    throw Error(ErrorCode::InvalidArgument, "tolerance " + number_as_text(tolerance) + " is not in [" +
                                                 number_as_text(kLeastWeightedTolerance) + ", " +
                                                 number_as_text(kMostWeightedTolerance) + "]: weighted distances are " +
                                                 "computed between bounds");
   }
+}
+
+void check(const WeightedOptions& options) {
+  check_tolerance(options.tolerance);
   if (!(options.max_distance >= 0)) {
     throw Error(ErrorCode::InvalidArgument,
                 "max_distance " + number_as_text(options.max_distance) + " is not a number >= 0");
@@ -70,11 +75,7 @@ double least_offset(std::span<const Source> sources) {
       throw Error(ErrorCode::InvalidArgument,
                   "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
     }
-    if (sources[i].curve) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "source " + std::to_string(i) + " is a curve: weighted distances start at points");
-    }
-    least = std::min(least, sources[i].offset);
+    least = std::min(least, brushfire::least_offset(sources[i]));
   }
   return least;
 }
@@ -108,6 +109,8 @@ struct WeightedSolver::Workspace {
   bool follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field);
   void search(Run& run, const WeightedOptions& options, const PointLayout* below, WeightedField& field) const;
   void fill_upper(const Run& run, const WeightedOptions& options, WeightedField& field) const;
+  template <class Value>
+  void fill_sides(double base, double horizon, Value value, const WeightedOptions& options, WeightedField& field) const;
   void fill_lower(const Search& below, const Run& run, const WeightedOptions& options, WeightedField& field) const;
 };
 
@@ -128,20 +131,16 @@ void WeightedSolver::Workspace::locate(std::span<const Source> sources, const We
   run.base = least_offset(sources);
   run.given.assign(sources.begin(), sources.end());
   const double unit = mesh->mesh().unit();
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    if (sources[i].curve) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "source " + std::to_string(i) + " is a curve: weighted distances start at points");
+  std::vector<std::uint8_t> is_open(sources.size(), 0);
+  for (const PointSource& s : with_points_of_curves(*mesh, run.layout.get(), sources)) {
+    for (const SurfacePoint& p : mesh->on_open(s.point)) {
+      is_open[s.label] = 1;
+      run.sources.push_back({brushfire::locate(mesh->mesh(), p), (s.offset - run.base) / unit, s.label, nullptr});
     }
-    const std::vector<SurfacePoint> sides = mesh->on_open(sources[i].point);
-    if (sides.empty()) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "source " + std::to_string(i) + " lies behind a wall: nothing can be reached from there");
-    }
-    for (const SurfacePoint& p : sides) {
-      run.sources.push_back(
-          {brushfire::locate(mesh->mesh(), p), (sources[i].offset - run.base) / unit, static_cast<Index>(i), nullptr});
-    }
+  }
+  if (const auto closed = std::find(is_open.begin(), is_open.end(), 0); closed != is_open.end()) {
+    throw Error(ErrorCode::InvalidArgument, "source " + std::to_string(closed - is_open.begin()) +
+                                                " lies behind a wall: nothing can be reached from there");
   }
   for (const SurfacePoint& t : options.targets) {
     std::vector<PointLocation>& sides = run.targets.emplace_back();
@@ -192,6 +191,7 @@ void WeightedSolver::Workspace::fill_upper(const Run& run, const WeightedOptions
     least = d;
     field.source[mesh->vertex(v)] = run.given.size() == 1 ? 0 : label(run.front.vertex_parent[v]);
   }
+  fill_sides(run.base, horizon, [&](Index v) { return run.front.vertex_value[v]; }, options, field);
   field.reached = static_cast<Index>(
       std::count_if(field.distance.begin(), field.distance.end(), [](double d) { return d < kInfinity; }));
   for (const std::vector<ValueAt>& sides : run.target_values) {
@@ -201,6 +201,19 @@ void WeightedSolver::Workspace::fill_upper(const Run& run, const WeightedOptions
     const bool is_reached = d < kInfinity && d <= options.max_distance;
     field.target_distance.push_back(is_reached ? d : kInfinity);
     field.target_source.push_back(is_reached ? label(best.parent) : kNoIndex);
+  }
+}
+
+// value(v): what is known at the mesh's vertex v, final up to the horizon.
+template <class Value>
+void WeightedSolver::Workspace::fill_sides(double base, double horizon, Value value, const WeightedOptions& options,
+                                           WeightedField& field) const {
+  if (!domain.has_walls()) return;
+  field.side_distance.assign(domain.open().vertex_count(), kInfinity);
+  for (Index v = 0; v < mesh->mesh().vertex_count(); ++v) {
+    const double at = value(v), d = at <= horizon ? base + at * mesh->mesh().unit() : kInfinity;
+    double& least = field.side_distance[mesh->open_vertex(v)];
+    if (d <= options.max_distance) least = std::min(least, d);
   }
 }
 
@@ -238,7 +251,7 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
 // Both bounds by windows. False, and the field is empty, where they cannot be followed.
 bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field) {
   if (!medium) medium = std::make_unique<refraction::Medium>(*mesh);
-  if (!medium->is_followable()) return false;
+  if (!medium->is_followable(options.tolerance)) return false;
   std::vector<PointLocation> places;
   for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
   const double unit = mesh->mesh().unit();
@@ -280,6 +293,7 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
     give(known[v], options.targets.empty(), field.distance[v], field.lower[v], field.source[v]);
     field.reached += field.distance[v] < kInfinity;
   }
+  fill_sides(run.base, horizon, [&](Index v) { return windows.at_vertex(v).upper; }, options, field);
   std::size_t place = 0;
   for (const auto& sides : run.targets) {
     refraction::Known there;
@@ -298,12 +312,16 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
   auto run = std::make_shared<Run>();
   run->mesh = mesh;
   run->towards = options.towards;
+  const bool from_curves =
+      std::any_of(sources.begin(), sources.end(), [](const Source& s) { return s.curve != nullptr; });
+  const bool lower = options.lower && !from_curves;
+  if (from_curves) run->layout = points_for(Costs::Real, options, doublings);
   locate(sources, options, *run);
   WeightedField field;
-  if (options.lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
+  if (lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
   run->layout = points_for(Costs::Real, options, doublings);
   std::shared_ptr<const PointLayout> below;
-  if (options.lower && !weights.pace) below = points_for(Costs::Below, options, doublings);
+  if (lower && !weights.pace) below = points_for(Costs::Below, options, doublings);
   search(*run, options, below.get(), field);
   field.points = run->layout->size() + (below ? below->size() : 0);
   field.run = std::move(run);
@@ -314,7 +332,13 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
 WeightedField WeightedSolver::Workspace::run_uniform(std::span<const Source> sources, const WeightedOptions& options) {
   if (!plain) plain = std::make_unique<DistanceSolver>(domain);
   std::vector<Source> scaled(sources.begin(), sources.end());
-  for (Source& s : scaled) s.offset /= uniform;
+  for (Source& s : scaled) {
+    s.offset /= uniform;
+    if (!s.curve || s.curve->offsets.empty()) continue;
+    CurveSource curve = *s.curve;
+    for (double& offset : curve.offsets) offset /= uniform;
+    s.curve = std::make_shared<const CurveSource>(std::move(curve));
+  }
   DistanceOptions how;
   how.tolerance = std::min(options.tolerance, kMaxTolerance);
   how.bound = Bound::Upper;
@@ -328,7 +352,8 @@ WeightedField WeightedSolver::Workspace::run_uniform(std::span<const Source> sou
   field.target_distance = found.target_distance;
   field.target_source = found.target_source;
   field.reached = found.reached;
-  for (std::vector<double>* values : {&field.distance, &field.target_distance}) {
+  field.side_distance = found.side_distance;
+  for (std::vector<double>* values : {&field.distance, &field.target_distance, &field.side_distance}) {
     for (double& d : *values) d *= uniform;
   }
   if (!options.lower) return field;
@@ -349,11 +374,33 @@ WeightedSolver::WeightedSolver(Domain domain, Weights weights) : workspace_(std:
   workspace_->weights = std::move(weights);
   workspace_->uniform = workspace_->weights.uniform();
 }
+WeightedSolver::WeightedSolver(std::unique_ptr<Workspace> workspace) : workspace_(std::move(workspace)) {}
 WeightedSolver::~WeightedSolver() = default;
 WeightedSolver::WeightedSolver(WeightedSolver&&) noexcept = default;
 WeightedSolver& WeightedSolver::operator=(WeightedSolver&&) noexcept = default;
 const Domain& WeightedSolver::domain() const noexcept { return workspace_->domain; }
 const Weights& WeightedSolver::weights() const noexcept { return workspace_->weights; }
+
+void WeightedSolver::prepare(double tolerance) {
+  check_tolerance(tolerance);
+  Workspace& w = *workspace_;
+  if (w.uniform > 0) return;
+  if (!w.mesh) w.mesh = std::make_shared<WeightedMesh>(w.domain, w.weights);
+  WeightedOptions options;
+  options.tolerance = tolerance;
+  w.points_for(Costs::Real, options, 0);
+}
+
+WeightedSolver WeightedSolver::twin() const {
+  auto workspace = std::make_unique<Workspace>();
+  workspace->domain = workspace_->domain;
+  workspace->weights = workspace_->weights;
+  workspace->uniform = workspace_->uniform;
+  workspace->mesh = workspace_->mesh;
+  workspace->for_real = workspace_->for_real;
+  workspace->for_below = workspace_->for_below;
+  return WeightedSolver(std::move(workspace));
+}
 
 WeightedField WeightedSolver::distance(std::span<const Source> sources, const WeightedOptions& options) {
   const CancelScope listen(options.cancel);

@@ -49,7 +49,7 @@ std::vector<double> on_open(const Domain& domain, const std::vector<double>& wei
 
 Weights opened(const Domain& domain, const Weights& weights) {
   check(domain.mesh(), weights);
-  return {on_open(domain, weights.face), on_open(domain, merged(weights.edges)), weights.pace};
+  return weights_on_open(domain, weights);
 }
 
 Barriers barriers_of(const Mesh& mesh, const Weights& weights) {
@@ -70,6 +70,10 @@ Domain fenced(const Mesh& mesh, const Weights& weights) {
 }
 
 }  // namespace
+
+Weights weights_on_open(const Domain& domain, const Weights& weights) {
+  return {on_open(domain, weights.face), on_open(domain, merged(weights.edges)), weights.pace};
+}
 
 WeightedMesh::WeightedMesh(const Domain& domain, const Weights& weights)
     : WeightedMesh(domain, Opened{opened(domain, weights)}) {}

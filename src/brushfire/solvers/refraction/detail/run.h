@@ -103,7 +103,6 @@ class Run {
   Origin origin_at(Index v) const;
   windows::WindowFace& face(Index h) { return medium_.structure.faces[h / 3]; }
   windows::EdgeBounds bounds(const windows::WindowFace& f, Index k, double inverse_weight) const;
-  double rounding_of(double cost) const;
 
   Medium& medium_;
   std::span<const detail::LocatedSource> sources_;

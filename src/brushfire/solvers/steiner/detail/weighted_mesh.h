@@ -17,6 +17,9 @@ struct Bridge {
   double cost = 0;                       // of crossing, in mesh().unit()
 };
 
+// Weights in the numbers of domain.open(), all of it without walls of cost +inf. O(faces).
+Weights weights_on_open(const Domain& domain, const Weights& weights);
+
 class WeightedMesh {
  public:
   // Throws as check() does. O(vertices + faces + edges that are special).
@@ -37,6 +40,7 @@ class WeightedMesh {
 
   // Points and vertices of the caller's mesh there and back, as those of Domain.
   std::vector<SurfacePoint> on_open(const SurfacePoint& point) const;
+  Index open_vertex(Index v) const { return fenced_.vertex(v); }  // of domain().open()
   Index vertex(Index v) const { return domain_.vertex(fenced_.vertex(v)); }
   void to_caller(std::span<SurfacePoint> points) const;
 

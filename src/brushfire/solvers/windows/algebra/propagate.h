@@ -101,7 +101,7 @@ template <class Left, class Right>
 // Whether all light of the window that is worth less than `radius` ends in the triangle: the lines through its other
 // edges, as far as any light goes there, are farther. A false "no" costs time only.
 inline bool ends_in_face(const Window& w, const Frame& frame, Real radius) {
-  if (w.kind != WindowKind::Circular) return false;
+  if (w.kind != WindowKind::Circular || !(w.source.y < 0)) return false;  // on the edge of a face without area
   const Vec2 c = frame.apex, b{frame.length, 0};
   const Crossing at = crossing(w, c);
   const Real room = radius - w.sigma;

@@ -17,6 +17,11 @@ inline Real equal_slope(const Window& a, const Window& b) {
 // other is at most this much better.
 inline Real tie(Real value) { return 8 * kEpsilon * abs(value); }
 
+// What light that has come through a few frames may have been moved by, to and fro: some epsilons of the longest number
+// that describes it. Of parallel light, whose values are differences of such numbers, that is more than any epsilon of
+// the value.
+inline Real moved(const Window& w) { return 32 * kEpsilon * (extent_of(w) + w.b1); }
+
 // |x-a| - |x-b| = d  for x on the edge, squared twice: with L(x) = |x-a|^2 - |x-b|^2 - d^2 = slope x + rest, linear,
 // L(x) = 2 d |x-b|, so L^2 = 4 d^2 |x-b|^2 with the root where L and d have the same sign. Origin at p, so that short
 // intervals keep their digits. Returns x - p, in [0, length], or -1 where rounding leaves none or both roots.

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 #include <vector>
 
@@ -27,6 +28,9 @@ using detail::WideFrame, detail::wide_corners, detail::wide_frame, detail::wide_
 constexpr int kMostBack = 64;
 // Once the value is explained, so many more wedges are looked into for the pseudo-source that the field names itself.
 constexpr int kPatience = 256;
+// Shares of an edge are doubles: what they place, and the values that follow from it, is known to two roundings of the
+// edge's length each. (Beside a vertex of an edge 1e16 long that is much.)
+constexpr double kShares = 4 * std::numeric_limits<double>::epsilon();
 // A pass ends after so many wedges. Along the hint a leg needs few for each face that it crosses, or it is going
 // astray.
 constexpr std::size_t kMostWedges = 1 << 15, kFewWedges = 1 << 12, kWedgesPerFace = 4;
@@ -233,7 +237,7 @@ class LegSearch {
     const double foot = std::clamp(-dot(rounded(w.right), edge) / dot(edge, edge), span.x, span.y);
     const double value = std::max(right - meet * length, left - (1 - meet) * length);
     const double least = pass_ == Pass::WithoutValues ? way_to(foot) : std::max(way_to(meet) + value, way_to(foot));
-    return origins_[w.origin].before + least;
+    return origins_[w.origin].before + least - kShares * length;
   }
   // A run that stopped early does not know values that are larger than where it stopped: those are NaN.
   double known(Index v) const { return value_of(v) >= 0 ? value_of(v) : value_; }
@@ -276,13 +280,16 @@ class LegSearch {
     if (c.segment == kNoIndex) {
       goal.weights = place_in_face(mesh_, curve, c.place, c.face).weights;
       offset = curve.places[c.place].offset;
+      goal.place = wide_point(corners, goal.weights);
     } else {
       const SegmentInFace s = *segment_in_face(mesh_, curve, c.segment, c.face, 0);
-      const double share = best_share(s, wide_point(corners, s.from), wide_point(corners, s.to));
-      goal.weights = weights_along(s, share);
-      offset = (1 - share) * s.from_value + share * s.to_value;
+      const WideVec2 from = wide_point(corners, s.from), to = wide_point(corners, s.to);
+      // All of it in 106 bits: beside the end of a segment 1e16 long, shares of one double are far apart.
+      const DoubleDouble share = best_share(s, from, to), rest = DoubleDouble(1) - share;
+      for (std::size_t k = 0; k < 3; ++k) goal.weights[k] = (rest * s.from[k] + share * s.to[k]).high;
+      offset = (rest * s.from_value + share * s.to_value).high;
+      goal.place = from + share * (to - from);
     }
-    goal.place = wide_point(corners, goal.weights);
     if (goal.wedge != kStart && !in_wedge(wedges_[goal.wedge], goal.place)) return;
     goal.source = c.source;
     goal.length = length_of(goal.place);
@@ -290,15 +297,15 @@ class LegSearch {
   }
 
   // From `from` to `to`, of the place where offset and way to the origin are least together: LineSource::sight_of().
-  static double best_share(const SegmentInFace& s, WideVec2 from, WideVec2 to) {
+  static DoubleDouble best_share(const SegmentInFace& s, WideVec2 from, WideVec2 to) {
     const WideVec2 step = to - from;
     const DoubleDouble length = norm(step), slope = (DoubleDouble(s.to_value) - DoubleDouble(s.from_value)) / length;
     const DoubleDouble ahead = -dot(from, step) / length, aside = cross(from, step) / length;
     const DoubleDouble rise2 = (DoubleDouble(1) - slope) * (DoubleDouble(1) + slope);
-    const double away = std::abs(aside.high);
-    const double lean =
-        rise2.high > 0 ? away * slope.high / std::sqrt(rise2.high) : std::copysign(kInfinity, slope.high);
-    return std::clamp(((ahead - DoubleDouble(lean)) / length).high, 0.0, 1.0);
+    const DoubleDouble away = aside.high < 0 ? -aside : aside;
+    if (!(rise2.high > 0)) return slope.high > 0 ? 0.0 : 1.0;
+    const DoubleDouble share = (ahead - away * slope / sqrt(rise2)) / length;
+    return share.high > 0 ? (share < 1.0 ? share : DoubleDouble(1)) : DoubleDouble(0);
   }
 
   void offer_corner(LegGoal goal, Index k, WideVec2 place) {

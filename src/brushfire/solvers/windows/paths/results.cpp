@@ -9,6 +9,16 @@
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
+Results::Results(RunState& run, std::span<Part> parts, DistanceField& field) : run_(run), parts_(parts), field_(field) {
+  for (const detail::LocatedSource& s : run_.problem->sources) {
+    if (!s.curve) continue;
+    for (const CurvePlace& p : s.curve->places) {
+      if (p.at.on == PointLocation::On::Vertex && p.offset == 0) places_.emplace_back(s.label, p.at.vertex);
+    }
+  }
+  std::sort(places_.begin(), places_.end());
+}
+
 void Results::write(std::vector<Index>& scratch, ThreadTeam* team) {
   finish_targets();
   finish_labels(scratch);
@@ -127,7 +137,7 @@ Results::Tally Results::write_vertices(const Part& part) {
       rounding.absolute = 0;
       s.upper = s.estimate = s.lower;  // a window that comes to less is rounded
     }
-    const CertifiedValue r = read(s.lower, s.upper, s.estimate, label, rounding);
+    const CertifiedValue r = read(s.lower, s.upper, s.estimate, label, rounding, outer);
     field_.distance[outer] = to_double(r.value - run_.shift);
     field_.source[outer] = label;
     if (!run_.problem->touched) field_.error_bound[outer] = r.bound;
@@ -234,9 +244,18 @@ bool Results::is_chord(Index outer, const VertexValues& values) const {
   });
 }
 
-CertifiedValue Results::read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const {
-  return certified_value(lower, upper, estimate, run_.start_of(label), run_.shift, run_.budget.share, rounding,
-                         run_.problem->options->bound);
+bool Results::is_place(Index outer, Index label) const {
+  return outer != kNoIndex && std::binary_search(places_.begin(), places_.end(), std::pair{label, outer});
+}
+
+// Of a vertex of the mesh, or of some point. A curve's parallel light may come to nothing where it is merely near.
+CertifiedValue Results::read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding,
+                             Index outer) const {
+  const Real start = run_.start_of(label);
+  const bool is_beside =
+      !(std::min(lower, upper) > start) && run_.problem->sources[label].curve && !is_place(outer, label);
+  return certified_value(lower, upper, estimate, start, run_.shift, run_.budget.share, rounding,
+                         run_.problem->options->bound, is_beside);
 }
 
 // With the mesh's own numbers. Sources come behind the vertices: here behind the mesh's, in the run behind the ghosts,

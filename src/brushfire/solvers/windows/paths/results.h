@@ -8,13 +8,14 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 class Results {
  public:
-  Results(RunState& run, std::span<Part> parts, DistanceField& field) : run_(run), parts_(parts), field_(field) {}
+  Results(RunState& run, std::span<Part> parts, DistanceField& field);
 
   // A target is told of a path; see reach_target().
   void offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight = true);
@@ -26,7 +27,9 @@ class Results {
   VertexValues with_ghosts(Index v) const;
   bool is_owner(Index v) const;
   bool is_chord(Index outer, const VertexValues& values) const;
-  CertifiedValue read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding) const;
+  bool is_place(Index outer, Index label) const;
+  CertifiedValue read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding,
+                      Index outer = kNoIndex) const;
   Index outer_pseudo_source(Index pseudo_source) const;
   Ray outer(Ray ray) const;
   void finish_targets();
@@ -49,6 +52,7 @@ class Results {
   RunState& run_;
   std::span<Part> parts_;
   DistanceField& field_;
+  std::vector<std::pair<Index, Index>> places_;  // label and vertex of places of curves that have their least value
 };
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -90,11 +90,15 @@ class Look {
   const Mesh& mesh_;
 };
 
-bool is_at_vertex(const detail::LocatedSource& source, Index vertex) {
+// Whether the source is at a vertex, and what paths begin with there explains the value: a curve may pass it with
+// another one.
+bool is_at_vertex(const windows::WindowFieldData& data, const PointRecord& record, Index source, Index vertex) {
+  const detail::LocatedSource& s = data.sources[source];
   const auto is_it = [&](const PointLocation& at) { return at.on == PointLocation::On::Vertex && at.vertex == vertex; };
-  if (!source.curve) return is_it(source.at);
-  return std::any_of(source.curve->places.begin(), source.curve->places.end(),
-                     [&](const CurvePlace& p) { return is_it(p.at); });
+  if (!s.curve) return is_it(s.at);
+  const double most = record.value - s.offset - data.shift + data.room_for(record);
+  return std::any_of(s.curve->places.begin(), s.curve->places.end(),
+                     [&](const CurvePlace& p) { return is_it(p.at) && p.offset <= most; });
 }
 
 // Where no ray came: the point is a source at a vertex, or the pseudo-source is at the other end of an edge.
@@ -108,7 +112,7 @@ WindowField::Leg leg_without_ray(const windows::WindowFieldData& data, const Fou
     const auto is_inside = [&] {
       return source.curve && source.curve->holds(mesh, locate(mesh, {found.at.face, found.at.weights}));
     };
-    if (!is_at_vertex(source, vertex) && !is_inside()) return {};
+    if (!is_at_vertex(data, found.record, pseudo_source - n, vertex) && !is_inside()) return {};
     leg.source = pseudo_source - n;
     leg.points.push_back({found.at.face, found.at.weights});
     return leg;

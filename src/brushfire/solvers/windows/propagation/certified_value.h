@@ -37,13 +37,12 @@ struct CertifiedValue {
 
 // For lower <= distance <= upper, to rounding, of a place whose paths begin with the value `start`, all of them raised
 // by `shift`; `share`: of the budget, 0 where the run was exact. A bound that is wanted stays on its side whatever
-// rounding did.
+// rounding did. `is_beside`: the value is `start` or less, to rounding, and the place is none that is known to be at
+// the source: parallel light beside its segment.
 inline CertifiedValue certified_value(Real lower, Real upper, Real estimate, Real start, Real shift, double share,
-                                      const Rounding& rounding, Bound wanted) {
-  lower = std::min(lower, upper);  // in exact runs they differ by rounding
-  // Parallel light beside its segment, to rounding: no path is shorter than nothing.
-  const bool is_beside = lower < start;
-  if (is_beside) lower = start, upper = std::max(upper, start);
+                                      const Rounding& rounding, Bound wanted, bool is_beside) {
+  lower = std::min(lower, upper);                                    // in exact runs they differ by rounding
+  if (lower < start) lower = start, upper = std::max(upper, start);  // no path is shorter than nothing
   const Real length = lower - start;
   const bool exact = !(share > 0);
   if (exact) upper = lower;

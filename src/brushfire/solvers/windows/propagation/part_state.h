@@ -23,6 +23,8 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // A vertex this little (relative) off a window's limit ray counts as seen, with the length of the path that bends.
 inline constexpr double kSeen = 1e-10 * kSqrtFiner;
+// (Beside its segment parallel light may come to a hair less than nothing.)
+inline bool is_seen(const Arrival& at) { return !(at.detour > 0) || at.detour <= kSeen * at.value; }
 
 // What is written by one thread all the time stays clear of what another one reads: processors fetch lines by twos.
 inline constexpr std::size_t kApart = 128;  // bytes

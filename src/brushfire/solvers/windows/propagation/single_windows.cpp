@@ -3,6 +3,7 @@
 
 #include <brushfire/solvers/windows/algebra/propagate.h>
 #include <brushfire/solvers/windows/algebra/sweep.h>
+#include <brushfire/solvers/windows/algebra/tie_point.h>
 #include <brushfire/solvers/windows/propagation/arrivals.h>
 #include <brushfire/solvers/windows/propagation/sink.h>
 
@@ -14,14 +15,14 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
 // L5. Windows with their source on the edge are not trimmed (all their light passes through that one point, where
-// others may tie with them): they go on whole unless another path to the source itself is shorter. Returns the
-// others.
+// others may tie with them): they go on whole unless another path to the source itself is shorter, by more than
+// rounding: parallel light of the segment that begins there is as short, and goes one way only. Returns the others.
 std::span<Window> set_apart(std::span<Window> windows, std::vector<Window>& on_edge) {
   const auto others = std::stable_partition(windows.begin(), windows.end(), is_on_edge);
   for (auto w = windows.begin(); w != others; ++w) {
     const Real x = w->source.x;
     const bool beaten = std::any_of(windows.begin(), windows.end(), [&](const Window& o) {
-      return o.b0 <= x && x <= o.b1 && value_at(o, x) - w->source.y < w->sigma - tie(w->sigma);
+      return o.b0 <= x && x <= o.b1 && value_at(o, x) - w->source.y < w->sigma - tie(w->sigma) - moved(o);
     });
     if (!beaten) on_edge.push_back(*w);
   }
@@ -94,14 +95,14 @@ template <WindowKind kKind>
   if (leaves_trail(f)) w.trail = part.trails.with(w.trail, h / 3);
   const Ray ray{w.source, h, w.pseudo_source, w.kind};
   const Arrival at = arrival(w, frame.apex);
-  if (at.detour <= kSeen * at.value) {
+  if (is_seen(at)) {
     part.vertices.reach(apex, at.value + w.slack);
     see_vertex(part, apex, at.value, ray, false);
   }
   if (f.has_target) {
     part.run->targets.for_each_in(h / 3, [&](const TargetInFace& t) {
       const Arrival there = arrival(w, in_frame(frame, h % 3, t.weights));
-      reach_target(part, t.target, there.value, w.slack, w.lift, ray, there.detour <= kSeen * there.value);
+      reach_target(part, t.target, there.value, w.slack, w.lift, ray, is_seen(there));
     });
   }
   if (part.run->problem->options->keep_windows) part.kept.push_back({part.run->structure.outer_halfedge(h), w});

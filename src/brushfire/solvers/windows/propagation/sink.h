@@ -41,7 +41,7 @@ inline bool leads_on(const PartState& part, Index h) { return part.face(h).beyon
   const Index apex = f.vertex[previous3(k)];
   part.vertices.reach(apex, at_apex.value + w.slack);
   if (at_apex.value > run.radius && ends_here(part, f, k, w)) return;
-  if (run.merges() && at_apex.detour <= kSeen * at_apex.value) part.vertices.expect(apex, at_apex.value, w.lift);
+  if (run.merges() && is_seen(at_apex)) part.vertices.expect(apex, at_apex.value, w.lift);
   // The key is the arrival at the far corner: by then everything that enters over the edge has come.
   EventQueue& queue = part.activity->queue;
   const std::int64_t bucket = queue.bucket_of(to_double(at_apex.value));

@@ -32,7 +32,7 @@ inline void offer_apex(PartState& part, Index apex, Real value, const WindowColu
     // The ray to the apex just misses the window.
     const Window window = w.window(i);
     const Arrival at = arrival(window, frame.apex);
-    if (at.detour <= kSeen * at.value) offer_apex(part, apex, at.value, w, i, h);
+    if (is_seen(at)) offer_apex(part, apex, at.value, w, i, h);
     value[i] = kInfinity;
   }
   // Nobody sees it: paths that bend where the windows next to it end.
@@ -51,8 +51,7 @@ void reach_targets(PartState& part, Index h, const Frame& frame, const WindowCol
     const Vec2 p = in_frame(frame, h % 3, t.weights);
     for (Index i = 0; i < count; ++i) {
       const Arrival there = arrival(w.window(i), p);
-      reach_target(part, t.target, there.value, 0, 0, {w.source(i), h, w.pseudo_source[i], w.kind(i)},
-                   there.detour <= kSeen * there.value);
+      reach_target(part, t.target, there.value, 0, 0, {w.source(i), h, w.pseudo_source[i], w.kind(i)}, is_seen(there));
     }
   });
 }

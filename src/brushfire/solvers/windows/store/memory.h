@@ -33,13 +33,8 @@ class WindowMemory {
   void clear() { known_.clear(); }
 
  private:
-  static constexpr double kTurns = 32 * kEpsilon;
-
-  // Light that has come round has been turned through a few frames: its source and its ends have moved by some
-  // epsilons of the longest number there. That must not look like an improvement, or it would go round for ever and
-  // improve each time; dropping a true one of that size costs no more than that.
-  static Real moved(const Window& w) { return kTurns * (extent_of(w) + w.b1); }
-
+  // What has moved() must not look like an improvement, or light would go round for ever and improve each time;
+  // dropping a true one of that size costs no more than that.
   static bool covers(const Window& k, const Window& w) {
     const Real m = moved(w);
     if (k.b0 > w.b0 + m || k.b1 < w.b1 - m) return false;

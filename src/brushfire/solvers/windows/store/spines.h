@@ -78,7 +78,7 @@ class SpineMemory {
 
   // Whether k is at most as long as w on [p,q]: the difference has its extremes at the ends and where slopes are equal.
   static bool is_no_longer(const Known& k, const Window& w, Index label, Real p, Real q) {
-    const Real moved = kTurns * (norm(w.source) + w.b1 + std::max(w.d0, w.d1));
+    const Real moved = kTurns * (extent_of(w) + w.b1 + std::max(w.d0, w.d1));
     const Real within = k.label <= label ? moved : -moved;
     const auto fits = [&](Real x) { return value_at(k.window, x) <= value_at(w, x) + within; };
     if (!fits(p) || !fits(q)) return false;
