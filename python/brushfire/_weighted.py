@@ -34,7 +34,8 @@ class Costs:
 
     ``upper``: what a real path costs, +inf where there is none. ``lower``: no path costs less, proven; None where no bounds
     were asked for. ``source``: the position in ``sources`` of where that path begins, -1 where there is none.
-    ``max_error_bound``, ``mean_error_bound``: the greatest and mean (upper - lower) / lower.
+    ``max_error_bound``, ``mean_error_bound``: the greatest and mean (upper - lower) / lower. ``engine``: what answered,
+    ``"windows"`` that refract, a search over ``"points"`` on edges, or ``"uniform"``: plain distances times the weight.
     """
 
     upper: Floats
@@ -42,6 +43,7 @@ class Costs:
     source: Labels
     max_error_bound: float
     mean_error_bound: float
+    engine: str
 
 
 @dataclass(frozen=True)
@@ -194,7 +196,7 @@ class Weighted:
         start = sources_of(self._on, sources, offset)
         end = None if targets is None else self._on._arrays(targets, "targets")
         with shown(progress, "distance") as report:
-            upper, source, below, most, mean = self._solver.solve(
+            upper, source, below, most, mean, engine = self._solver.solve(
                 start,
                 end.index if end else None,
                 end.weights if end else None,
@@ -205,7 +207,7 @@ class Weighted:
                 radius_of(radius),
                 report,
             )
-        return Costs(upper, below, source, most, mean)
+        return Costs(upper, below, source, most, mean, engine)
 
     def path(
         self,

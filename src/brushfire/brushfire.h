@@ -18,6 +18,7 @@
 #include <brushfire/mesh/reachable.h>
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/shapes.h>
+#include <brushfire/mesh/shared_face.h>
 #include <brushfire/mesh/subdivide.h>
 #include <brushfire/mesh/surface_path.h>
 #include <brushfire/mesh/surface_point.h>
@@ -25,6 +26,7 @@
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/heat_options.h>
+#include <brushfire/solvers/steiner/replanner.h>
 #include <brushfire/solvers/steiner/slope_pace.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
 #include <brushfire/solvers/steiner/weighting.h>
