@@ -18,6 +18,7 @@
 #include <brushfire/mesh/reachable.h>
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/shapes.h>
+#include <brushfire/mesh/shared_face.h>
 #include <brushfire/mesh/subdivide.h>
 #include <brushfire/mesh/surface_path.h>
 #include <brushfire/mesh/surface_point.h>
