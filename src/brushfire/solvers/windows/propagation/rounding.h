@@ -61,8 +61,8 @@ inline constexpr double kAlong = kWide ? 4e-15 : 1e-12;
 // Products of numbers beyond these leave the range of doubles: then nothing is promised.
 inline constexpr double kLeast = 1e-140, kMost = 1e140;
 
-// Turned from frame to frame a source comes a little nearer or goes away, each time alike where faces are: 0.3 epsilons
-// a face is the most that was met. A shortest path crosses a face once.
+// Turned from frame to frame a source comes a little nearer or goes away, each time alike where faces are: half an
+// epsilon a face is the most that was met. A shortest path crosses a face once.
 inline constexpr double kEachFace = kEpsilon;
 
 inline Rounding rounding_of(const Unevenness& u) {
