@@ -38,7 +38,7 @@ endif()
 set(brushfire_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/brushfire)
 install(EXPORT brushfire_targets NAMESPACE brushfire:: DESTINATION ${brushfire_cmake_dir})
 configure_package_config_file(cmake/brushfireConfig.cmake.in brushfireConfig.cmake INSTALL_DESTINATION ${brushfire_cmake_dir})
-write_basic_package_version_file(brushfireConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(brushfireConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/brushfireConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/brushfireConfigVersion.cmake
   cmake/FindDraco.cmake cmake/FindLZ4.cmake cmake/FindLibZip.cmake cmake/FindMeshoptimizer.cmake cmake/FindWebP.cmake
   DESTINATION ${brushfire_cmake_dir})

@@ -18,6 +18,7 @@
 #include <brushfire/mesh/reachable.h>
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/shapes.h>
+#include <brushfire/mesh/shared_face.h>
 #include <brushfire/mesh/subdivide.h>
 #include <brushfire/mesh/surface_path.h>
 #include <brushfire/mesh/surface_point.h>
@@ -28,6 +29,7 @@
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>
 #if BRUSHFIRE_WEIGHTS
+#include <brushfire/solvers/steiner/replanner.h>
 #include <brushfire/solvers/steiner/slope_pace.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
 #include <brushfire/solvers/steiner/weighting.h>
