@@ -85,7 +85,7 @@ class WeightedSolver:
         towards: bool,
         max_distance: float,
         progress: _Progress,
-    ) -> tuple[_Floats, _Signed, _Floats | None, float, float]: ...
+    ) -> tuple[_Floats, _Signed, _Floats | None, float, float, str]: ...
     def paths(
         self,
         sources: Sources,

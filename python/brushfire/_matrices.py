@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import floating_type, number, path_text, whole
+from brushfire._arrays import floating_type, path_text, radius_of, whole
 from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._options import Options, Tolerance, options, thread_count
 from brushfire._places import PlaceArrays, Places
@@ -175,7 +175,7 @@ def distances_within(
     most = whole(memory_limit, "memory_limit", np.iinfo(np.int64).max)
     _scipy_sparse()  # before anything is computed
     space, chosen = chosen_in(mesh, weights, method, tolerance, np.inf, bound, precision)
-    limit, team = number(radius, "radius"), thread_count(threads)
+    limit, team = radius_of(radius), thread_count(threads)
     with shown(progress, "rows") as report:
         data, indices, starts = compute(space, limit, *_pair(row), chosen, team, most, report)
     if symmetric is not None:

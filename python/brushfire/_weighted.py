@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, Labels, floats, number
+from brushfire._arrays import Floats, Labels, floats, number, radius_of
 from brushfire._curves import Path, path_of
 from brushfire._errors import BrushfireError
 from brushfire._options import Options, options, thread_count, tolerance_of
@@ -34,7 +34,8 @@ class Costs:
 
     ``upper``: what a real path costs, +inf where there is none. ``lower``: no path costs less, proven; None where no bounds
     were asked for. ``source``: the position in ``sources`` of where that path begins, -1 where there is none.
-    ``max_error_bound``, ``mean_error_bound``: the greatest and mean (upper - lower) / lower.
+    ``max_error_bound``, ``mean_error_bound``: the greatest and mean (upper - lower) / lower. ``engine``: what answered,
+    ``"windows"`` that refract, a search over ``"points"`` on edges, or ``"uniform"``: plain distances times the weight.
     """
 
     upper: Floats
@@ -42,6 +43,7 @@ class Costs:
     source: Labels
     max_error_bound: float
     mean_error_bound: float
+    engine: str
 
 
 @dataclass(frozen=True)
@@ -194,7 +196,7 @@ class Weighted:
         start = sources_of(self._on, sources, offset)
         end = None if targets is None else self._on._arrays(targets, "targets")
         with shown(progress, "distance") as report:
-            upper, source, below, most, mean = self._solver.solve(
+            upper, source, below, most, mean, engine = self._solver.solve(
                 start,
                 end.index if end else None,
                 end.weights if end else None,
@@ -202,10 +204,10 @@ class Weighted:
                 refinements,
                 lower,
                 self._direction(towards),
-                number(radius, "radius"),
+                radius_of(radius),
                 report,
             )
-        return Costs(upper, below, source, most, mean)
+        return Costs(upper, below, source, most, mean, engine)
 
     def path(
         self,
@@ -257,7 +259,7 @@ class Weighted:
             end.weights,
             number(tolerance, "tolerance"),
             self._direction(towards),
-            number(radius, "radius"),
+            radius_of(radius),
         )
         return [self._weighted_path(*p) for p in found], source
 
@@ -297,7 +299,7 @@ def chosen_in(
     within = _TOLERANCE if tolerance is None else tolerance_of(tolerance)
     weighting = weighted._solver.weighting(within, weighted._towards)
     chosen: Options = {
-        "max_distance": number(radius, "radius"),
+        "max_distance": radius_of(radius),
         "threads": thread_count(threads),
         "weighting": weighting,
     }

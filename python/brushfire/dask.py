@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from distributed import Client, Future, as_completed, get_client, get_worker
+from distributed import Client, as_completed, get_client, get_worker
 
 from brushfire import _core
 from brushfire._arrays import path_text, whole
@@ -91,7 +91,7 @@ def distance_matrix(
     raise AssertionError("the last try raises")
 
 
-def _collect(tasks: dict[Future, int], left: set[int], count: int, report: Any, *, last: bool) -> None:
+def _collect(tasks: dict[Any, int], left: set[int], count: int, report: Any, *, last: bool) -> None:
     """Takes the blocks that are done out of `left`. What the job itself refuses is raised; what was lost, in the end."""
     for task in as_completed(tasks):
         if task.status == "finished":

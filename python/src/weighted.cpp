@@ -103,7 +103,8 @@ SharedWeighting weighting_of(Weighted& weighted, double tolerance, bool towards)
   return {weighted.weighting({tolerance, towards})};
 }
 
-// (distance, source, lower bounds or None, greatest and mean relative error bound): of the targets where there are any.
+// (distance, source, lower bounds or None, greatest and mean relative error bound, engine): of the targets where
+// there are any.
 nb::tuple solve(Weighted& weighted, const Sources& sources, const std::optional<Vector<std::int64_t>>& target_index,
                 const OptionalWeights& target_weights, double tolerance, unsigned refinements, bool lower, bool towards,
                 double max_distance, nb::object progress) {
@@ -126,7 +127,7 @@ nb::tuple solve(Weighted& weighted, const Sources& sources, const std::optional<
   if (!below.empty()) lower_bounds = nb::cast(to_numpy(std::move(below)));
   return nb::make_tuple(to_numpy(std::move(values)),
                         to_numpy_signed(std::move(target_index ? field.target_source : field.source)), lower_bounds,
-                        field.max_error_bound, field.mean_error_bound);
+                        field.max_error_bound, field.mean_error_bound, name_of(field.engine));
 }
 
 // (path, cost, lower, legs: face, length, weight, toll, edge [legs, 2]).

@@ -28,6 +28,7 @@ def test_costs_lie_between_their_bounds(strip: bf.Mesh) -> None:
     excess = (costs.upper - costs.lower)[costs.upper > 0] / costs.lower[costs.upper > 0]
     assert excess.max() == pytest.approx(costs.max_error_bound)
     assert excess.mean() == pytest.approx(costs.mean_error_bound)
+    assert costs.engine in ("windows", "points")
     distance = strip.weighted(W).distance(5)
     assert (distance >= costs.lower).all() and distance == pytest.approx(costs.upper, rel=0.01)
     assert strip.weighted(W).distance(5, targets=[9, 0]) == pytest.approx(costs.upper[[9, 0]], rel=0.01)

@@ -29,6 +29,7 @@
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>
 #if BRUSHFIRE_WEIGHTS
+#include <brushfire/solvers/steiner/replanner.h>
 #include <brushfire/solvers/steiner/slope_pace.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
 #include <brushfire/solvers/steiner/weighting.h>

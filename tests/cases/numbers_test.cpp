@@ -114,6 +114,35 @@ TEST(NumberCases, AllWeightOnOneVertexOfADegenerateFaceIsThatVertex) {
   EXPECT_EQ(locate(mesh, {2, {0.25, 0.5, 0.25}}).vertex, 1u);
 }
 
+// Its distance is a small difference of large lengths, of which the bound knows nothing: the source sees it.
+TEST(NumberCases, AVertexBesideTheOppositeEdgeOfANeedleIsAsFarAsTheChord) {
+  for (const double altitude : {1e-3, 1e-6, 1e-9}) {
+    for (const double share : {0.3, 0.37, 0.61}) {
+      const std::vector<Vec3> p{
+          {0.1, 0.2, 0.3}, {0.7, 0.9, 0.4}, {0.1 + share * 0.6, 0.2 + share * 0.7, 0.3 + share * 0.1 + altitude}};
+      const Mesh mesh(p, std::vector<Face>{{0, 1, 2}});
+      for (const double beside : {0.0, 1e-2, 1.0, 1e2}) {
+        const double w = share + beside * altitude;
+        const Source source{{0, {1 - w, w, 0}}};
+        DistanceOptions options;
+        options.method = Method::Exact;
+        const DistanceField field = distance(mesh, std::span(&source, 1), options);
+        long double square = 0;
+        const auto along = [&](double Vec3::* axis) {
+          const long double a = 1 - w, b = w;
+          const long double step = a * (static_cast<long double>(p[0].*axis) - p[2].*axis) +
+                                   b * (static_cast<long double>(p[1].*axis) - p[2].*axis);
+          square += step * step;
+        };
+        along(&Vec3::x), along(&Vec3::y), along(&Vec3::z);
+        const auto chord = static_cast<double>(std::sqrt(square));
+        EXPECT_LE(std::abs(field.distance[2] - chord), field.error_bound[2] + 1e-9 * kRounding * chord) << altitude;
+        EXPECT_NEAR(field.distance[2], chord, 2e-12 * chord) << altitude << ", " << share << ", " << beside;
+      }
+    }
+  }
+}
+
 // ---- targets in no face
 
 TEST(NumberCases, ATargetInNoFaceReadsInfinityAndTheOthersWhatTheyReadWithoutIt) {

@@ -65,6 +65,7 @@ std::string json(const WeightedRequest& request, const Scene& scene, const Weigh
       .add("reached", count(field.reached))
       .add("max_error_bound", field.max_error_bound)
       .add("mean_error_bound", field.mean_error_bound)
+      .add("engine", std::string(name_of(field.engine)))
       .add("points", count(field.points))
       .add("solve_s", solve_s);
   std::vector<Record> targets;
@@ -92,6 +93,7 @@ std::string in_words(const WeightedRequest& request, const Scene& scene, const W
             " % on average; asked for: " + readable(100 * scene.options.tolerance) + " %\n";
   }
   return text + "solved in " + duration(solve_s) +
+         (field.engine == WeightedEngine::Windows ? ", by windows that refract" : "") +
          (field.points > 0 ? ", with " + counted(field.points, "point", "points") + " on edges" : "");
 }
 

@@ -1,5 +1,6 @@
 // Bounds by windows on random complexes, beside a dense graph and locally shortest paths.
 #include <brushfire/queries/weighted_path.h>
+#include <brushfire/solvers/refraction/detail/run.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ TEST(WeightedWindows, HoldOnThreeHundredRandomComplexes) {
     const std::vector<Source> sources{{vertex_point(mesh, source)}};
     WeightedSolver solver(mesh, weights);
     const WeightedField field = solver.distance(sources, {.tolerance = 1e-3});
-    if (field.points > 0) continue;  // 1 beside 1e9
+    if (field.engine != WeightedEngine::Windows) continue;  // 1 beside 1e9
     ++answered;
     DenseGraph graph(mesh, weights, 16);
     if (kind == kFansAtAVertex) graph.join_at_vertices();
@@ -51,6 +52,37 @@ TEST(WeightedWindows, HoldOnThreeHundredRandomComplexes) {
     }
   }
   EXPECT_GT(answered, 150U);
+}
+
+struct Rough {
+  explicit Rough(Index cells) : mesh(shapes::noise_terrain(cells, cells, 0.2, 5).mesh()), medium(weighted()) {
+    sources.push_back({locate(mesh, vertex_point(mesh, 0)), 0, 0, nullptr});
+  }
+  steiner::WeightedMesh weighted() const {
+    Random random(3);
+    Weights weights;
+    for (Index f = 0; f < mesh.face_count(); ++f) weights.face.push_back(random.uniform(1, 10));
+    return {Domain(mesh), weights};
+  }
+
+  Mesh mesh;
+  refraction::Medium medium;
+  std::vector<detail::LocatedSource> sources;
+};
+
+// Light that winds round a vertex must not become cheaper by what its refractions may lose.
+TEST(WeightedWindows, AreSomeDozenAVertexWhereEveryFaceHasAWeightOfItsOwn) {
+  Rough rough(50);
+  refraction::Run run(rough.medium, rough.sources, {.share = 0.01, .most_per_vertex = 200});
+  ASSERT_TRUE(run());
+  EXPECT_LT(run.windows(), 30 * std::uint64_t{rough.mesh.vertex_count()});
+}
+
+TEST(WeightedWindows, GiveUpByWhatHasBeenReachedSoFar) {
+  Rough rough(100);
+  refraction::Run run(rough.medium, rough.sources, {.share = 0.01, .most_per_vertex = 1});
+  EXPECT_FALSE(run());
+  EXPECT_LT(run.windows(), 130000U);  // 190,000 would have done
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/refraction/detail/run.h>
-#include <brushfire/solvers/steiner/detail/curve_points.h>
 #include <brushfire/solvers/steiner/detail/run.h>
 
 #include <algorithm>
@@ -12,25 +11,6 @@
 #include <utility>
 
 namespace brushfire {
-namespace steiner {
-
-Index source_behind(const Run& run, Index parent) {
-  while (parent < kFromSource) {
-    const Index edge = run.layout->edge_of(parent), i = parent - run.layout->row(edge);
-    const Index h = run.mesh->edges().halfedge(edge);
-    if (i == 0) {
-      parent = run.front.vertex_parent[run.mesh->mesh().from(h)];
-    } else if (i + 1 == run.layout->count(edge)) {
-      parent = run.front.vertex_parent[run.mesh->mesh().to(h)];
-    } else {
-      parent = run.front.parent[parent];
-    }
-  }
-  return parent == kNoIndex ? kNoIndex : parent - kFromSource;
-}
-
-}  // namespace steiner
-
 namespace {
 
 using namespace steiner;
@@ -38,26 +18,12 @@ using namespace steiner;
 // Sums of up to 2^20 costs, each off by a unit in the last place, stay below what they stand for.
 constexpr double kBelowSums = 1 - 0x1p-32;
 
-// Measured (docs/weights.md): so dense, upper bounds are off by about half of the tolerance on average and by all of it
-// at most, and lower ones by the tolerance on average.
-Density density_for(Costs costs, double tolerance, unsigned doublings) {
-  const double finer = std::ldexp(1.0, -static_cast<int>(doublings)), root = std::sqrt(tolerance) * finer;
-  const auto most = static_cast<Index>(std::min(4096.0, 64 / finer));
-  if (costs == Costs::Real) return {3 * root, std::min(0.25, 8 * tolerance * finer), most};
-  return {2.1 * root / (1 + root), std::min(0.25, 0.7 * tolerance * finer), 4 * most};
-}
-
 // Windows take no less time where they may be farther apart than this.
 constexpr double kWidestWindows = 0.02;
 
-void check_tolerance(double tolerance) {
-  if (!(tolerance >= kLeastWeightedTolerance && tolerance <= kMostWeightedTolerance)) {
-    throw Error(ErrorCode::InvalidArgument, "tolerance " + number_as_text(tolerance) + " is not in [" +
-                                                number_as_text(kLeastWeightedTolerance) + ", " +
-                                                number_as_text(kMostWeightedTolerance) + "]: weighted distances are " +
-                                                "computed between bounds");
-  }
-}
+// As many for a vertex as take about as long as the search over points, measured: half a microsecond each, beside 6 +
+// 0.6 / tolerance.
+double windows_worth_it(double tolerance) { return 20 + 0.8 / tolerance; }
 
 void check(const WeightedOptions& options) {
   check_tolerance(options.tolerance);
@@ -65,19 +31,6 @@ void check(const WeightedOptions& options) {
     throw Error(ErrorCode::InvalidArgument,
                 "max_distance " + number_as_text(options.max_distance) + " is not a number >= 0");
   }
-}
-
-double least_offset(std::span<const Source> sources) {
-  if (sources.empty()) throw Error(ErrorCode::InvalidArgument, "no source given: a distance needs at least one");
-  double least = kInfinity;
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    if (!std::isfinite(sources[i].offset)) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
-    }
-    least = std::min(least, brushfire::least_offset(sources[i]));
-  }
-  return least;
 }
 
 // A vertex of the caller's reads the least of its copies.
@@ -88,6 +41,11 @@ void bring_back(const WeightedMesh& mesh, std::vector<double>& values) {
 }
 
 }  // namespace
+
+const char* name_of(WeightedEngine engine) noexcept {
+  if (engine == WeightedEngine::Uniform) return "uniform";
+  return engine == WeightedEngine::Windows ? "windows" : "points";
+}
 
 struct WeightedSolver::Workspace {
   Domain domain{Mesh()};
@@ -105,12 +63,8 @@ struct WeightedSolver::Workspace {
   std::shared_ptr<const PointLayout> points_for(Costs costs, const WeightedOptions& options, unsigned doublings);
   WeightedField run_uniform(std::span<const Source> sources, const WeightedOptions& options);
   WeightedField run(std::span<const Source> sources, const WeightedOptions& options, unsigned doublings);
-  void locate(std::span<const Source> sources, const WeightedOptions& options, Run& run) const;
   bool follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field);
   void search(Run& run, const WeightedOptions& options, const PointLayout* below, WeightedField& field) const;
-  void fill_upper(const Run& run, const WeightedOptions& options, WeightedField& field) const;
-  template <class Value>
-  void fill_sides(double base, double horizon, Value value, const WeightedOptions& options, WeightedField& field) const;
   void fill_lower(const Search& below, const Run& run, const WeightedOptions& options, WeightedField& field) const;
 };
 
@@ -124,28 +78,6 @@ std::shared_ptr<const PointLayout> WeightedSolver::Workspace::points_for(Costs c
     last.density = wanted;
   }
   return last.points;
-}
-
-void WeightedSolver::Workspace::locate(std::span<const Source> sources, const WeightedOptions& options,
-                                       Run& run) const {
-  run.base = least_offset(sources);
-  run.given.assign(sources.begin(), sources.end());
-  const double unit = mesh->mesh().unit();
-  std::vector<std::uint8_t> is_open(sources.size(), 0);
-  for (const PointSource& s : with_points_of_curves(*mesh, run.layout.get(), sources)) {
-    for (const SurfacePoint& p : mesh->on_open(s.point)) {
-      is_open[s.label] = 1;
-      run.sources.push_back({brushfire::locate(mesh->mesh(), p), (s.offset - run.base) / unit, s.label, nullptr});
-    }
-  }
-  if (const auto closed = std::find(is_open.begin(), is_open.end(), 0); closed != is_open.end()) {
-    throw Error(ErrorCode::InvalidArgument, "source " + std::to_string(closed - is_open.begin()) +
-                                                " lies behind a wall: nothing can be reached from there");
-  }
-  for (const SurfacePoint& t : options.targets) {
-    std::vector<PointLocation>& sides = run.targets.emplace_back();
-    for (const SurfacePoint& p : mesh->on_open(t)) sides.push_back(brushfire::locate(mesh->mesh(), p));
-  }
 }
 
 // `below_points`: the points for lower bounds, where they are wanted.
@@ -166,55 +98,12 @@ void WeightedSolver::Workspace::search(Run& run, const WeightedOptions& options,
     }
     run.front = real.take();
   }
-  fill_upper(run, options, field);
+  fill_upper(run, options.max_distance, field);
   if (!below_points) return;
   if (options.progress) limits.progress = [&](double done) { options.progress(share + (1 - share) * done); };
   Search below(*mesh, *below_points, Costs::Below);
   below.run(run.sources, limits);
   fill_lower(below, run, options, field);
-}
-
-void WeightedSolver::Workspace::fill_upper(const Run& run, const WeightedOptions& options, WeightedField& field) const {
-  const double unit = mesh->mesh().unit(), horizon = run.front.horizon;
-  const Index count = domain.mesh().vertex_count();
-  const auto label = [&](Index parent) {
-    const Index s = source_behind(run, parent);
-    return s == kNoIndex ? kNoIndex : run.sources[s].label;
-  };
-  const auto value = [&](double v) { return v <= horizon ? run.base + v * unit : kInfinity; };
-  field.distance.assign(count, kInfinity);
-  field.source.assign(count, kNoIndex);
-  for (Index v = 0; v < run.front.vertex_value.size(); ++v) {
-    const double d = value(run.front.vertex_value[v]);
-    double& least = field.distance[mesh->vertex(v)];
-    if (!(d <= options.max_distance) || d == kInfinity || !(d < least)) continue;
-    least = d;
-    field.source[mesh->vertex(v)] = run.given.size() == 1 ? 0 : label(run.front.vertex_parent[v]);
-  }
-  fill_sides(run.base, horizon, [&](Index v) { return run.front.vertex_value[v]; }, options, field);
-  field.reached = static_cast<Index>(
-      std::count_if(field.distance.begin(), field.distance.end(), [](double d) { return d < kInfinity; }));
-  for (const std::vector<ValueAt>& sides : run.target_values) {
-    ValueAt best;
-    for (const ValueAt& at : sides) best = at.value < best.value ? at : best;
-    const double d = value(best.value);
-    const bool is_reached = d < kInfinity && d <= options.max_distance;
-    field.target_distance.push_back(is_reached ? d : kInfinity);
-    field.target_source.push_back(is_reached ? label(best.parent) : kNoIndex);
-  }
-}
-
-// value(v): what is known at the mesh's vertex v, final up to the horizon.
-template <class Value>
-void WeightedSolver::Workspace::fill_sides(double base, double horizon, Value value, const WeightedOptions& options,
-                                           WeightedField& field) const {
-  if (!domain.has_walls()) return;
-  field.side_distance.assign(domain.open().vertex_count(), kInfinity);
-  for (Index v = 0; v < mesh->mesh().vertex_count(); ++v) {
-    const double at = value(v), d = at <= horizon ? base + at * mesh->mesh().unit() : kInfinity;
-    double& least = field.side_distance[mesh->open_vertex(v)];
-    if (d <= options.max_distance) least = std::min(least, d);
-  }
 }
 
 void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, const WeightedOptions& options,
@@ -258,7 +147,8 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
   double farthest = (options.max_distance - run.base) / unit;
   if (!options.targets.empty() && places.empty()) farthest = -1;  // all targets are nowhere
   refraction::Run windows(*medium, run.sources,
-                          {std::min(options.tolerance, kWidestWindows), farthest, places, options.progress});
+                          {std::min(options.tolerance, kWidestWindows), farthest, windows_worth_it(options.tolerance),
+                           places, options.progress});
   if (!windows()) return false;
   const double horizon = std::min(farthest, windows.horizon());
   double sum = 0, most = 0;
@@ -293,7 +183,7 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
     give(known[v], options.targets.empty(), field.distance[v], field.lower[v], field.source[v]);
     field.reached += field.distance[v] < kInfinity;
   }
-  fill_sides(run.base, horizon, [&](Index v) { return windows.at_vertex(v).upper; }, options, field);
+  fill_sides(run, horizon, [&](Index v) { return windows.at_vertex(v).upper; }, options.max_distance, field);
   std::size_t place = 0;
   for (const auto& sides : run.targets) {
     refraction::Known there;
@@ -303,6 +193,7 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
   }
   field.max_error_bound = most;
   field.mean_error_bound = count > 0 ? sum / static_cast<double>(count) : 0;
+  field.engine = WeightedEngine::Windows;
   return true;
 }
 
@@ -316,7 +207,7 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
       std::any_of(sources.begin(), sources.end(), [](const Source& s) { return s.curve != nullptr; });
   const bool lower = options.lower && !from_curves;
   if (from_curves) run->layout = points_for(Costs::Real, options, doublings);
-  locate(sources, options, *run);
+  locate(sources, options.targets, *run);
   WeightedField field;
   if (lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
   run->layout = points_for(Costs::Real, options, doublings);
@@ -347,6 +238,7 @@ WeightedField WeightedSolver::Workspace::run_uniform(std::span<const Source> sou
   how.progress = options.progress;
   const DistanceField found = plain->distance(scaled, how);
   WeightedField field;
+  field.engine = WeightedEngine::Uniform;
   field.distance = found.distance;
   field.source = found.source;
   field.target_distance = found.target_distance;

@@ -49,6 +49,11 @@ struct WeightedOptions {
   const CancelToken* cancel = nullptr;  // null: what the thread listens to
 };
 
+// What answered: Method::Windows, since the weight is one and the same everywhere; windows that refract; or a search
+// over points on edges, for fences, slopes and paths, and where windows would take longer.
+enum class WeightedEngine { Uniform, Windows, Points };
+const char* name_of(WeightedEngine engine) noexcept;  // uniform, windows, points
+
 // Costs are those of the cheapest paths, plus the sources' offsets. [vertex_count] unless said otherwise. From curves
 // there are upper bounds only, from points along them that lie as dense as those on edges.
 struct WeightedField {
@@ -65,6 +70,7 @@ struct WeightedField {
   double max_error_bound = kInfinity;
   double mean_error_bound = kInfinity;
   Index reached = 0;
+  WeightedEngine engine = WeightedEngine::Points;
   std::uint64_t points = 0;                 // on edges, the vertices' copies among them; 0 where none were searched
   unsigned refinements = 0;                 // done
   std::shared_ptr<const steiner::Run> run;  // for weighted_path(); null where no points on edges were searched

@@ -63,7 +63,7 @@ double loss_of(const Front& front, const Front& below, const Piece& p) {
 
 // The window through the piece's ends that is nowhere above the front and as near to it as that allows.
 Front below(const Front& front, const Piece& p) {
-  const double length = p.x1 - p.x0, rise = p.f1 - p.f0, n = front.speed, highest = std::max(p.f0, p.f1);
+  const double length = p.x1 - p.x0, rise = p.f1 - p.f0, n = front.speed;
   const double wide = (n * length - rise) * (n * length + rise), steep = (length - rise) * (length + rise);
   const double cap = 0.5 * (p.f0 + p.f1 - length);  // its source is on the edge; nothing that refracts is below
   double sigma = cap;
@@ -71,14 +71,15 @@ Front below(const Front& front, const Piece& p) {
     const double nu = steep / wide;
     double most;  // of the mean of front and chord where nu < 1, its least elsewhere
     if (nu < 1) {
-      most = highest;
+      most = std::max(p.f0, p.f1);
     } else {
       const double slope = rise / (n * length);
       const double x =
           std::clamp(front.source.x + front.source.y * slope / std::sqrt((1 - slope) * (1 + slope)), p.x0, p.x1);
       most = 0.5 * (p.f0 + rise * ((x - p.x0) / length) + front.value(x));
     }
-    sigma = std::min(cap, std::max(nu * front.sigma + (1 - nu) * most, highest * (1 - farthest_source(n))));
+    const double least = front.value(std::clamp(front.source.x, p.x0, p.x1));
+    sigma = std::min(cap, std::max(nu * front.sigma + (1 - nu) * most, least * (1 - farthest_source(n))));
   }
   const double r0 = p.f0 - sigma, r1 = p.f1 - sigma, apart = sigma < cap ? (r0 + r1 - length) * (r0 + r1 + length) : 0;
   if (!(apart > 0)) return {{p.x0 + (p.f0 - cap), 0}, cap, 1};

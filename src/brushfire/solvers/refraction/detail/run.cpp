@@ -22,9 +22,8 @@ constexpr double kSeen = 1e-10;
 constexpr double kTouching = 1e-10;
 // The part of what is left that one merge may spend (MergeBudget::pace).
 constexpr double kMergePace = 0.06;
-// Surfaces take some three windows a face, needles with weights of their own twenty. On large meshes with a weight of
-// its own for every face it may be any number (docs/decisions/weights.md).
-constexpr std::uint64_t kMostPerFace = 60, kMostAnyway = 200000;
+// So many windows, a twentieth of a second's, are no reason to give up.
+constexpr std::uint64_t kMostAnyway = 100000;
 
 }  // namespace
 
@@ -34,7 +33,6 @@ Run::Run(Medium& medium, std::span<const detail::LocatedSource> sources, const R
   vertices_.resize(medium.structure.vertex_count());
   targets_.place(limits.targets, medium.structure);
   queue_.reset(medium.bucket_width, 0);
-  most_ = kMostPerFace * medium.structure.faces.size() + kMostAnyway;
 }
 
 bool Run::operator()() {
@@ -42,17 +40,24 @@ bool Run::operator()() {
   windows::EventQueue::Event event{};
   while (queue_.pop(windows::EventQueue::kLastBucket, event)) {
     poll_();
-    if (passed_ >= next_look_) look_up();
-    if (passed_ > most_) return false;
+    if (windows_ >= next_look_) {
+      look_up();
+      if (is_too_dear()) return false;
+    }
     event.is_list ? pass_halfedge(event.index) : leave_vertex(event.index);
   }
   finish_targets();
   return is_complete();
 }
 
+// By what has been reached so far, so that it is known early.
+bool Run::is_too_dear() const {
+  return static_cast<double>(windows_) > kMostAnyway + limits_.most_per_vertex * static_cast<double>(seen_);
+}
+
 // Progress, and how far light is still wanted.
 void Run::look_up() {
-  next_look_ = passed_ + 4096 + limits_.targets.size();
+  next_look_ = windows_ + 4096 + limits_.targets.size();
   narrow();
   if (limits_.progress) limits_.progress(static_cast<double>(seen_) / static_cast<double>(vertices_.size() + 1));
 }
@@ -169,6 +174,7 @@ void Run::enter(Index h, const Window& w) {
   const Index apex = f.vertex[previous3(k)];
   reach(apex, weight * (at.value + w.slack), w.pseudo_source);
   if (weight * at.value > radius_ && weight * minimum_of(w) > radius_) return;
+  ++windows_;
   const std::int64_t bucket = queue_.bucket_of(weight * at.value);
   if (waiting_.push(f.waiting, h, w, bucket)) queue_.push_list_into(bucket, h);
 }
@@ -239,7 +245,6 @@ void Run::pass_face(Index h, const windows::Frame& frame, const Window& w) {
   const WindowFace& f = face(h);
   const Index apex = f.vertex[previous3(h % 3)];
   const double weight = medium_.weight[h / 3];
-  ++passed_;
   const windows::Arrival at = arrival(w, frame.apex);
   if (at.detour <= kSeen * at.value) {
     reach(apex, weight * (at.value + w.slack), w.pseudo_source);
