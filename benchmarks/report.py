@@ -1,6 +1,6 @@
 """Turns the results of suite.py into docs/benchmarks.md and docs/pareto.svg.
 
-    python report.py results.json
+    python report.py results.json [FOLDER]      into docs/, or that folder
 """
 
 import importlib.metadata
@@ -33,7 +33,7 @@ NAMES = {
 }
 MARCHING_PEERS = ["meshlib", "gc-fmm", "gc-fmm-cpp", "pymeshlab", "vcg"]
 EXACT_PEERS = ["vtp", "gc-exact", "pygeodesic", "cgal"]
-EXACT = 1e-9  # what is drawn and counted as exact
+EXACT = 1e-9  # what is counted as exact: it has no place on a logarithmic scale, and is drawn on a line of its own
 
 
 def is_ours(name):
@@ -164,12 +164,19 @@ def pareto(rows, file):
     for name in names:
         results = [row["results"][name] for row in rows]
         x = mean([1e9 * first(r) / row["vertices"] for r, row in zip(results, rows)])
-        y = mean([max(r.get("mean_error", 1), EXACT) for r in results])
+        errors = [r.get("mean_error", 1) for r in results]
+        y = mean(errors) if min(errors) > EXACT else None
         colour = "#c0392b" if is_ours(name) else "#34495e"
-        axes.plot(x, y, "o" if is_ours(name) else "s", color=colour)
         points.append((x, y, NAMES.get(name, name), colour))
+    # What is exact stands on a line of its own, a decade below the least error that is one.
+    line = min([y for _, y, _, _ in points if y] or [1e-6]) / 10
+    points = [(x, y or line, text, colour) for x, y, text, colour in points]
+    for x, y, text, colour in points:
+        axes.plot(x, y, "s" if text in NAMES.values() else "o", color=colour)
+    axes.axhline(line, color="#999999", lw=0.8, ls=":")
+    axes.text(0.005, line, "exact", transform=axes.get_yaxis_transform(), va="bottom", fontsize=8, color="#666666")
     axes.set(xscale="log", yscale="log", xlabel="arrays to field: ns per vertex, one thread")
-    axes.set(ylabel=f"mean relative error (at the bottom: exact)", title="Error against time; lower left is better")
+    axes.set(ylabel="mean relative error", title="Error against time; lower left is better")
     axes.grid(True, which="major", alpha=0.3)
     axes.set_xmargin(0.12)
     axes.set_ymargin(0.1)
@@ -198,10 +205,11 @@ def versions():
 
 
 def main():
+    folder = Path(sys.argv[2]) if len(sys.argv) > 2 else DOCS
     rows = sorted(json.loads(Path(sys.argv[1]).read_text()), key=lambda row: row["vertices"])
     scans = [r for r in rows if not r["mesh"].endswith(("-x10", "-shear")) and not r["mesh"].startswith("grid")]
     stretched = [r for r in rows if r not in scans]
-    drawn = pareto([r for r in scans if "-s" not in r["mesh"]], DOCS / "pareto.svg")
+    drawn = pareto([r for r in scans if "-s" not in r["mesh"]], folder / "pareto.svg")
     places = {
         "processor": processor(),
         "versions": versions(),
@@ -213,7 +221,7 @@ def main():
     }
     page = (HERE / "benchmarks.md.in").read_text()
     page = re.sub(r"\{\{(.*?)\}\}", lambda place: places[place[1]], page)
-    (DOCS / "benchmarks.md").write_text(page)
+    (folder / "benchmarks.md").write_text(page)
 
 
 if __name__ == "__main__":

@@ -150,7 +150,7 @@ if(BRUSHFIRE_WITH_EMBREE AND BRUSHFIRE_FIGURE)
 endif()
 
 # Headers only: a static brushfire passes nothing on of it.
-if(BRUSHFIRE_WITH_EIGEN AND NOT EMSCRIPTEN)
+if(BRUSHFIRE_WITH_EIGEN AND BRUSHFIRE_HEAT AND NOT EMSCRIPTEN)
   find_path(BRUSHFIRE_EIGEN_DIR Eigen/SparseCholesky PATH_SUFFIXES eigen3 DOC "Eigen's headers (libeigen3-dev)")
   if(BRUSHFIRE_EIGEN_DIR)
     set(BRUSHFIRE_HAS_EIGEN ON)

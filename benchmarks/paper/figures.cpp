@@ -25,8 +25,8 @@ std::vector<double> distances(const Mesh& mesh, Index seed, Method method) {
   return distance(mesh, std::span(&source, 1), options).distance;
 }
 
-// The flat mesh raised by `height`, coloured by `scalar`.
-Panel raised(const Mesh& flat, const std::vector<double>& height, const std::vector<double>& scalar,
+// The flat mesh raised by `height`, coloured by `scalar`, with a dot at the seed.
+Panel raised(const Mesh& flat, const std::vector<double>& height, const std::vector<double>& scalar, Index seed,
              const std::string& title) {
   std::vector<Vec3> positions(flat.positions().begin(), flat.positions().end());
   for (std::size_t v = 0; v < positions.size(); ++v) positions[v].z = height[v];
@@ -34,6 +34,7 @@ Panel raised(const Mesh& flat, const std::vector<double>& height, const std::vec
   panel.mesh = Mesh(positions, flat.faces());
   panel.scalar = scalar;
   panel.title = title;
+  panel.dots = {positions[seed]};
   return panel;
 }
 
@@ -75,12 +76,13 @@ void draw_squares(const std::filesystem::path& folder) {
   }
   RenderOptions options = height_field_view();
   options.scales[0].unit = "distance";
-  const Panel cone = raised(square, circular, circular, "Figure 6: novotni-klein, every vertex on the cone");
+  const Panel cone = raised(square, circular, circular, seed, "Figure 6: novotni-klein, every vertex on the cone");
   save(folder / "figure-6.png", std::span(&cone, 1), options);
-  options.scales[0].unit = "error";
+  options.scales[0].unit = "distance minus Euclid's";
   options.scales[0].colormap = Colormap::Magma;
-  const std::vector<Panel> seven{raised(square, planar, error, "Figure 7: kimmel-sethian"),
-                                 raised(square, magnified, error, "its error, magnified ten times")};
+  const std::vector<Panel> seven{
+      raised(square, planar, error, seed, "Figure 7: kimmel-sethian, raised by distance, coloured by error"),
+      raised(square, magnified, error, seed, "raised by its error, ten times, same colours")};
   save(folder / "figure-7.png", seven, options);
 }
 

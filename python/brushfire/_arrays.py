@@ -19,9 +19,12 @@ Labels = npt.NDArray[np.int32]
 def path_text(path: Any, what: str = "path") -> str:
     """The name of a file."""
     try:
-        return os.fsdecode(path)
+        text = os.fsdecode(path)
     except TypeError:
         raise BrushfireTypeError(f"{what}: the name of a file is needed, not {path!r}") from None
+    if not text:
+        raise BrushfireError(f"{what}: the name of a file is needed, not {path!r}")
+    return text
 
 
 def floating_type(dtype: Any) -> np.dtype[Any]:
@@ -150,6 +153,14 @@ def number(value: Any, what: str) -> float:
         raise BrushfireTypeError(f"{what}: a number is needed, not {value!r}") from None
     except OverflowError:
         raise BrushfireError(f"{what}: {value} is beyond the largest number") from None
+
+
+def radius_of(value: Any, what: str = "radius") -> float:
+    """A number >= 0, or +inf."""
+    radius = number(value, what)
+    if not radius >= 0:
+        raise BrushfireError(f"{what}: a number >= 0 is needed, not {value!r}")
+    return radius
 
 
 def integer(value: Any, what: str) -> int:

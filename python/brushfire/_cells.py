@@ -15,6 +15,7 @@ from brushfire._options import Tolerance, options, thread_count
 from brushfire._places import Points
 from brushfire._progress import Progress, shown
 from brushfire._sources import Sources, sources_of
+from brushfire._weighted import Weighing, chosen_in
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -95,11 +96,13 @@ def nearest_sources(
     threads: int = 1,
     offset: npt.ArrayLike = 0.0,
     radius: float = np.inf,
+    weights: Weighing | None = None,
     progress: Progress = None,
 ) -> tuple[Floats, Labels]:
     """The ``count`` nearest sources of every vertex.
 
     :param sources, method, tolerance, bound, precision, threads, offset, radius, progress: as for :meth:`distance`.
+    :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
     :return: distances, (vertex_count, count), ascending along each row, +inf for no more; and which source each is of.
 
     >>> import brushfire as bf
@@ -109,9 +112,9 @@ def nearest_sources(
     ([3.0, 4.0], [2, 0])
     """
     start = sources_of(mesh, sources, offset)
-    chosen = options(method, tolerance, radius, bound, precision, threads)
+    space, chosen = chosen_in(mesh, weights, method, tolerance, radius, bound, precision, threads)
     with shown(progress, "nearest sources") as report:
-        return _core.nearest_sources(mesh._space, start, whole(count, "count", _MOST), chosen, report)
+        return _core.nearest_sources(space, start, whole(count, "count", _MOST), chosen, report)
 
 
 def centroidal_voronoi(
@@ -172,6 +175,7 @@ def parcels(
     precision: str | None = None,
     radius: float = np.inf,
     threads: int = 0,
+    weights: Weighing | None = None,
     progress: Progress = None,
 ) -> Parcels:
     """Distances between the regions of a labelled surface.
@@ -180,6 +184,7 @@ def parcels(
     :param distance: ``"min"``, of the nearest two vertices; ``"hausdorff"``, of the vertex of either that is
         farthest from the other parcel; ``"centroid"``, of the vertices in their middles; ``"mean"`` and ``"max"``, over all pairs.
     :param ignore: labels that are no parcel.
+    :param weights: what going costs, in place of distances: :meth:`weighted` without a slope, or one number per face.
 
     ``"min"`` and ``"hausdorff"`` are one run per parcel, ``"mean"`` and ``"max"`` one per vertex; no dense matrix of
     the vertices is kept.
@@ -194,9 +199,9 @@ def parcels(
     if len(keys) != mesh._mesh.vertex_count:
         raise BrushfireError(f"labels: one per vertex is needed, {mesh._mesh.vertex_count}, not {len(keys)}")
     keys[np.isin(keys, _arrays.integers(ignore, "ignore"))] = -1
-    chosen = options(method, tolerance, radius, bound, precision)
+    space, chosen = chosen_in(mesh, weights, method, tolerance, radius, bound, precision)
     with shown(progress, "parcels") as report:
         label, between, sizes, centroids = _core.parcels(
-            mesh._space, keys, str(distance), 0, chosen, thread_count(threads), report
+            space, keys, str(distance), 0, chosen, thread_count(threads), report
         )
     return Parcels(label, between, sizes, centroids if len(centroids) else None)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, number
+from brushfire._arrays import Floats, number, radius_of
 from brushfire._errors import BrushfireError
 from brushfire._options import Tolerance, thread_count, tolerance_of
 from brushfire._progress import Progress, shown
@@ -110,7 +110,7 @@ def certify(
             start,
             tolerance_of(tolerance),
             number(within, "within"),
-            number(radius, "radius"),
+            radius_of(radius),
             thread_count(threads),
             report,
         )

@@ -56,6 +56,10 @@ class Solver:
         progress: _Progress,
     ) -> tuple[_Floats, _Signed, _Floats | None]: ...
 
+class Weighting:
+    @property
+    def domain(self) -> Domain: ...
+
 class WeightedSolver:
     def __init__(
         self,
@@ -69,11 +73,10 @@ class WeightedSolver:
         paces: _Floats | None,
         steepest: float,
     ) -> None: ...
+    def weighting(self, tolerance: float, towards: bool) -> Weighting: ...
     def solve(
         self,
-        index: _Ints,
-        weights: _Floats | None,
-        offsets: _Floats,
+        sources: Sources,
         target_index: _Ints | None,
         target_weights: _Floats | None,
         tolerance: float,
@@ -82,12 +85,10 @@ class WeightedSolver:
         towards: bool,
         max_distance: float,
         progress: _Progress,
-    ) -> tuple[_Floats, _Signed, _Floats | None, float, float]: ...
+    ) -> tuple[_Floats, _Signed, _Floats | None, float, float, str]: ...
     def paths(
         self,
-        index: _Ints,
-        weights: _Floats | None,
-        offsets: _Floats,
+        sources: Sources,
         target_index: _Ints,
         target_weights: _Floats | None,
         tolerance: float,
@@ -297,9 +298,35 @@ def write_matrix(
     zarr_format: int,
     shard: int,
     shards: int,
+    nearest: int,
     progress: _Progress,
 ) -> str: ...
-def merge_shards(shards: list[str], path: str, symmetric: str, chunk_rows: int, zarr_format: int) -> None: ...
+class MatrixJob:
+    def __init__(
+        self,
+        domain: Space,
+        path: str,
+        float32: bool,
+        row_index: _Ints | None,
+        row_weights: _Floats | None,
+        column_index: _Ints | None,
+        column_weights: _Floats | None,
+        options: _Options,
+        threads: int,
+        symmetric: str,
+        chunk_rows: int,
+        zarr_format: int,
+    ) -> None: ...
+    @property
+    def rows(self) -> int: ...
+    @property
+    def done(self) -> int: ...
+    def run_block(self, block: int, blocks: int) -> int: ...
+    def run(self) -> None: ...
+
+def merge_shards(
+    shards: list[str], path: str, symmetric: str, chunk_rows: int, zarr_format: int, nearest: int
+) -> None: ...
 def require_dense_memory(rows: int, columns: int, float32: bool, limit: int) -> None: ...
 def nearest_sources(
     domain: Space,

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _arrays, _core
-from brushfire._arrays import Floats, Ints, Labels, number
+from brushfire._arrays import Floats, Ints, Labels, number, radius_of
 from brushfire._errors import BrushfireError
 from brushfire._places import Places, Points
 from brushfire._sources import Sources, sources_of
@@ -110,7 +110,7 @@ def path(mesh: Surface, *places: Places, closed: bool = False, tighten: bool = F
     (7.0, 5.0)
     """
     index, weights = _joined(mesh, places, "places")
-    return path_of(mesh, _core.path(mesh._run(), index, weights, bool(closed), bool(tighten), number(radius, "radius")))
+    return path_of(mesh, _core.path(mesh._run(), index, weights, bool(closed), bool(tighten), radius_of(radius)))
 
 
 def paths(
@@ -136,7 +136,7 @@ def paths(
         start,
         end.index,
         end.weights,
-        number(radius, "radius"),
+        radius_of(radius),
     )
     return [path_of(mesh, p) for p in found], source
 
@@ -266,7 +266,7 @@ def log_map(
     [[0.0, 0.0], [0.0, -1.0], [1.0, -1.0], [1.0, 0.0]]
     """
     arrays = mesh._arrays(source, "source")
-    limit = number(radius, "radius")
+    limit = radius_of(radius)
     along = None if direction is None else _arrays.floats(direction, "direction")
     if along is not None and along.shape != (3,):
         raise BrushfireError(f"direction: shape (3,) is needed, not {along.shape}")

@@ -15,6 +15,7 @@ from brushfire._places import Places
 from brushfire._progress import Progress, shown
 from brushfire._sources import Sources, sources_of
 from brushfire._surface import Surface
+from brushfire._weighted import Weighing, chosen_in
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -32,6 +33,7 @@ class _How(TypedDict, total=False):
     threads: int
     offset: npt.ArrayLike
     radius: float
+    weights: Weighing | None
     targets: Places | None
     progress: Progress
 
@@ -83,6 +85,7 @@ def distance(
     threads: int = 1,
     offset: npt.ArrayLike = 0.0,
     radius: float = np.inf,
+    weights: Weighing | None = None,
     targets: Places | None = None,
     return_source: bool = False,
     return_bound: bool = False,
@@ -107,6 +110,8 @@ def distance(
         The numbers are the same to the bit for any number of threads.
     :param offset: the value that the front starts with, one number or one per source; finite, may be negative.
     :param radius: what is farther reads +inf; the run costs what it reaches.
+    :param weights: what going costs, in place of distances: :meth:`Mesh.weighted`, or one number per face. Upper bounds,
+        or with ``bound="lower"`` lower ones, within about ``tolerance`` (0.01) of each other.
     :param targets: where only some distances are needed; the solver may stop as soon as it has them.
     :param return_source: also return which source is nearest: its position in ``sources``, -1 where none is.
     :param return_bound: also return the proven absolute error of each distance, for methods that have one.
@@ -134,9 +139,14 @@ def distance(
     """
     start = sources_of(mesh, sources, offset)
     end = None if targets is None else mesh._arrays(targets, "targets")
-    chosen = options(*mesh._or_defaults(method, tolerance, bound, precision, limit=radius), threads)
+    if weights is None:
+        run = mesh._run()
+        chosen = options(*mesh._or_defaults(method, tolerance, bound, precision, limit=radius), threads)
+    else:
+        space, chosen = chosen_in(mesh, weights, method, tolerance, radius, bound, precision, threads)
+        run = _core.Solver(space)
     with shown(progress, "distance") as report:
-        distance, source, error = mesh._run().solve(
+        distance, source, error = run.solve(
             start,
             end.index if end else None,
             end.weights if end else None,

@@ -77,7 +77,8 @@ class HeatSolver:
     says how near it comes, and when to prefer it. One field at a time is ``mesh.distance(..., method="heat")``.
 
     :param mesh: of any kind.
-    :param time_factor: for how long heat spreads, in units of the mean edge length squared; larger ones smooth more.
+    :param time_factor: for how long heat spreads, in units of the mean edge length squared, 1e-12 to 1e6; larger ones
+        smooth more.
     :param time: the time itself, in the square of the mesh's units, in place of the factor.
     :param boundary: what heat does at borders: ``"neumann"`` none leaves, ``"dirichlet"`` they stay cold and take no
         source, ``"averaged"`` the mean of both.
@@ -167,7 +168,7 @@ class VectorHeatSolver:
     :param time_factor, time, delaunay: as for :class:`HeatSolver`.
     :raises BrushfireError: for other surfaces, values out of range, and where the package was built without Eigen.
 
-    What heat does not reach, other components and what is some 700 times sqrt(time) away, reads NaN.
+    Other components read NaN; within its own everything has a value, however far away.
 
     >>> import brushfire as bf, numpy as np
     >>> line = np.linspace(0, 1, 11)

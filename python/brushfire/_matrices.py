@@ -10,11 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import floating_type, number, path_text, whole
+from brushfire._arrays import floating_type, path_text, radius_of, whole
 from brushfire._errors import BrushfireError, BrushfireTypeError
 from brushfire._options import Options, Tolerance, options, thread_count
 from brushfire._places import PlaceArrays, Places
 from brushfire._progress import Progress, Reporter, shown
+from brushfire._weighted import Weighing, chosen_in
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -41,6 +42,7 @@ def distance_matrix(
     dtype: npt.DTypeLike = np.float32,
     out: Any = None,
     symmetric: Symmetric | None = None,
+    weights: Weighing | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> Any:
@@ -50,6 +52,7 @@ def distance_matrix(
     :param columns: likewise.
     :param method, tolerance, bound, precision: as for :meth:`distance`.
     :param radius: what is farther reads +inf.
+    :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
     :param dtype: float32 (rounded from float64, 7 digits), float64, or float16 (3 digits, up to 65504: what does not
         fit is an error).
     :param out: of shape (rows, columns), to be filled instead of a new array, its dtype is what counts: a
@@ -70,7 +73,7 @@ def distance_matrix(
     if symmetric is not None:
         _check_symmetric(symmetric, row, column)
     shape = (_count(mesh, row), _count(mesh, column))
-    chosen = options(method, tolerance, radius, bound, precision)
+    space, chosen = chosen_in(mesh, weights, method, tolerance, radius, bound, precision)
     team = thread_count(threads)
     result = _new_matrix(shape, dtype) if out is None else out
     array = _memory_of(result)
@@ -79,16 +82,16 @@ def distance_matrix(
         if 0 in shape:
             pass
         elif _fits_core(array):
-            _fill(mesh, array, row, column, chosen, team, report)
+            _fill(space, array, row, column, chosen, team, report)
         else:
-            _fill_by_blocks(mesh, array, row, column, chosen, team, report)
+            _fill_by_blocks(space, array, row, column, chosen, team, report)
     if symmetric is not None:
         _symmetrize(array, symmetric)
     return result
 
 
 def _fill(
-    mesh: Mesh,
+    space: _core.Space,
     array: npt.NDArray[Any],
     row: PlaceArrays | None,
     column: PlaceArrays | None,
@@ -96,11 +99,11 @@ def _fill(
     threads: int,
     report: Reporter | None,
 ) -> None:
-    _core.fill_matrix(mesh._space, array, *_pair(row), *_pair(column), chosen, threads, report)
+    _core.fill_matrix(space, array, *_pair(row), *_pair(column), chosen, threads, report)
 
 
 def _fill_by_blocks(
-    mesh: Mesh,
+    space: _core.Space,
     array: Any,
     row: PlaceArrays | None,
     column: PlaceArrays | None,
@@ -117,7 +120,7 @@ def _fill_by_blocks(
     for begin in range(0, rows, step):
         end = min(rows, begin + step)
         block = np.empty((end - begin, columns), dtype=np.float32 if single else np.float64)
-        _fill(mesh, block, _some(row, begin, end), column, chosen, threads, _part(report, begin, end, rows))
+        _fill(space, block, _some(row, begin, end), column, chosen, threads, _part(report, begin, end, rows))
         array[begin:end] = _as_type(block, wanted)
 
 
@@ -138,6 +141,7 @@ def distances_within(
     precision: str | None = None,
     dtype: npt.DTypeLike = np.float32,
     symmetric: Symmetric | None = None,
+    weights: Weighing | None = None,
     threads: int = 0,
     memory_limit: int = 0,
     progress: Progress = None,
@@ -154,6 +158,7 @@ def distances_within(
     :param symmetric: for all vertices as rows: ``"mean"`` or ``"min"`` of both directions, of the one that is within
         the radius where the other is not.
     :param memory_limit: bytes that the result may take; 0 means what the machine has left.
+    :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
     :raises BrushfireError: code ``too_large`` where the result will not fit.
     :raises ImportError: where scipy is not installed.
 
@@ -169,10 +174,10 @@ def distances_within(
     compute = _core.sparse_float32 if float_type(dtype) == np.float32 else _core.sparse_float64
     most = whole(memory_limit, "memory_limit", np.iinfo(np.int64).max)
     _scipy_sparse()  # before anything is computed
-    chosen = options(method, tolerance, np.inf, bound, precision)
-    limit, team = number(radius, "radius"), thread_count(threads)
+    space, chosen = chosen_in(mesh, weights, method, tolerance, np.inf, bound, precision)
+    limit, team = radius_of(radius), thread_count(threads)
     with shown(progress, "rows") as report:
-        data, indices, starts = compute(mesh._space, limit, *_pair(row), chosen, team, most, report)
+        data, indices, starts = compute(space, limit, *_pair(row), chosen, team, most, report)
     if symmetric is not None:
         data, indices, starts = _symmetric_rows(data, indices, starts, symmetric)
     return sparse_matrix(data, indices, starts, mesh._mesh.vertex_count)
@@ -190,8 +195,10 @@ def write_distance_matrix(
     radius: float = np.inf,
     precision: str | None = None,
     dtype: npt.DTypeLike = np.float32,
+    weights: Weighing | None = None,
     symmetric: Symmetric | None = None,
     shard: tuple[int, int] | None = None,
+    nearest: int = 0,
     chunk_rows: int = 0,
     zarr_format: int = 3,
     threads: int = 0,
@@ -205,9 +212,14 @@ def write_distance_matrix(
     ``path + ".part.rows"``. Open it with ``numpy.load(path, mmap_mode="r")``, ``zarr.open(path)["distance"]`` or
     ``xarray.open_zarr(path).distance``.
 
+    :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
     :param symmetric: ``"mean"`` or ``"min"`` of both directions, for rows and columns that are the same places.
     :param shard: (3, 16) is the third of sixteen parts of the rows: in a .npy file of its own for
         :func:`merge_shards`; those of a .zarr store write into it together.
+    :param nearest: not 0: of every row only so many columns, the nearest ones, from near to far, and which they are in a
+        second file of int32: ``d.index.npy`` beside ``d.npy``. What is not reached comes last. Sorted rows with indices
+        are what ``brainsmash.mapgen.Sampled(x, D, index)`` takes. Where the columns are all vertices, a row costs what
+        it has to reach.
     :param chunk_rows: rows of a chunk of .zarr; 0 means as many as take 16 MB.
     :param zarr_format: 3 or 2.
     :return: where it is: ``path``, or the file of the shard.
@@ -221,14 +233,15 @@ def write_distance_matrix(
     [[3.0, 0.0, 4.0, 7.0]]
     """
     row, column = _optional(mesh, rows, "rows"), _optional(mesh, columns, "columns")
-    chosen = options(method, tolerance, radius, bound, precision)
+    space, chosen = chosen_in(mesh, weights, method, tolerance, radius, bound, precision)
     single = bool(float_type(dtype) == np.float32)
     team = thread_count(threads)
     part, parts = (1, 1) if shard is None else (whole(n, "shard", _MOST_ROWS) for n in shard)
     with shown(progress, "matrix") as report:
         return _core.write_matrix(
-            mesh._space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, _symmetry(symmetric),
-            whole(chunk_rows, "chunk_rows", _MOST_ROWS), whole(zarr_format, "zarr_format", 3), part, parts, report
+            space, path_text(path), single, *_pair(row), *_pair(column), chosen, team, _symmetry(symmetric),
+            whole(chunk_rows, "chunk_rows", _MOST_ROWS), whole(zarr_format, "zarr_format", 3), part, parts,
+            whole(nearest, "nearest", _MOST_ROWS), report
         )  # fmt: skip
 
 
@@ -246,12 +259,14 @@ def merge_shards(
     output: str | os.PathLike[str],
     *,
     symmetric: Symmetric | None = None,
+    nearest: int = 0,
     chunk_rows: int = 0,
     zarr_format: int = 3,
 ) -> None:
     """The shards that ``write_distance_matrix(shard=)`` wrote, as one matrix: .npy or .zarr.
 
     It has the bytes of one that was computed at once. Shards of different matrices and missing ones are refused.
+    The other arguments are those of ``write_distance_matrix()``.
 
     >>> import brushfire as bf, numpy as np, tempfile, os
     >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
@@ -264,7 +279,8 @@ def merge_shards(
     """
     paths = [path_text(p) for p in shards]
     rows, layout = whole(chunk_rows, "chunk_rows", _MOST_ROWS), whole(zarr_format, "zarr_format", 3)
-    _core.merge_shards(paths, path_text(output), _symmetry(symmetric), rows, layout)
+    kept = whole(nearest, "nearest", _MOST_ROWS)
+    _core.merge_shards(paths, path_text(output), _symmetry(symmetric), rows, layout, kept)
 
 
 def _symmetry(symmetric: Any) -> str:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any, Literal, TypeAlias
 
-from brushfire._arrays import number, whole
+from brushfire._arrays import number, radius_of, whole
 from brushfire._errors import BrushfireError, BrushfireTypeError
 
-Options = dict[str, "str | float"]
+Options = dict[str, Any]
 
 Tolerance: TypeAlias = "float | Literal['draft', 'standard', 'fine', 'exact']"
 """The relative error that ``windows`` keeps at every vertex, 0 to 0.1, or a word for it."""
@@ -38,7 +38,7 @@ def options(
     method: Any, tolerance: Any, radius: Any, bound: Any = None, precision: Any = None, threads: int = 1
 ) -> Options:
     """Those that were given, checked; a tolerance without a method means the one that keeps it."""
-    chosen: Options = {"max_distance": number(radius, "radius"), "threads": thread_count(threads)}
+    chosen: Options = {"max_distance": radius_of(radius), "threads": thread_count(threads)}
     if tolerance is not None or bound is not None:
         if method not in (None, TOLERANT):
             raise BrushfireError(f"tolerance and bound are for method {TOLERANT!r}: {method!r} has none")

@@ -16,6 +16,7 @@ from brushfire._options import Tolerance, options
 from brushfire._places import Places, Points
 from brushfire._progress import Progress, shown
 from brushfire._sources import Sources, sources_of
+from brushfire._weighted import Weighing, chosen_in
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -139,11 +140,13 @@ def voronoi(
     threads: int = 1,
     offset: npt.ArrayLike = 0.0,
     radius: float = np.inf,
+    weights: Weighing | None = None,
     progress: Progress = None,
 ) -> Voronoi:
     """The geodesic Voronoi diagram: which source is nearest where, the borders in between, the area of each cell.
 
     :param sources, method, tolerance, bound, precision, threads, offset, radius, progress: as for :meth:`distance`.
+    :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
     :raises BrushfireError: as :meth:`distance` does.
 
     >>> import brushfire as bf
@@ -153,9 +156,9 @@ def voronoi(
     ([0, 1, 1, 0], 4.0, (0, 1))
     """
     start = sources_of(mesh, sources, offset)
-    chosen = options(method, tolerance, radius, bound, precision, threads)
+    space, chosen = chosen_in(mesh, weights, method, tolerance, radius, bound, precision, threads)
     with shown(progress, "voronoi") as report:
-        found = _core.voronoi(mesh._space, start, chosen, report)
+        found = _core.voronoi(space, start, chosen, report)
     distance, source, area, borders, dual = found
     return Voronoi(distance, source, area, [Border((a, b), path_of(mesh, line)) for a, b, line in borders], dual)
 
@@ -171,6 +174,7 @@ def farthest_points(
     precision: str | None = None,
     threads: int = 1,
     radius: float = np.inf,
+    weights: Weighing | None = None,
     progress: Progress = None,
 ) -> Samples:
     """Farthest-point sampling: again and again the vertex that is farthest from all samples so far.
@@ -178,6 +182,7 @@ def farthest_points(
     :param count: how many; fewer where every vertex is a sample before.
     :param first: vertices to begin with; the lowest vertex that is in a face if none are given.
     :param method, tolerance, bound, precision, threads, radius, progress: as for :meth:`distance`.
+    :param weights: what going costs, in place of distances: :meth:`weighted`, or one number per face.
     :raises BrushfireError: for a first vertex that is in no face or repeats, and for more of them than ``count``.
 
     Runs are limited to what still matters: all together they cost about log(count) whole fields.
@@ -195,9 +200,9 @@ def farthest_points(
             raise BrushfireError("first: vertices are needed, not points of faces")
         index = arrays.index
     taken = whole(count, "count", np.iinfo(np.int32).max)
-    chosen = options(method, tolerance, radius, bound, precision, threads)
+    space, chosen = chosen_in(mesh, weights, method, tolerance, radius, bound, precision, threads)
     with shown(progress, "farthest points") as report:
-        return Samples(*_core.farthest_points(mesh._space, taken, index, chosen, report))
+        return Samples(*_core.farthest_points(space, taken, index, chosen, report))
 
 
 def cut(mesh: Mesh, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), edges: npt.ArrayLike = ()) -> Cut:

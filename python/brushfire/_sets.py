@@ -14,6 +14,7 @@ import numpy.typing as npt
 from brushfire._arrays import Floats, any_array, floating_type
 from brushfire._errors import BrushfireError
 from brushfire._options import thread_count
+from brushfire._weighted import Weighing, weighted_of
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -32,6 +33,7 @@ def pair_distances(
     method: str | None = None,
     tolerance: float | None = None,
     precision: str | None = None,
+    weights: Weighing | None = None,
     normalise: bool = False,
     threads: int = 0,
 ) -> Floats:
@@ -40,6 +42,7 @@ def pair_distances(
     :param pairs: (k, 2) vertex numbers.
     :param method, tolerance, precision: as for :meth:`distance`. The exact method is symmetric to rounding; the
         others start at whichever side of all pairs has fewer vertices.
+    :param weights: what going costs, from the first to the second: :meth:`weighted`, or one number per face.
     :param normalise: in units of the square root of the surface's area, as shape matching reports errors.
     :param threads: 0 means one per processor. The numbers do not depend on it.
     :raises BrushfireError: for an array of another shape.
@@ -57,17 +60,19 @@ def pair_distances(
         return np.zeros(0)
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
         raise BrushfireError(f"pairs: whole numbers of shape (k, 2) are needed, not {array.dtype} {array.shape}")
-    if len(np.unique(array[:, 1])) < len(np.unique(array[:, 0])):
+    if weights is None and len(np.unique(array[:, 1])) < len(np.unique(array[:, 0])):
         array = array[:, ::-1]
     order = np.argsort(array[:, 0], kind="stable")
     sources, starts = np.unique(array[order, 0], return_index=True)
     groups = np.split(order, starts[1:])
     result = np.empty(len(array))
+    costs = weighted_of(mesh, weights)
 
     def work(share: Sequence[int]) -> None:
         solver = mesh.solver(method, tolerance=tolerance, precision=precision)
         for g in share:
-            result[groups[g]] = solver.distance(int(sources[g]), targets=array[groups[g], 1])
+            ends = array[groups[g], 1]
+            result[groups[g]] = solver.distance(int(sources[g]), targets=ends, weights=costs)
 
     team = min(_workers(threads), len(groups))
     shares = [range(k, len(groups), team) for k in range(team)]

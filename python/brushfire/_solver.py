@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core, _curves, _distance, _fields
-from brushfire._arrays import number
+from brushfire._arrays import radius_of
 from brushfire._matrices import float_type, sparse_matrix
 from brushfire._options import Tolerance, options
 from brushfire._places import PlaceArrays, Places
@@ -84,7 +84,7 @@ class Solver:
         row = self._arrays(rows, "rows")
         chosen = options(*self._or_defaults(method, tolerance, bound, precision, limit=np.inf))
         wanted = float_type(dtype)
-        limit = number(radius, "radius")
+        limit = radius_of(radius)
         with shown(progress, "rows") as report:
             data, indices, starts = _core.sparse_rows(self._solver, limit, row.index, row.weights, chosen, report)
         return sparse_matrix(data.astype(wanted, copy=False), indices, starts, self._mesh.vertex_count)

@@ -11,14 +11,17 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, Labels, floats, number, offsets
+from brushfire._arrays import Floats, Labels, floats, number, radius_of
 from brushfire._curves import Path, path_of
 from brushfire._errors import BrushfireError
+from brushfire._options import Options, options, thread_count, tolerance_of
 from brushfire._places import Places
 from brushfire._progress import Progress, shown
+from brushfire._sources import Sources, sources_of
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
+    from brushfire._surface import Surface
 
 _TOLERANCE = 0.01
 
@@ -31,7 +34,8 @@ class Costs:
 
     ``upper``: what a real path costs, +inf where there is none. ``lower``: no path costs less, proven; None where no bounds
     were asked for. ``source``: the position in ``sources`` of where that path begins, -1 where there is none.
-    ``max_error_bound``, ``mean_error_bound``: the greatest and mean (upper - lower) / lower.
+    ``max_error_bound``, ``mean_error_bound``: the greatest and mean (upper - lower) / lower. ``engine``: what answered,
+    ``"windows"`` that refract, a search over ``"points"`` on edges, or ``"uniform"``: plain distances times the weight.
     """
 
     upper: Floats
@@ -39,6 +43,7 @@ class Costs:
     source: Labels
     max_error_bound: float
     mean_error_bound: float
+    engine: str
 
 
 @dataclass(frozen=True)
@@ -107,24 +112,33 @@ class Weighted:
     True
     """
 
-    def __init__(self, mesh: Mesh, weights: Any, edge_weights: Any, slope: Slope | None, steepest: float) -> None:
+    def __init__(
+        self,
+        mesh: Mesh,
+        weights: Any,
+        edge_weights: Any = None,
+        slope: Slope | None = None,
+        steepest: float = np.inf,
+        towards: bool = False,
+    ) -> None:
         face = None if weights is None else floats(weights, "weights")
         if face is not None and face.ndim != 1:
             raise BrushfireError(f"weights: one per face is needed, not an array of shape {face.shape}")
         self._on = mesh
+        self._towards = bool(towards)
         self._solver = _core.WeightedSolver(
             mesh._space, face, *_edges(edge_weights), *_pace(slope), number(steepest, "steepest")
         )
 
     def distance(
         self,
-        sources: Places,
+        sources: Sources,
         *,
         tolerance: float = _TOLERANCE,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         targets: Places | None = None,
-        towards: bool = False,
+        towards: bool | None = None,
         progress: Progress = None,
     ) -> Floats:
         """What the cheapest path from the nearest of the sources costs: upper bounds, without lower ones in a fraction of
@@ -139,14 +153,14 @@ class Weighted:
 
     def costs(
         self,
-        sources: Places,
+        sources: Sources,
         *,
         tolerance: float = _TOLERANCE,
         refine: bool = False,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         targets: Places | None = None,
-        towards: bool = False,
+        towards: bool | None = None,
         progress: Progress = None,
     ) -> Costs:
         """What the cheapest path from the nearest of the sources costs, between proven bounds.
@@ -154,7 +168,8 @@ class Weighted:
         :param sources, offset, radius, targets, progress: as for :meth:`Mesh.distance`.
         :param tolerance: how far apart the bounds may be, relatively; in [1e-5, 1]. A wish: ``max_error_bound`` says what
             was reached.
-        :param towards: with a slope: what it costs to get to the sources, and not from them.
+        :param towards: with a slope: what it costs to get to the sources, and not from them; as :meth:`Mesh.weighted` was
+            told if nothing is said.
         :param refine: where the wish is not met everywhere, run again more finely, four times at most.
         :return: :class:`Costs`.
 
@@ -168,41 +183,39 @@ class Weighted:
 
     def _solve(
         self,
-        sources: Places,
+        sources: Sources,
         tolerance: float,
         refinements: int,
         lower: bool,
-        towards: bool,
+        towards: bool | None,
         offset: npt.ArrayLike,
         radius: float,
         targets: Places | None,
         progress: Progress,
     ) -> Costs:
-        start = self._on._arrays(sources, "sources")
+        start = sources_of(self._on, sources, offset)
         end = None if targets is None else self._on._arrays(targets, "targets")
         with shown(progress, "distance") as report:
-            upper, source, below, most, mean = self._solver.solve(
-                start.index,
-                start.weights,
-                offsets(offset, len(start.index)),
+            upper, source, below, most, mean, engine = self._solver.solve(
+                start,
                 end.index if end else None,
                 end.weights if end else None,
                 number(tolerance, "tolerance"),
                 refinements,
                 lower,
-                bool(towards),
-                number(radius, "radius"),
+                self._direction(towards),
+                radius_of(radius),
                 report,
             )
-        return Costs(upper, below, source, most, mean)
+        return Costs(upper, below, source, most, mean, engine)
 
     def path(
         self,
-        source: Places,
+        source: Sources,
         target: Places,
         *,
         tolerance: float = _TOLERANCE,
-        towards: bool = False,
+        towards: bool | None = None,
         radius: float = np.inf,
     ) -> WeightedPath:
         """The cheapest path from one place to another: see :meth:`paths`.
@@ -220,12 +233,12 @@ class Weighted:
 
     def paths(
         self,
-        sources: Places,
+        sources: Sources,
         targets: Places,
         *,
         offset: npt.ArrayLike = 0.0,
         tolerance: float = _TOLERANCE,
-        towards: bool = False,
+        towards: bool | None = None,
         radius: float = np.inf,
     ) -> tuple[list[WeightedPath], Labels]:
         """The cheapest path to every target from the source that is nearest to it. They are locally shortest: where they
@@ -239,22 +252,60 @@ class Weighted:
         >>> [round(p.cost, 6) for p in paths]
         [4.0, 9.895461]
         """
-        start, end = self._on._arrays(sources, "sources"), self._on._arrays(targets, "targets")
+        start, end = sources_of(self._on, sources, offset), self._on._arrays(targets, "targets")
         source, found = self._solver.paths(
-            start.index,
-            start.weights,
-            offsets(offset, len(start.index)),
+            start,
             end.index,
             end.weights,
             number(tolerance, "tolerance"),
-            bool(towards),
-            number(radius, "radius"),
+            self._direction(towards),
+            radius_of(radius),
         )
         return [self._weighted_path(*p) for p in found], source
+
+    def _direction(self, towards: bool | None) -> bool:
+        return self._towards if towards is None else bool(towards)
 
     def _weighted_path(self, path: _core.PathArrays, cost: float, lower: float, *legs: Any) -> WeightedPath:
         face, length, weight, toll, edge = legs
         return WeightedPath(path_of(self._on, path), cost, lower, face, length, weight, toll, edge.reshape(-1, 2))
+
+
+Weighing: TypeAlias = "Weighted | npt.ArrayLike"
+"""What going costs: :meth:`Mesh.weighted`, or one number > 0 for every face."""
+
+
+def weighted_of(mesh: Mesh, weights: Weighing | None) -> Weighted | None:
+    return weights if weights is None or isinstance(weights, Weighted) else Weighted(mesh, weights)
+
+
+def chosen_in(
+    surface: Surface,
+    weights: Weighing | None,
+    method: Any,
+    tolerance: Any,
+    radius: Any,
+    bound: Any = None,
+    precision: Any = None,
+    threads: int = 1,
+) -> tuple[_core.Space, Options]:
+    """Where to compute and how: as options() says, or by the weights."""
+    on: Any = surface  # a solver has a mesh
+    weighted = weighted_of(getattr(on, "mesh", on), weights)
+    if weighted is None:
+        return surface._space, options(method, tolerance, radius, bound, precision, threads)
+    if method is not None or precision is not None:
+        raise BrushfireError("method and precision: with weights there is one method, points on edges")
+    within = _TOLERANCE if tolerance is None else tolerance_of(tolerance)
+    weighting = weighted._solver.weighting(within, weighted._towards)
+    chosen: Options = {
+        "max_distance": radius_of(radius),
+        "threads": thread_count(threads),
+        "weighting": weighting,
+    }
+    if bound is not None:
+        chosen["bound"] = bound
+    return weighting.domain, chosen
 
 
 def weighted(
@@ -264,6 +315,7 @@ def weighted(
     *,
     slope: Slope | None = None,
     steepest: float = np.inf,
+    towards: bool = False,
 ) -> Weighted:
     """This mesh, with what it costs to cross its faces and edges.
 
@@ -274,7 +326,9 @@ def weighted(
         map, ``"energy"`` in J/kg per metre, or two arrays, slopes and the paces there, linear between; times the weights.
         Upper bounds only, then.
     :param steepest: with a slope: no step is steeper than this; steeper ground can still be traversed.
-    :return: :class:`Weighted`, whose ``costs()``, ``distance()``, ``path()`` and ``paths()`` are those of the weights.
+    :param towards: with a slope: costs are those to get to places, and not from them, where a call does not say.
+    :return: :class:`Weighted`, what ``weights=`` of other calls takes, and whose ``costs()``, ``distance()``, ``path()`` and
+        ``paths()`` are those of the weights.
     :raises BrushfireError: for weights that are not > 0, as many as faces; for edges that do not exist.
 
     >>> import brushfire as bf
@@ -285,7 +339,7 @@ def weighted(
     >>> road.cost, road.edge.tolist()
     (2.5, [[2, 0]])
     """
-    return Weighted(mesh, weights, edge_weights, slope, steepest)
+    return Weighted(mesh, weights, edge_weights, slope, steepest, towards)
 
 
 def isochrones(mesh: Mesh, values: npt.ArrayLike, levels: npt.ArrayLike) -> dict[str, Any]:

@@ -14,6 +14,7 @@
 #include <nanobind/stl/string.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -81,6 +82,11 @@ std::vector<Source> sources_from(const Mesh& mesh, const PlaceArrays& places, co
 // _core.Sources: the points and curves of one mesh that distances start from.
 struct Sources {
   std::vector<Source> list;
+};
+
+// _core.Weighting: what going costs, as options take it.
+struct SharedWeighting {
+  std::shared_ptr<const Weighting> value;
 };
 
 // (face, weights): int32 [points], float64 [points, 3].

@@ -94,6 +94,8 @@ DistanceOptions options_from(const nb::dict& given, Computation& computation) {
       options.tolerance = nb::cast<double>(value);
     } else if (name == "threads") {
       options.threads = nb::cast<unsigned>(value);
+    } else if (name == "weighting") {
+      options.weighting = nb::cast<const SharedWeighting&>(value).value;
     } else if (name == "max_distance") {
       options.max_distance = nb::cast<double>(value);
     } else {

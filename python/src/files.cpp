@@ -22,15 +22,18 @@ std::vector<Index> labels_from(const Vector<std::int32_t>& labels) {
   return result;
 }
 
-// A mesh without anything on it, in the formats of meshes; others know it as a field without values, and say what is
-// missing.
+// A mesh without anything on it, in the formats of meshes; those of fields alone say what is missing.
 void write_bare(const std::string& path, const Mesh& mesh, const std::string& structure, const std::string& format) {
   const nb::gil_scoped_release release;
-  try {
-    check_mesh_format(path, format);
-  } catch (const Error&) {
-    return write_field(path, mesh, {}, format);
-  }
+  const auto is_known = [&](auto& check) {
+    try {
+      check(path, format);
+    } catch (const Error&) {
+      return false;
+    }
+    return true;
+  };
+  if (!is_known(check_mesh_format) && is_known(check_field_format)) return write_field(path, mesh, {}, format);
   write_mesh(path, mesh, format, structure);
 }
 

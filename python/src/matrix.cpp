@@ -105,12 +105,13 @@ nb::tuple sparse_rows(Solver& solver, double radius, const Vector<std::int64_t>&
 }
 
 MatrixFileOptions file_options_from(const std::string& symmetric, std::uint64_t chunk_rows, int zarr_format,
-                                    std::uint64_t shard, std::uint64_t shards) {
+                                    std::uint64_t shard, std::uint64_t shards, std::uint64_t nearest) {
   MatrixFileOptions options;
   options.chunk_rows = chunk_rows;
   options.zarr_format = zarr_format;
   options.shard = shard;
   options.shards = shards;
+  options.nearest = nearest;
   if (!symmetric.empty()) options.symmetry = symmetric == "mean" ? Symmetry::Mean : Symmetry::Minimum;
   return options;
 }
@@ -120,9 +121,9 @@ std::string write(const Domain& domain, const std::string& path, bool float32, c
                   const OptionalWeights& row_weights, const OptionalIndex& column_index,
                   const OptionalWeights& column_weights, const nb::dict& given, unsigned threads,
                   const std::string& symmetric, std::uint64_t chunk_rows, int zarr_format, std::uint64_t shard,
-                  std::uint64_t shards, nb::object progress) {
+                  std::uint64_t shards, std::uint64_t nearest, nb::object progress) {
   Call call(row_index, row_weights, column_index, column_weights, given, threads, std::move(progress));
-  const MatrixFileOptions file = file_options_from(symmetric, chunk_rows, zarr_format, shard, shards);
+  const MatrixFileOptions file = file_options_from(symmetric, chunk_rows, zarr_format, shard, shards, nearest);
   return call.computation.run(false, [&] {
     MatrixJob job(path, domain, view(call.rows), view(call.columns), float32 ? ValueType::Float32 : ValueType::Float64,
                   call.options, file);
@@ -131,12 +132,41 @@ std::string write(const Domain& domain, const std::string& path, bool float32, c
   });
 }
 
+// A job that is joined for one block of rows after the other. One call at a time.
+class Job {
+ public:
+  Job(const Domain& domain, const std::string& path, bool float32, const OptionalIndex& row_index,
+      const OptionalWeights& row_weights, const OptionalIndex& column_index, const OptionalWeights& column_weights,
+      const nb::dict& given, unsigned threads, const std::string& symmetric, std::uint64_t chunk_rows, int zarr_format)
+      : call_(row_index, row_weights, column_index, column_weights, given, threads, nb::none()) {
+    const nb::gil_scoped_release release;
+    job_.emplace(path, domain, view(call_.rows), view(call_.columns), float32 ? ValueType::Float32 : ValueType::Float64,
+                 call_.options, file_options_from(symmetric, chunk_rows, zarr_format, 1, 1, 0));
+  }
+
+  std::size_t rows() const { return job_->rows(); }
+  std::size_t done() const { return job_->done(); }
+  std::size_t run_block(std::size_t block, std::size_t blocks) {
+    return call_.computation.run(false, [&] { return job_->run_block(block, blocks); });
+  }
+  void run() {
+    call_.computation.run(false, [&] {
+      job_->run();
+      return true;
+    });
+  }
+
+ private:
+  Call call_;
+  std::optional<MatrixJob> job_;
+};
+
 void merge(const std::vector<std::string>& shards, const std::string& path, const std::string& symmetric,
-           std::uint64_t chunk_rows, int zarr_format) {
+           std::uint64_t chunk_rows, int zarr_format, std::uint64_t nearest) {
   const std::vector<std::filesystem::path> paths(shards.begin(), shards.end());
   Computation computation{nb::none()};
   computation.run(false, [&] {
-    merge_shards(paths, path, file_options_from(symmetric, chunk_rows, zarr_format, 1, 1));
+    merge_shards(paths, path, file_options_from(symmetric, chunk_rows, zarr_format, 1, 1, nearest));
     return true;
   });
 }
@@ -167,9 +197,20 @@ void bind_matrix(nb::module_& m) {
   m.def("write_matrix", write, nb::arg("domain"), nb::arg("path"), nb::arg("float32"), nb::arg("row_index").none(),
         nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
         nb::arg("options"), nb::arg("threads"), nb::arg("symmetric"), nb::arg("chunk_rows"), nb::arg("zarr_format"),
-        nb::arg("shard"), nb::arg("shards"), nb::arg("progress").none());
+        nb::arg("shard"), nb::arg("shards"), nb::arg("nearest"), nb::arg("progress").none());
+  nb::class_<Job>(m, "MatrixJob")
+      .def(nb::init<const Domain&, const std::string&, bool, const OptionalIndex&, const OptionalWeights&,
+                    const OptionalIndex&, const OptionalWeights&, const nb::dict&, unsigned, const std::string&,
+                    std::uint64_t, int>(),
+           nb::arg("domain"), nb::arg("path"), nb::arg("float32"), nb::arg("row_index").none(),
+           nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
+           nb::arg("options"), nb::arg("threads"), nb::arg("symmetric"), nb::arg("chunk_rows"), nb::arg("zarr_format"))
+      .def_prop_ro("rows", &Job::rows)
+      .def_prop_ro("done", &Job::done)
+      .def("run_block", &Job::run_block, nb::arg("block"), nb::arg("blocks"))
+      .def("run", &Job::run);
   m.def("merge_shards", merge, nb::arg("shards"), nb::arg("path"), nb::arg("symmetric"), nb::arg("chunk_rows"),
-        nb::arg("zarr_format"));
+        nb::arg("zarr_format"), nb::arg("nearest"));
   m.def("require_dense_memory", require_dense, nb::arg("rows"), nb::arg("columns"), nb::arg("float32"),
         nb::arg("limit"));
 }

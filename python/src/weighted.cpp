@@ -6,7 +6,9 @@
 #include <brushfire/mesh/terrain.h>
 #include <brushfire/queries/isochrones.h>
 #include <brushfire/queries/weighted_path.h>
+#include <brushfire/solvers/steiner/weighting.h>
 
+#include <memory>
 #include <mutex>
 #include <new>
 
@@ -69,6 +71,16 @@ class Weighted {
 
   const Mesh& mesh() const { return solver_.domain().mesh(); }
 
+  // The last one is kept.
+  std::shared_ptr<const Weighting> weighting(const WeightingOptions& options) {
+    const std::lock_guard lock(mutex_);
+    if (!weighting_ || weighting_->options().tolerance != options.tolerance ||
+        weighting_->options().towards != options.towards) {
+      weighting_ = std::make_shared<const Weighting>(solver_.domain(), solver_.weights(), options);
+    }
+    return weighting_;
+  }
+
   template <class Use>
   auto with(Use&& use) {
     const std::lock_guard lock(mutex_);
@@ -82,12 +94,18 @@ class Weighted {
   }
 
   WeightedSolver solver_;
+  std::shared_ptr<const Weighting> weighting_;
   std::mutex mutex_;
 };
 
-// (distance, source, lower bounds or None, greatest and mean relative error bound): of the targets where there are any.
-nb::tuple solve(Weighted& weighted, const Vector<std::int64_t>& index, const OptionalWeights& weights,
-                const Vector<double>& offsets, const std::optional<Vector<std::int64_t>>& target_index,
+SharedWeighting weighting_of(Weighted& weighted, double tolerance, bool towards) {
+  const nb::gil_scoped_release release;
+  return {weighted.weighting({tolerance, towards})};
+}
+
+// (distance, source, lower bounds or None, greatest and mean relative error bound, engine): of the targets where
+// there are any.
+nb::tuple solve(Weighted& weighted, const Sources& sources, const std::optional<Vector<std::int64_t>>& target_index,
                 const OptionalWeights& target_weights, double tolerance, unsigned refinements, bool lower, bool towards,
                 double max_distance, nb::object progress) {
   Computation computation(std::move(progress));
@@ -100,9 +118,8 @@ nb::tuple solve(Weighted& weighted, const Vector<std::int64_t>& index, const Opt
   options.cancel = computation.cancel();
   options.progress = computation.progress();
   WeightedField field = computation.run(false, [&] {
-    const std::vector<Source> sources = sources_from(weighted.mesh(), {index, weights}, offsets);
     if (target_index) options.targets = targets_from(weighted.mesh(), {*target_index, target_weights});
-    return weighted.with([&](WeightedSolver& s) { return s.distance(sources, options); });
+    return weighted.with([&](WeightedSolver& s) { return s.distance(sources.list, options); });
   });
   std::vector<double>& values = target_index ? field.target_distance : field.distance;
   std::vector<double>& below = target_index ? field.target_lower : field.lower;
@@ -110,7 +127,7 @@ nb::tuple solve(Weighted& weighted, const Vector<std::int64_t>& index, const Opt
   if (!below.empty()) lower_bounds = nb::cast(to_numpy(std::move(below)));
   return nb::make_tuple(to_numpy(std::move(values)),
                         to_numpy_signed(std::move(target_index ? field.target_source : field.source)), lower_bounds,
-                        field.max_error_bound, field.mean_error_bound);
+                        field.max_error_bound, field.mean_error_bound, name_of(field.engine));
 }
 
 // (path, cost, lower, legs: face, length, weight, toll, edge [legs, 2]).
@@ -129,8 +146,7 @@ nb::tuple path_arrays(const WeightedPath& path) {
                         to_numpy_signed(std::move(along)));
 }
 
-nb::tuple paths(Weighted& weighted, const Vector<std::int64_t>& index, const OptionalWeights& weights,
-                const Vector<double>& offsets, const Vector<std::int64_t>& target_index,
+nb::tuple paths(Weighted& weighted, const Sources& sources, const Vector<std::int64_t>& target_index,
                 const OptionalWeights& target_weights, double tolerance, bool towards, double max_distance) {
   Computation computation{nb::none()};
   const std::vector<WeightedPath> found = computation.run(false, [&] {
@@ -140,8 +156,7 @@ nb::tuple paths(Weighted& weighted, const Vector<std::int64_t>& index, const Opt
     options.max_distance = max_distance;
     options.cancel = computation.cancel();
     const std::vector<SurfacePoint> targets = targets_from(weighted.mesh(), {target_index, target_weights});
-    const std::vector<Source> sources = sources_from(weighted.mesh(), {index, weights}, offsets);
-    return weighted.with([&](WeightedSolver& s) { return weighted_paths(s, sources, targets, options); });
+    return weighted.with([&](WeightedSolver& s) { return weighted_paths(s, sources.list, targets, options); });
   });
   nb::list list;
   std::vector<Index> nearest;
@@ -175,6 +190,9 @@ std::string isochrones(const Mesh& mesh, const Vector<double>& values, const Vec
 }  // namespace
 
 void bind_weighted(nb::module_& m) {
+  nb::class_<SharedWeighting>(m, "Weighting").def_prop_ro("domain", [](const SharedWeighting& w) {
+    return w.value->domain();
+  });
   nb::class_<Weighted>(m, "WeightedSolver")
       .def(nb::init<const Domain&, const std::optional<Vector<double>>&, const Vector<std::int64_t>&,
                     const Vector<double>&, const Vector<double>&, const std::string&,
@@ -182,12 +200,11 @@ void bind_weighted(nb::module_& m) {
            nb::arg("domain"), nb::arg("face").noconvert().none(), nb::arg("edge_vertices").noconvert(),
            nb::arg("along").noconvert(), nb::arg("crossing").noconvert(), nb::arg("slope"),
            nb::arg("slopes").noconvert().none(), nb::arg("paces").noconvert().none(), nb::arg("steepest"))
-      .def("solve", solve, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-           nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert().none(),
+      .def("weighting", weighting_of, nb::arg("tolerance"), nb::arg("towards"))
+      .def("solve", solve, nb::arg("sources"), nb::arg("target_index").noconvert().none(),
            nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("refinements"), nb::arg("lower"),
            nb::arg("towards"), nb::arg("max_distance"), nb::arg("progress").none())
-      .def("paths", paths, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
-           nb::arg("offsets").noconvert(), nb::arg("target_index").noconvert(),
+      .def("paths", paths, nb::arg("sources"), nb::arg("target_index").noconvert(),
            nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("towards"),
            nb::arg("max_distance"));
   m.def("isochrones", isochrones, nb::arg("mesh"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());

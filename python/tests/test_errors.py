@@ -371,3 +371,23 @@ def test_options_that_only_one_side_knows_are_errors():
     for shown, look in [({"glow": 1.0}, {}), ({}, {"glow": 1.0}), ({}, {"scales": [{"glow": 1.0}]})]:
         with pytest.raises(bf.BrushfireError, match="'glow'"):
             _core.render([(mesh._mesh, shown)], {"scales": [{}], **look})
+
+
+def test_a_radius_below_nothing_and_an_empty_name_are_told_by_their_arguments(tmp_path):
+    mesh = bf.Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+    runs = (
+        lambda r: mesh.distance(0, radius=r),
+        lambda r: mesh.path(0, 2, radius=r),
+        lambda r: mesh.log_map(0, r),
+        lambda r: mesh.distances_within(r),
+        lambda r: mesh.solver().distances_within(r, [0]),
+    )
+    for run in runs:
+        for radius in (-1, float("nan")):
+            with pytest.raises(bf.BrushfireError, match=rf"^radius: a number >= 0 is needed, not {radius}"):
+                run(radius)
+    for use in (bf.read, mesh.save, lambda name: bf.write(name, mesh.distance(0))):
+        with pytest.raises(bf.BrushfireError, match="the name of a file is needed, not ''"):
+            use("")
+    with pytest.raises(bf.BrushfireError, match="no mesh is written as 'foo' .*stl"):
+        mesh.save(tmp_path / "mesh.foo")

@@ -21,7 +21,7 @@ CONFIGURATION = Path(__file__).parents[2] / "pyproject.toml"
 def modules():
     yield bf
     for info in pkgutil.walk_packages(bf.__path__, "brushfire."):
-        if info.name in ("brushfire.torch", "brushfire.jax", "brushfire.pyvista"):  # tested where those are
+        if info.name in ("brushfire.torch", "brushfire.jax", "brushfire.pyvista", "brushfire.dask"):  # tested where those are
             continue
         yield importlib.import_module(info.name)
 

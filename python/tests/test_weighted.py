@@ -28,6 +28,7 @@ def test_costs_lie_between_their_bounds(strip: bf.Mesh) -> None:
     excess = (costs.upper - costs.lower)[costs.upper > 0] / costs.lower[costs.upper > 0]
     assert excess.max() == pytest.approx(costs.max_error_bound)
     assert excess.mean() == pytest.approx(costs.mean_error_bound)
+    assert costs.engine in ("windows", "points")
     distance = strip.weighted(W).distance(5)
     assert (distance >= costs.lower).all() and distance == pytest.approx(costs.upper, rel=0.01)
     assert strip.weighted(W).distance(5, targets=[9, 0]) == pytest.approx(costs.upper[[9, 0]], rel=0.01)
@@ -71,3 +72,44 @@ def test_what_are_no_weights_is_refused(strip: bf.Mesh) -> None:
         strip.weighted(edge_weights=[[0, 99, 1]])
     with pytest.raises(bf.BrushfireError, match="tolerance"):
         strip.weighted(W).costs(0, tolerance=0)
+
+
+def test_weights_count_in_whatever_reads_a_field(strip: bf.Mesh) -> None:
+    weighted = strip.weighted(W)
+    truth = weighted.distance(5)
+    assert (strip.distance(5, weights=W) == truth).all()
+    assert (strip.solver().distance(5, weights=weighted) == truth).all()
+    assert (strip.distance_matrix([5], weights=W, dtype=np.float64)[0] == truth).all()
+    assert strip.pair_distances([[5, 9], [5, 7]], weights=W) == pytest.approx([8, 2])
+    assert strip.nearest_sources([5, 9], 2, weights=W)[0][7] == pytest.approx([2, 6])
+    assert strip.parcels([0, 0, -1, -1, 1] * 3, weights=W).distance[0, 1] == pytest.approx(7)
+    assert strip.farthest_points(2, 5, weights=W).separation[1] == truth.max()
+    cells = strip.voronoi([5, 9], weights=weighted)
+    assert cells.area.sum() == pytest.approx(8) and cells.area[0] > 4.5
+    low, bound = strip.distance(5, weights=W, bound="lower", return_bound=True)
+    assert (low + bound == pytest.approx(truth, rel=0.01)) and (low <= truth).all()
+    with pytest.raises(bf.BrushfireError, match="one method"):
+        strip.distance(5, weights=W, method="exact")
+
+
+def test_infinite_weights_are_walls_in_cells(strip: bf.Mesh) -> None:
+    wall = np.where(V[F].mean(axis=1)[:, 0] > 2, np.inf, 1.0)
+    cells = strip.voronoi([5], weights=wall)
+    assert cells.area[0] == pytest.approx(4)
+    assert np.isinf(cells.distance[9])
+
+
+def test_curves_are_sources_of_costs(strip: bf.Mesh) -> None:
+    costs = strip.weighted(W).costs(bf.Curve([0, 5, 10]))
+    assert costs.lower is None
+    assert costs.upper[9] == pytest.approx(8)
+    assert strip.weighted(W).path(bf.Curve([0, 5, 10]), 9).cost == pytest.approx(8)
+
+
+def test_a_direction_is_that_of_the_weights_where_a_call_does_not_say() -> None:
+    ground = bf.terrain([[0, 5, 10], [0, 5, 10]], (0, 10, 0, 0, 0, -10))
+    down = ground.mesh.weighted(slope="tobler", towards=True)
+    up = ground.mesh.weighted(slope="tobler")
+    assert (down.distance(0) == up.distance(0, towards=True)).all()
+    assert (ground.mesh.distance(0, weights=down) == down.distance(0)).all()
+    assert ground.mesh.distance(0, weights=up)[2] > ground.mesh.distance(0, weights=down)[2]

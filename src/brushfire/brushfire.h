@@ -18,22 +18,29 @@
 #include <brushfire/mesh/reachable.h>
 #include <brushfire/mesh/report.h>
 #include <brushfire/mesh/shapes.h>
+#include <brushfire/mesh/shared_face.h>
 #include <brushfire/mesh/subdivide.h>
 #include <brushfire/mesh/surface_path.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/mesh/terrain.h>
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/heat.h>
 #include <brushfire/solvers/heat_options.h>
-#include <brushfire/solvers/laplacian.h>
-#include <brushfire/solvers/signed_heat.h>
-#include <brushfire/solvers/steiner/slope_pace.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
-#include <brushfire/solvers/steiner/weights.h>
-#include <brushfire/solvers/vector_heat.h>
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>
+#if BRUSHFIRE_WEIGHTS
+#include <brushfire/solvers/steiner/replanner.h>
+#include <brushfire/solvers/steiner/slope_pace.h>
+#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/steiner/weights.h>
+#endif
+#if BRUSHFIRE_HEAT
+#include <brushfire/solvers/heat.h>
+#include <brushfire/solvers/laplacian.h>
+#include <brushfire/solvers/signed_heat.h>
+#include <brushfire/solvers/vector_heat.h>
+#endif
 #if BRUSHFIRE_QUERIES
 #include <brushfire/queries/centroidal.h>
 #include <brushfire/queries/certify.h>
@@ -67,6 +74,7 @@
 #include <brushfire/io/byte_stream.h>
 #include <brushfire/io/formats.h>
 #include <brushfire/io/npy.h>
+#include <brushfire/io/read_face_values.h>
 #include <brushfire/io/read_field.h>
 #include <brushfire/io/read_grid.h>
 #include <brushfire/io/read_lines.h>

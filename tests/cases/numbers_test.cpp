@@ -114,6 +114,35 @@ TEST(NumberCases, AllWeightOnOneVertexOfADegenerateFaceIsThatVertex) {
   EXPECT_EQ(locate(mesh, {2, {0.25, 0.5, 0.25}}).vertex, 1u);
 }
 
+// Its distance is a small difference of large lengths, of which the bound knows nothing: the source sees it.
+TEST(NumberCases, AVertexBesideTheOppositeEdgeOfANeedleIsAsFarAsTheChord) {
+  for (const double altitude : {1e-3, 1e-6, 1e-9}) {
+    for (const double share : {0.3, 0.37, 0.61}) {
+      const std::vector<Vec3> p{
+          {0.1, 0.2, 0.3}, {0.7, 0.9, 0.4}, {0.1 + share * 0.6, 0.2 + share * 0.7, 0.3 + share * 0.1 + altitude}};
+      const Mesh mesh(p, std::vector<Face>{{0, 1, 2}});
+      for (const double beside : {0.0, 1e-2, 1.0, 1e2}) {
+        const double w = share + beside * altitude;
+        const Source source{{0, {1 - w, w, 0}}};
+        DistanceOptions options;
+        options.method = Method::Exact;
+        const DistanceField field = distance(mesh, std::span(&source, 1), options);
+        long double square = 0;
+        const auto along = [&](double Vec3::* axis) {
+          const long double a = 1 - w, b = w;
+          const long double step = a * (static_cast<long double>(p[0].*axis) - p[2].*axis) +
+                                   b * (static_cast<long double>(p[1].*axis) - p[2].*axis);
+          square += step * step;
+        };
+        along(&Vec3::x), along(&Vec3::y), along(&Vec3::z);
+        const auto chord = static_cast<double>(std::sqrt(square));
+        EXPECT_LE(std::abs(field.distance[2] - chord), field.error_bound[2] + 1e-9 * kRounding * chord) << altitude;
+        EXPECT_NEAR(field.distance[2], chord, 2e-12 * chord) << altitude << ", " << share << ", " << beside;
+      }
+    }
+  }
+}
+
 // ---- targets in no face
 
 TEST(NumberCases, ATargetInNoFaceReadsInfinityAndTheOthersWhatTheyReadWithoutIt) {
@@ -145,7 +174,7 @@ TEST(NumberCases, AVertexInNoFaceIsStillNoSource) {
 // ---- offsets
 
 TEST(NumberCases, AFiniteOffsetOfAnySizeIsAddedByEveryMethod) {
-  for (const double size : {1e-300, 0.01, 1.0, 1e298}) {
+  for (const double size : {1e-300, 0.01, 1.0, 1e297, 1e298}) {
     const std::vector<Vec3> p{{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
     const Mesh mesh(p, std::vector<Face>{{0, 1, 2}});
     for (const double offset : {1e308, -1e308, 1.7e308, 1e40, -1e40, 1e9, 3.0}) {
@@ -161,6 +190,30 @@ TEST(NumberCases, AFiniteOffsetOfAnySizeIsAddedByEveryMethod) {
           EXPECT_NEAR(field.distance[1], offset + size, error * size + kRounding * std::abs(offset))
               << name_of(method) << ", size " << size << ", offset " << offset;
           EXPECT_EQ(field.reached, 3u);
+        }
+      }
+    }
+  }
+}
+
+// However small beside the lengths: it is not to be lost in a difference with them.
+TEST(NumberCases, EverySourceReadsItsOffsetToTheLastBit) {
+  const Shape shape = shapes::saddle(5);
+  for (const double size : {1e-300, 1.0, 1e290}) {
+    std::vector<Vec3> positions = shape.positions;
+    for (Vec3& p : positions) p = size * p;
+    const Mesh mesh(positions, shape.faces);
+    for (const double share : {1e-290, 1e-30, 1e-17, 1e-9, 0.01}) {
+      for (const double offset : {size * share, -size * share}) {
+        if (std::abs(offset) < std::numeric_limits<double>::min()) continue;
+        for (const Method method : all_methods()) {
+          DistanceOptions options;
+          options.method = method;
+          options.precision = Precision::Double;
+          const std::vector<Source> sources{{vertex_point(mesh, 0), offset}, {vertex_point(mesh, 17), 1.1 * offset}};
+          const DistanceField field = distance(mesh, sources, options);
+          EXPECT_EQ(field.distance[0], offset) << name_of(method) << " " << size;
+          EXPECT_EQ(field.distance[17], 1.1 * offset) << name_of(method) << " " << size;
         }
       }
     }
@@ -226,7 +279,6 @@ TEST(NumberCases, OffsetsOnAMeshWithoutSizeAreNoTies) {
   const std::vector<Source> sources{
       {{9, {0, 0.25, 0.75}}, -38512.5}, {{15, {0.25, 0.5, 0.25}}, -330313.75}, {vertex_point(mesh, 2), 129603}};
   for (const Method method : all_methods()) {
-    if (method == Method::Heat) continue;  // it flows through areas, and there are none
     const DistanceField field = field_of(mesh, sources, method);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       EXPECT_EQ(field.distance[v], -330313.75) << name_of(method);

@@ -145,6 +145,15 @@ TEST_F(CurveSources, PathsLeadToCurvesAndPicturesShowThem) {
   EXPECT_EQ(run({"render", "--source", "boundary", "--size", "64x48", "-o", path("p.png"), "-q"}).code, 0);
 }
 
+TEST_F(CurveSources, AFileOfCurvesIsNoListOfSourcesAndIsToldSo) {
+  write("way.obj", "v 0 0 0\nv 4 0 0\nl 1 2\n");
+  expect_refused({"distance", "--sources", path("way.obj")}, 2,
+                 "a file of curves is a source by its name: --source " + path("way.obj"));
+  write("places.csv", "7\nnose\n");
+  const Ended ended = run({"distance", "--sources", path("places.csv")});
+  EXPECT_EQ(ended.err.find("a file of curves"), std::string::npos) << ended.err;
+}
+
 TEST_F(CurveSources, StandInFilesOfSourcesBesidePlaces) {
   write("list.txt", "boundary:0@1  # the rim\n7\n");
   const Ended ended = run({"distance", "--sources", path("list.txt"), "-m", "exact", "--target", "7", "--target", "0"});

@@ -83,6 +83,90 @@ TEST_F(WeightFiles, JsonTellsEveryLeg) {
   EXPECT_EQ(json.at("method"), "steiner");
 }
 
+// The least way up is as long as the mesh is wide, through ground of 1 and of 3.
+TEST_F(WeightFiles, CountInWhateverReadsAField) {
+  const std::string mesh = path("m.off"), w = path("w.txt");
+  const auto run = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--weights", w});
+    const Ended ended = run_program(words);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return ended.out;
+  };
+  run({"matrix", mesh, "--rows", "5", "--columns", "9,7", "--dtype", "float64", "-o", path("d.npy")});
+  EXPECT_NEAR(read_npy(path("d.npy")).values[0], 8, 1e-9);
+  EXPECT_NEAR(read_npy(path("d.npy")).values[1], 2, 1e-9);
+  const auto lines =
+      nlohmann::json::parse(run({"isolines", mesh, "-s", "5", "--levels", "7", "-o", path("l.obj"), "--json"}));
+  EXPECT_GT(lines.at("greatest").get<double>(), 8);
+  EXPECT_EQ(lines.at("levels_outside"), 0);
+  const auto cells = nlohmann::json::parse(run({"voronoi", mesh, "-s", "5", "-s", "9", "--json"}));
+  EXPECT_GT(cells.at("cells").at(0).at("area").get<double>(), 4.5);
+  EXPECT_EQ(run({"sample", mesh, "--count", "2", "--source", "5", "--quiet"}), "5\n4\n");
+  EXPECT_NE(run({"gradient", mesh, "-s", "5"}).find("mean 2"), std::string::npos);
+  run({"render", mesh, "-s", "5", "--path", "9", "--size", "64x48", "-o", path("p.png")});
+  write("labels.txt", "0 0 -1 -1 1 0 0 -1 -1 1 0 0 -1 -1 1\n");
+  run({"parcels", mesh, path("labels.txt"), "-o", path("q.npy")});
+  EXPECT_NEAR(read_npy(path("q.npy")).values[1], 7, 1e-9);
+}
+
+TEST_F(WeightFiles, NameAPropertyOfFacesOrCostsOfLabels) {
+  write("kinds.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nproperty float cost\nproperty int kind\nend_header\n"
+        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 2.5 7\n3 0 2 3 9 4\n");
+  const std::string mesh = path("kinds.ply");
+  const auto cost = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"distance", mesh, "-s", "0", "-t", "1"});
+    return number(run_program(more));
+  };
+  EXPECT_NEAR(cost({"--weights", mesh + ":cost"}), 2.5, 1e-8);
+  EXPECT_NEAR(cost({"--weights", mesh + ":kind", "--cost", "7=4", "--cost", "4=9"}), 4, 1e-8);
+  EXPECT_NEAR(cost({"--weights", mesh + ":kind", "--cost", "4=9"}), 1, 1e-8);
+  write("cells.vtk",
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\n"
+        "POLYGONS 2 8\n3 0 1 2 3 0 2 3\nCELL_DATA 2\nSCALARS other float 1\nLOOKUP_TABLE default\n9 9\n"
+        "SCALARS cost float 1\nLOOKUP_TABLE default\n3 9\nPOINT_DATA 4\nSCALARS cost float 1\n"
+        "LOOKUP_TABLE default\n5 5 5 5\n");
+  EXPECT_NEAR(cost({"--weights", path("cells.vtk") + ":cost"}), 3, 1e-8);
+  write("cells.vtp",
+        "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"0\" NumberOfPolys=\"2\"><CellData>"
+        "<DataArray type=\"Float64\" Name=\"cost\" format=\"ascii\">6 9</DataArray></CellData></Piece></PolyData>"
+        "</VTKFile>");
+  EXPECT_NEAR(cost({"--weights", path("cells.vtp") + ":cost"}), 6, 1e-8);
+  const auto said = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"distance", mesh, "-s", "0", "-t", "1"});
+    const Ended ended = run_program(more);
+    EXPECT_NE(ended.code, 0);
+    return ended.err;
+  };
+  EXPECT_NE(said({"--weights", mesh + ":price"}).find("the faces have no scalar 'price'"), std::string::npos);
+  EXPECT_NE(said({"--weights", mesh + ":kind", "--cost", "7"}).find("LABEL=COST"), std::string::npos);
+  EXPECT_NE(said({"--cost", "7=1"}).find("of which labels"), std::string::npos);
+  write("corners.txt", "1\n1\n7\n1\n");  // of vertices: a face costs the mean of its corners
+  EXPECT_NEAR(cost({"--weights", path("corners.txt"), "--cost", "7=4"}), 2, 1e-9);
+}
+
+TEST_F(WeightFiles, CurvesAreSourcesOfUpperBounds) {
+  const std::string mesh = path("m.off"), w = path("w.txt");
+  EXPECT_NEAR(number(run_program({"distance", mesh, "-s", "chain:0,5,10", "-t", "9", "--weights", w})), 8, 1e-12);
+  EXPECT_NEAR(number(run_program({"path", mesh, "--from", "chain:0,5,10", "--to", "9", "--weights", w})), 8, 1e-12);
+  const Ended ended =
+      run_program({"distance", mesh, "-s", "chain:0,5,10", "-t", "9", "--weights", w, "--bound", "lower"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_NE(ended.err.find("from curves there are upper bounds only"), std::string::npos);
+}
+
+TEST_F(WeightFiles, AreRefusedWhereLengthsCount) {
+  const Ended arcs = run_program({"isolines", path("m.off"), "-s", "5", "--count", "3", "--chord-error", "0.1", "-o",
+                                  path("l.obj"), "--weights", path("w.txt")});
+  EXPECT_EQ(arcs.code, 2);
+  EXPECT_NE(arcs.err.find("arcs are those of distances"), std::string::npos);
+  const Ended lloyd = run_program({"sample", path("m.off"), "--count", "3", "--lloyd", "--weights", path("w.txt")});
+  EXPECT_NE(lloyd.err.find("middles of cells are those of distances"), std::string::npos);
+  const Ended parcels = run_program({"parcels", path("m.off"), path("w.txt"), "--slope", "tobler"});
+  EXPECT_NE(parcels.err.find("the same both ways, and slopes are not"), std::string::npos);
+}
+
 TEST_F(WeightFiles, ThatDoNotFitAreRefusedWithTheReason) {
   const auto refused = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"path", path("m.off"), "--from", "5", "--to", "9"});

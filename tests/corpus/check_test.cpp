@@ -61,5 +61,19 @@ TEST(Corpus, WhatWasWrongOnceIsRight) {
   }
 }
 
+// Its bound was as large as its value: docs/decisions/wide-numbers.md.
+TEST(Corpus, AVertexBeyondOneThatTheSourceIsVeryNearToIsShown) {
+  const auto families = small_families();
+  const auto far =
+      std::find_if(families.begin(), families.end(), [](const Family& f) { return f.name == "far-point"; });
+  ASSERT_NE(far, families.end());
+  const Case c = make_case(*far, 20261202, 38);
+  DistanceOptions options;
+  options.method = Method::Exact;
+  const DistanceField field = distance(c.mesh, c.starts[1], options);
+  EXPECT_NEAR(field.distance[11], 1.7695483778716121, 1e-15);
+  EXPECT_LT(field.error_bound[11], 1e-12);
+}
+
 }  // namespace
 }  // namespace brushfire::corpus

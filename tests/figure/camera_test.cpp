@@ -30,6 +30,28 @@ TEST(Camera, TopViewWithZUpLooksDownTheZAxisWithYUpwards) {
   EXPECT_LT(p({0, 1, 0}).y, p({0, -1, 0}).y);
 }
 
+TEST(Camera, TurnedToADirectionSeesThatSideWithUpUpwards) {
+  for (const Axis up : {Axis::X, Axis::Y, Axis::Z}) {
+    for (const Vec3& d : kAxes) {
+      for (const Vec3& e : kAxes) {
+        const Vec3 outward = d + 0.5 * e;
+        Camera camera;
+        camera.up = up;
+        camera = turned_to(outward, camera);
+        const Projection p(camera, kAxes, 0, 0, 100, 100);
+        const double upwards = up == Axis::X ? outward.x : up == Axis::Y ? outward.y : outward.z;
+        // From straight below nothing is seen that is not seen from its side.
+        if (upwards > -0.9 * norm(outward)) {
+          EXPECT_GT(p(outward).depth, p({}).depth);
+        }
+        const Vec3 top{up == Axis::X ? 1.0 : 0, up == Axis::Y ? 1.0 : 0, up == Axis::Z ? 1.0 : 0};
+        EXPECT_LT(p(top).y, p(-1.0 * top).y);
+      }
+    }
+  }
+  EXPECT_EQ(turned_to({}).azimuth, Camera{}.azimuth);
+}
+
 TEST(Camera, OppositeViewsSeeOppositeSides) {
   for (const auto& [one, other] : {std::pair{"front", "back"}, {"left", "right"}, {"top", "bottom"}}) {
     const Projection a(named_view(one), kAxes, 0, 0, 100, 100), b(named_view(other), kAxes, 0, 0, 100, 100);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace brushfire {
@@ -110,15 +111,126 @@ TEST(Render, BeyondTheFrontTheSurfaceIsPlain) {
   EXPECT_NEAR(image.pixel(60, 50)[0], image.pixel(90, 50)[0], 1);   // and the same everywhere
 }
 
-TEST(Render, DotsAndPathsOnTheFarSideAreHidden) {
+TEST(Render, DotsOnTheFarSideAreHiddenAndPathsThereAreDashed) {
   Panel panel;
   panel.mesh = shapes::icosphere(4).mesh();
-  const Image bare = render_one(panel, front(120));
+  RenderOptions options = front(120);
+  options.hidden_paths = false;
+  const Image bare = render_one(panel, options);
   panel.dots = {{0, 0, -1}};
   panel.paths = {{{{-0.3, 0, -0.95}, {0.3, 0, -0.95}}, false}};
-  EXPECT_EQ(render_one(panel, front(120)).rgba, bare.rgba);
+  EXPECT_EQ(render_one(panel, options).rgba, bare.rgba);
+  options.hidden_paths = true;
+  const Image dashed = render_one(panel, options);
+  int changes = 0;
+  bool red = false;
+  for (int x = 0; x < 120; ++x) {
+    const bool now =
+        dashed.pixel(x, 60)[0] > bare.pixel(x, 60)[0] + 10 || dashed.pixel(x, 60)[2] + 40 < bare.pixel(x, 60)[2];
+    changes += now != red;
+    red = now;
+  }
+  EXPECT_GE(changes, 4);  // two dashes at least
+  EXPECT_EQ(changes % 2, 0);
+  options.hidden_paths = false;
   panel.dots = {{0, 0, 1}};
-  EXPECT_NE(render_one(panel, front(120)).rgba, bare.rgba);
+  EXPECT_NE(render_one(panel, options).rgba, bare.rgba);
+}
+
+// Of two triangles over a square the corners x = 0 have label 0 and those of x = 1 label 1; the border is at x = 0.8.
+TEST(Render, LabelsChangeWhereTheCellsMeetAndNotHalfwayBetweenVertices) {
+  Panel panel;
+  panel.mesh = shapes::plane(1, 1).mesh();
+  for (const Vec3& p : panel.mesh.positions()) panel.labels.push_back(p.x > 0.5 ? 1 : 0);
+  const auto column_of_change = [&](int row) {
+    const Image image = render_one(panel, front(200));
+    const auto same = [&](int a, int b) {
+      return std::equal(image.pixel(a, row), image.pixel(a, row) + 3, image.pixel(b, row));
+    };
+    int x = 100;
+    while (x > 8 && same(x - 1, x)) --x;
+    if (x > 8) return x;
+    for (x = 100; x < 190 && same(x, x + 1); ++x) {
+    }
+    return x;
+  };
+  const double width = 200 * 0.92;
+  EXPECT_GT(std::abs(column_of_change(60) - (100 + 0.3 * width)), 20);
+  const auto corner = [&](Index v) { return panel.mesh.positions()[v]; };
+  for (Index f = 0; f < 2; ++f) {
+    SharedFace& face = panel.label_borders.emplace_back();
+    face.face = f;
+    for (std::size_t k = 0; k < 3; ++k) face.label[k] = panel.labels[panel.mesh.faces()[f][k]];
+    for (std::size_t at = 0; at < 3; ++at) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double x = corner(panel.mesh.faces()[f][at]).x;
+        face.distance[at][k] = face.label[k] == 0 ? 1 + x : 2.6 - x;  // equal at 0.8
+      }
+    }
+  }
+  for (const int row : {40, 100, 160}) EXPECT_NEAR(column_of_change(row), 100 + 0.3 * width, 3) << row;
+}
+
+TEST(Render, ColoursOfLabelsCanBeGivenAndThenNameThemInTheLegendOnlyWhereEachHasItsOwn) {
+  Panel panel = square();
+  panel.labels.assign(panel.scalar.size(), 0);
+  for (std::size_t v = 0; v < panel.labels.size(); ++v) panel.labels[v] = static_cast<Index>(v % 3);
+  RenderOptions options = front(240);
+  options.colour_bar = true;
+  const auto swatches = [&] {
+    const std::span<const Panel> panels(&panel, 1);
+    return detail::lay_out(panels, options, detail::ranges_of(panels, options), detail::Font("")).swatches;
+  };
+  panel.label_colors = {4, 2, 3};
+  ASSERT_EQ(swatches().size(), 3u);
+  EXPECT_TRUE(swatches().front().color == label_color(4));
+  panel.label_colors = {4, 2, 4};
+  EXPECT_TRUE(swatches().empty());
+}
+
+TEST(Render, TheBarHasAPointAndSaysHowFarValuesGoBeyondItsRange) {
+  Panel panel = square();
+  RenderOptions options = front(240);
+  options.colour_bar = true;
+  const auto layout = [&] {
+    const std::span<const Panel> panels(&panel, 1);
+    return detail::lay_out(panels, options, detail::ranges_of(panels, options), detail::Font(""));
+  };
+  const auto says = [&](const std::string& text) {
+    const detail::Layout laid = layout();
+    return std::any_of(laid.texts.begin(), laid.texts.end(), [&](const auto& t) { return t.text == text; });
+  };
+  EXPECT_EQ(layout().bars[0].point_above, 0);
+  EXPECT_EQ(layout().bars[0].point_below, 0);
+  options.scales[0].low = 0.25;
+  options.scales[0].high = 0.5;
+  EXPECT_GT(layout().bars[0].point_above, 0);
+  EXPECT_GT(layout().bars[0].point_below, 0);
+  EXPECT_TRUE(says("to 1.0")) << "at the top";
+  // The point is in the picture, in the colour of the end.
+  const Image image = render_one(panel, options);
+  const detail::Bar bar = layout().bars[0];
+  const std::uint8_t* p = image.pixel(bar.at.x + bar.at.width / 2, bar.at.y - bar.point_above / 2);
+  EXPECT_LT(p[2], 100);  // yellow
+}
+
+TEST(Render, TheBarShowsBandsAsTheyAreOnTheSurface) {
+  Panel panel = square();
+  panel.isolines = {0.25, 0.5, 0.75};
+  RenderOptions options = front(240);
+  options.colour_bar = true;
+  options.fill = Fill::Bands;
+  const std::span<const Panel> panels(&panel, 1);
+  const detail::Layout layout = detail::lay_out(panels, options, detail::ranges_of(panels, options), detail::Font(""));
+  const std::vector<Color>& rows = layout.bars[0].rows;
+  int steps = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) steps += std::abs(rows[i].g - rows[i - 1].g) > 0.15F;
+  EXPECT_EQ(steps, 3);
+  for (const double value : {0.1, 0.4, 0.6, 0.9}) {
+    const auto row = static_cast<std::size_t>(std::lround((1 - value) * static_cast<double>(rows.size() - 1)));
+    const Color c = detail::value_color(value, {0, 1}, Colormap::Viridis, Fill::Bands, panel.isolines);
+    EXPECT_NEAR(rows[row].g, c.g, 0.02) << value;
+  }
 }
 
 TEST(Render, PathIsSeenAlongItsWholeLength) {
@@ -185,7 +297,7 @@ TEST(Render, PanelsOfAnotherScaleHaveTheirOwnRangeAndBar) {
   EXPECT_EQ(ranges[1].high, 1e-3);
   const detail::Layout layout = detail::lay_out(panels, options, ranges, detail::Font(""));
   ASSERT_EQ(layout.bars.size(), 2u);
-  EXPECT_EQ(layout.bars[1].colormap, Colormap::Magma);
+  EXPECT_TRUE(layout.bars[1].rows.front() == color_of(Colormap::Magma, 1));
   // panel, panel, bar, panel, bar, none over another
   EXPECT_EQ(layout.panels[1].x, 100);
   EXPECT_GE(layout.bars[0].at.x, 200);

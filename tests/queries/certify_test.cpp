@@ -2,6 +2,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/certify.h>
+#include <brushfire/queries/surface_curves.h>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,19 @@ void expect_found(const Certificate& c, const std::vector<Index>& planted, Findi
     EXPECT_EQ(c.proven_error[v] != 0, is_planted) << "vertex " << v;
   }
   EXPECT_EQ(c.proven_wrong(), planted.size());
+}
+
+TEST(Certify, CurvesAreSourcesAsPointsAre) {
+  Given given = terrain();
+  const CurveSource curve{curve_along(given.mesh, std::vector<Index>{100, 101, 102, 103}).points};
+  given.sources.push_back(source_along(curve, 0.01));
+  std::vector<double> field = given.exact();
+  EXPECT_EQ(certify(given.mesh, field, given.sources).proven_wrong(), 0u);
+  EXPECT_GT(certify(given.mesh, field, terrain().sources).proven_wrong(), 0u) << "the point alone is farther away";
+  field[300] *= 1.002;
+  const Certificate found = certify(given.mesh, field, given.sources);
+  EXPECT_EQ(found.too_long, 1u);
+  EXPECT_EQ(found.finding[300], Finding::TooLong);
 }
 
 TEST(Certify, AnExactFieldIsNotProvenWrongAtAnyTolerance) {

@@ -295,7 +295,8 @@ void add_bench(CommandLine& command_line) {
     verb.flag("--no-error", arguments->no_error, "Do not compute the exact distances to compare with");
     verb.talks();
     add_shared(verb, arguments->shared,
-               {.without = {{kWalls, "methods are compared on the whole mesh"},
+               {.without = {{kWeights, "methods are compared on distances, and costs have one method"},
+                            {kWalls, "methods are compared on the whole mesh"},
                             {{Shared::Unit}, "bench tells times and relative errors, and no lengths"},
                             {{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}},
                 .also = {{Shared::Method, "--methods"}},

@@ -251,11 +251,13 @@ void add_certify(CommandLine& command_line) {
                 "How many wrong vertices to tell, the largest errors first (10)");
     verb.option("-o,--output", arguments->output, "FILE", "Write what is known of every vertex: .csv .npy .ply ...");
     verb.talks();
-    add_shared(verb, arguments->shared,
-               {.without = {{{Shared::Method}, "bounds are proven by exact, or with --tolerance by windows"},
-                            {{Shared::Bound}, "both bounds are proven"},
-                            {{Shared::Precision}, "only the marching methods have one, and they prove nothing"},
-                            {{Shared::Scalar}, "the values to judge are FIELD"}}});
+    add_shared(
+        verb, arguments->shared,
+        {.without = {{kWeights, "what is judged are distances; brushfire distance --weights proves its own bounds"},
+                     {{Shared::Method}, "bounds are proven by exact, or with --tolerance by windows"},
+                     {{Shared::Bound}, "both bounds are proven"},
+                     {{Shared::Precision}, "only the marching methods have one, and they prove nothing"},
+                     {{Shared::Scalar}, "the values to judge are FIELD"}}});
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return certify_verb(*arguments, talk); });
   });

@@ -138,7 +138,8 @@ void add_compare(CommandLine& command_line) {
                 "Exit code 5 where a relative error is greater than this");
     verb.talks();
     add_shared(verb, arguments->shared,
-               {.without = {{kWalls, "values are compared as they stand in their files"},
+               {.without = {{kWeights, "two fields are read, and none is computed"},
+                            {kWalls, "values are compared as they stand in their files"},
                             {kStarting, "two fields are read, and nothing starts anywhere"},
                             {kComputing, "two fields are read, and none is computed"},
                             {{Shared::Scalar}, "the values are A and B"},

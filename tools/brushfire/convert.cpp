@@ -178,7 +178,8 @@ void add_convert(CommandLine& command_line) {
     add_drawing(verb, a->drawing);
     verb.talks();
     add_shared(verb, a->shared,
-               {.without = {{kWalls, "convert writes the whole mesh; walls are for distances"},
+               {.without = {{kWeights, "convert computes no distances"},
+                            {kWalls, "convert writes the whole mesh; walls are for distances"},
                             {{Shared::Source, Shared::Sources}, "nothing starts here: convert computes no distances"},
                             {kComputing, "convert computes no distances"}}});
     verb.examples(kExamples);

@@ -57,7 +57,6 @@ than all. Vertices that cannot be reached, or lie beyond the radius, read inf in
 struct Arguments {
   std::string file, output;
   SharedArguments shared;
-  WeightArguments weights;
   std::vector<std::string> targets;
   bool labels = false, is_signed = false;
 };
@@ -96,7 +95,7 @@ struct Run {
 void check_signed(const Arguments& arguments) {
   if (const char* walls = given(arguments.shared, kWalls)) refuse("--signed: not with " + std::string(walls));
   if (!arguments.targets.empty()) refuse("--signed: not with --target: the field has the signs");
-  if (arguments.weights.given()) refuse("--signed: not with weights: costs have no sides");
+  if (given(arguments.shared, kWeights)) refuse("--signed: not with weights: costs have no sides");
   if (const char* accuracy = given(arguments.shared, kAccuracy)) {
     refuse("--signed is exact: not with " + std::string(accuracy));
   }
@@ -187,9 +186,8 @@ void write(const Arguments& arguments, const Run& run, const Surface& surface) {
 int distance_verb(const Arguments& arguments, const Talk& talk) {
   // What can be wrong without the mesh is said before a large file is read.
   check(arguments, talk);
-  if (arguments.weights.given()) {
-    return weighted_distance({arguments.file, arguments.output, arguments.shared, arguments.weights, arguments.targets},
-                             talk);
+  if (given(arguments.shared, kWeights)) {
+    return weighted_distance({arguments.file, arguments.output, arguments.shared, arguments.targets}, talk);
   }
   Run run;
   DistanceOptions& options = run.options;
@@ -253,7 +251,6 @@ void add_distance(CommandLine& command_line) {
     verb.flag("--labels", arguments->labels, "Write the nearest source into .gii too, as other formats have it");
     verb.flag("--signed", arguments->is_signed,
               "From curves: negative on their left, as inside of those that run counter-clockwise");
-    add_weights(verb, arguments->weights);
     verb.talks();
     add_shared(verb, arguments->shared,
                {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});

@@ -95,7 +95,8 @@ void add_flatten(CommandLine& command_line) {
                     .c_str());
     verb.talks();
     add_shared(verb, a->shared,
-               {.without = {{kStarting, "landmarks are chosen, each the farthest from those before"},
+               {.without = {{kWeights, "what is laid flat is the surface, whose distances count"},
+                            {kStarting, "landmarks are chosen, each the farthest from those before"},
                             {{Shared::Radius}, "every vertex needs its distance from every landmark"},
                             {{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});
     verb.examples(kExamples);

@@ -5,6 +5,7 @@
 #include "output.h"
 #include "sources.h"
 #include "surface.h"
+#include "weights.h"
 
 #include <brushfire/io/write_columns.h>
 #include <brushfire/queries/gradient.h>
@@ -51,6 +52,7 @@ std::vector<double> field_of(const Arguments& a, const Surface& surface, PlaceFi
   const std::vector<Source> sources = sources_on(surface, finder, parse_sources(a.shared));
   finder.tell(talk);
   DistanceOptions options = computation(a.shared, Method::Exact);
+  weigh(options, a.shared, surface);
   options.progress = talk.progress("distance");
   DistanceField field = distance(domain, sources, options);
   talk.end_progress();

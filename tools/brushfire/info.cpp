@@ -142,7 +142,8 @@ void add_info(CommandLine& command_line) {
     add_surface(verb, arguments->file);
     verb.talks();
     add_shared(verb, arguments->shared,
-               {.without = {{kStarting, "nothing starts here: info tells what is in the mesh"},
+               {.without = {{kWeights, "info computes no distances"},
+                            {kStarting, "nothing starts here: info tells what is in the mesh"},
                             {kComputing, "info computes no distances"},
                             {{Shared::Scalar, Shared::Name}, "info reads a mesh and no values"}}});
     verb.examples(kExamples);

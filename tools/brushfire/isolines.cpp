@@ -5,6 +5,7 @@
 #include "output.h"
 #include "sources.h"
 #include "surface.h"
+#include "weights.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/write_lines.h>
@@ -48,6 +49,9 @@ void check(const Arguments& a) {
   if (a.chord_error) {
     if (!a.shared.scalar_file.empty())
       refuse("--chord-error: arcs follow distances: give --source in place of --scalar");
+    if (const char* name = given(a.shared, kWeights)) {
+      refuse("--chord-error: not with " + std::string(name) + ": arcs are those of distances");
+    }
     const Method method = computation(a.shared, Method::Exact).method;
     if (method != Method::Exact && method != Method::Windows) {
       refuse("--chord-error: " + std::string(name_of(method)) + " has no arcs to follow; exact and windows have");
@@ -98,6 +102,7 @@ DistanceField solve(const Arguments& a, const Surface& surface, PlaceFinder& pla
   const std::vector<Source> sources = sources_on(surface, places, parse_sources(a.shared));
   places.tell(talk);
   DistanceOptions options = computation(a.shared, Method::Exact);
+  weigh(options, a.shared, surface);
   options.keep_windows = a.chord_error.has_value();
   options.progress = talk.progress("distance");
   DistanceField field = distance(surface.domain(), sources, options);

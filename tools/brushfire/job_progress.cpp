@@ -44,11 +44,10 @@ Progress bar(const Rate& rate) {
   };
 }
 
-Progress lines(const Rate& rate) {
-  constexpr double kFirst = 10, kBetween = 60;  // s
-  return [rate, next = kFirst](double share) mutable {
+Progress lines(const Rate& rate, double first, double between) {
+  return [rate, next = first, between](double share) mutable {
     if (seconds_since(rate.start) < next) return;
-    next = seconds_since(rate.start) + kBetween;
+    next = seconds_since(rate.start) + between;
     std::fprintf(stderr, "matrix: %d %% (%llu of %llu rows), %.3g rows/s, %s\n", static_cast<int>(100 * share),
                  static_cast<unsigned long long>(rate.done(share)), static_cast<unsigned long long>(rate.rows),
                  rate.now(share), rate.left(share).c_str());
@@ -65,10 +64,14 @@ std::string time_left(double seconds) {
   return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
 }
 
+Progress log_lines(std::uint64_t rows, std::uint64_t found, double first, double between) {
+  return lines({rows, found}, first, between);
+}
+
 Progress job_progress(const Talk& talk, std::uint64_t rows, std::uint64_t found) {
   if (talk.quiet || talk.json) return {};
-  const Rate rate{rows, found};
-  return isatty(STDERR_FILENO) != 0 ? bar(rate) : lines(rate);
+  constexpr double kFirst = 10, kBetween = 60;  // s
+  return isatty(STDERR_FILENO) != 0 ? bar({rows, found}) : log_lines(rows, found, kFirst, kBetween);
 }
 
 }  // namespace brushfire::tool

@@ -12,6 +12,9 @@ namespace brushfire::tool {
 // that were there already; the rate is of what is computed now.
 Progress job_progress(const Talk& talk, std::uint64_t rows, std::uint64_t found);
 
+// The lines of a log: the first `first` seconds after this call, then one every `between`.
+Progress log_lines(std::uint64_t rows, std::uint64_t found, double first, double between);
+
 // "45 s", "3 min", "2 h 10 min": rounded, for people.
 std::string time_left(double seconds);
 

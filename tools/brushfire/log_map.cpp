@@ -167,7 +167,8 @@ void add_log_map(CommandLine& command_line) {
     verb.talks();
     const std::string exact = "a log map is exact, it is read off shortest paths";
     add_shared(verb, a->shared,
-               {.without = {{kAccuracy, exact},
+               {.without = {{kWeights, "directions and lengths of exact paths are those of the surface"},
+                            {kAccuracy, exact},
                             {{Shared::Method}, exact},
                             {{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});
     verb.examples(kExamples);

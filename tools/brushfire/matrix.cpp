@@ -6,6 +6,7 @@
 #include "row_lists.h"
 #include "sources.h"
 #include "surface.h"
+#include "weights.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/queries/distance_matrix.h>
@@ -36,6 +37,7 @@ Examples:
   brushfire matrix cortex.gii -o d.npy
   brushfire matrix cortex.gii --method carried-source --symmetric mean -o d.zarr
   brushfire matrix cortex.gii --rows 0,5,9 --columns landmarks.txt --dtype float64 -o d.npy
+  brushfire matrix cortex.gii --nearest 1001 -o d.npy   # sorted rows, and d.index.npy
   brushfire matrix cortex.gii --radius 20 --method exact -o near.npz
   brushfire matrix cortex.gii --shard 3/16 -o d.npy     # writes d.03-of-16.npy, for brushfire merge
   brushfire matrix pose1.off pose2.off pose3.off -o matrices/
@@ -141,7 +143,8 @@ Written write_dense(const Arguments& a, const Domain& domain, Places rows, Place
   };
   MatrixJob job(a.output, domain, rows, columns, type, told, file_options(a.file_options));
   Written w{.output = job.output().string(), .rows = job.rows(), .found = job.found()};
-  w.entries = w.rows * job.columns();
+  const std::uint64_t nearest = file_options(a.file_options).nearest;
+  w.entries = w.rows * (nearest > 0 ? nearest : job.columns());
   if (job.is_complete()) {
     talk.say(w.output + ": is complete already");
     return w;
@@ -170,6 +173,7 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
   const std::optional<std::vector<Place>> row_places = places_on(surface, finder, row_list);
   const std::optional<std::vector<Place>> column_places = places_on(surface, finder, column_list);
   finder.tell(talk);
+  weigh(options.distance, arguments.shared, surface);
   const Places rows = row_places ? Places(*row_places) : std::nullopt;
   const Places columns = column_places ? Places(*column_places) : std::nullopt;
   const std::uint64_t column_count = columns ? columns->size() : mesh.vertex_count();
@@ -185,9 +189,11 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
   if (talk.json && arguments.more.empty()) {
     Record record;
     record.add("file", arguments.file)
-        .add("method", std::string(name_of(options.distance.method)))
+        .add("method",
+             options.distance.weighting ? std::string("steiner") : std::string(name_of(options.distance.method)))
         .add("precision", precision_of(options.distance))
-        .add("tolerance", tolerance_of(options.distance))
+        .add("tolerance", options.distance.weighting ? options.distance.weighting->options().tolerance
+                                                     : tolerance_of(options.distance))
         .add("vertices", std::int64_t{mesh.vertex_count()})
         .add("rows", static_cast<std::int64_t>(written.rows))
         .add("resumed_at_row", static_cast<std::int64_t>(written.found))

@@ -20,6 +20,8 @@ bool is_zarr(const std::string& path) { return path.ends_with(".zarr"); }
 
 void add_matrix_files(Verb& verb, MatrixFileArguments& a) {
   verb.choice("--symmetric", a.symmetric, {"mean", "min"}, "Make both directions of each pair the same");
+  verb.option("--nearest", a.nearest, "N", whole_from(1, 1e9),
+              "Of each row the N nearest, sorted; which they are in .index.npy");
   verb.option("--chunk-rows", a.chunk_rows, "N", whole_from(1, 1e9),
               "Rows of a chunk of .zarr (as many as take 16 MB)");
   verb.option("--zarr-format", a.zarr_format, "N", whole_from(2, 3), "Format of .zarr, 2 or 3 (3)");
@@ -29,6 +31,7 @@ MatrixFileOptions file_options(const MatrixFileArguments& a) {
   constexpr std::uint64_t kMostShards = 1'000'000;
   MatrixFileOptions options;
   if (a.chunk_rows) options.chunk_rows = static_cast<std::uint64_t>(*a.chunk_rows);
+  if (a.nearest) options.nearest = static_cast<std::uint64_t>(*a.nearest);
   if (a.zarr_format) options.zarr_format = *a.zarr_format;
   if (!a.symmetric.empty()) options.symmetry = a.symmetric == "mean" ? Symmetry::Mean : Symmetry::Minimum;
   if (a.shard.empty()) return options;
@@ -48,6 +51,9 @@ void check(const MatrixFileArguments& a, const std::string& output) {
   if (!is_zarr(output) && (a.chunk_rows || a.zarr_format)) {
     refuse(output + ": --chunk-rows and --zarr-format are for .zarr");
   }
+  if (a.nearest && !output.ends_with(".npy")) refuse(output + ": --nearest is for .npy");
+  if (a.nearest && !a.shard.empty()) refuse("a shard holds whole rows: give --nearest to brushfire merge");
+  if (a.nearest && !a.symmetric.empty()) refuse("--nearest takes each row for itself: no --symmetric");
   if (!is_dense(output) && !a.shard.empty()) {
     refuse(output + ": sparse rows have no --shard: give ranges, --rows 0:10000");
   }

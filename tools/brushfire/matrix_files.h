@@ -14,10 +14,10 @@ namespace brushfire::tool {
 struct MatrixFileArguments {
   std::string shard;  // "3/16"
   std::string symmetric;
-  std::optional<int> chunk_rows, zarr_format;
+  std::optional<int> chunk_rows, zarr_format, nearest;
 };
 
-// Binds --symmetric, --chunk-rows and --zarr-format.
+// Binds --symmetric, --nearest, --chunk-rows and --zarr-format.
 void add_matrix_files(Verb& verb, MatrixFileArguments& arguments);
 // What they mean. Throws Error(InvalidArgument).
 MatrixFileOptions file_options(const MatrixFileArguments& arguments);

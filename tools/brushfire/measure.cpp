@@ -153,7 +153,8 @@ void add_measure(CommandLine& command_line) {
                 ("Write the numbers: " + extensions_of(fields_written()) + "; - prints CSV").c_str());
     verb.talks();
     add_shared(verb, a->shared,
-               {.without = {{kStarting, "every vertex is measured from"},
+               {.without = {{kWeights, "discs and extents are measured in lengths"},
+                            {kStarting, "every vertex is measured from"},
                             {{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});
     verb.examples(kExamples);
     verb.run([a](Talk& talk) { return measure_verb(*a, talk); });

@@ -4,6 +4,7 @@
 #include "interrupt.h"
 #include "output.h"
 #include "surface.h"
+#include "weights.h"
 
 #include <brushfire/io/npy.h>
 #include <brushfire/io/write_bytes.h>
@@ -96,6 +97,7 @@ int parcels_verb(const Arguments& a, const Talk& talk) {
   const LoadedField field = read_field(a.labels, a.shared.array_name);
   std::map<std::int64_t, std::string> names;
   for (const LoadedField::Label& l : field.label_names) names[l.key] = l.name;
+  weigh(options.distance, a.shared, surface);
   options.distance.progress = talk.progress("parcels");
   const ParcelMatrix m =
       parcel_distances(surface.domain(), labels_of(a, surface, field), parcel_distance_named(a.kind), 0, options);
@@ -140,7 +142,8 @@ void add_parcels(CommandLine& command_line) {
     verb.option("-o,--output", a->output, "FILE", "Write the matrix: .csv .npy; - prints CSV, as without");
     verb.talks();
     add_shared(verb, a->shared,
-               {.without = {{kStarting, "distances run from every parcel"},
+               {.without = {{kSlopes, "distances between parcels are the same both ways, and slopes are not"},
+                            {kStarting, "distances run from every parcel"},
                             {{Shared::Scalar}, "the labels that part it are LABELS"}}});
     verb.examples(kExamples);
     verb.run([a](Talk& talk) { return parcels_verb(*a, talk); });

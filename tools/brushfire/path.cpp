@@ -36,7 +36,6 @@ struct Arguments {
   std::string file, output;
   SharedArguments shared;
   DrawingArguments drawing;
-  WeightArguments weights;
   std::vector<std::string> to, via;
   bool closed = false, tighten = false;
 };
@@ -49,7 +48,7 @@ struct Found {
 };
 
 Method method_of(const Arguments& a) {
-  if (a.weights.given()) return Method::Exact;
+  if (given(a.shared, kWeights)) return Method::Exact;
   const Method method = computation(a.shared, Method::Exact).method;
   if (method != Method::Exact && method != Method::Dijkstra) {
     refuse("--method: " + std::string(name_of(method)) + " has no paths; exact and dijkstra have");
@@ -65,7 +64,7 @@ void check(const Arguments& a) {
   if (a.to.empty() && !a.closed) refuse("where to? give --to (or --closed)");
   if (a.closed && !a.to.empty()) refuse("a --closed path ends at --from: no --to");
   if (method_of(a) != Method::Exact && is_tour(a)) refuse("--via, --closed and --tighten need --method exact");
-  if (a.weights.given() && is_tour(a)) refuse("--via, --closed and --tighten are for paths without weights");
+  if (given(a.shared, kWeights) && is_tour(a)) refuse("--via, --closed and --tighten are for paths without weights");
 }
 
 std::vector<Found> along_edges(const Domain& domain, const std::vector<Source>& sources,
@@ -150,7 +149,7 @@ bool is_connected(const Domain& domain, const std::vector<Source>& sources, cons
 int path_verb(const Arguments& a, const Talk& talk) {
   check(a);
   const LinesOptions drawing = lines_options(a.output, a.drawing, a.shared);
-  if (a.weights.given()) return weighted_path({a.file, a.output, a.shared, a.weights, a.to}, drawing, talk);
+  if (given(a.shared, kWeights)) return weighted_path({a.file, a.output, a.shared, a.to}, drawing, talk);
   const DistanceOptions options = computation(a.shared, Method::Exact);
   const std::vector<Where> source_places = parse_sources(a.shared), via = parse_places(a.via, "a waypoint"),
                            to = parse_places(a.to, "the end of a path");
@@ -200,7 +199,6 @@ void add_path(CommandLine& command_line) {
     verb.option("--via", arguments->via, "PLACE", "A point on the way; may be repeated");
     verb.flag("--closed", arguments->closed, "Back to --from in the end");
     verb.flag("--tighten", arguments->tighten, "Pull tight: no bends at --via");
-    add_weights(verb, arguments->weights);
     add_lines_output(verb, arguments->output, arguments->drawing);
     verb.talks();
     add_shared(verb, arguments->shared,

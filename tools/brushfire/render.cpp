@@ -1,9 +1,11 @@
 // brushfire render: pictures of distance fields, isolines and paths.
+#include "cell_colors.h"
 #include "computing.h"
 #include "fields.h"
 #include "interrupt.h"
 #include "sources.h"
 #include "surface.h"
+#include "weights.h"
 
 #include <brushfire/core/detail/memory.h>
 #include <brushfire/figure/ambient_occlusion.h>
@@ -12,6 +14,8 @@
 #include <brushfire/io/write_bytes.h>
 #include <brushfire/queries/isolines.h>
 #include <brushfire/queries/path.h>
+#include <brushfire/queries/voronoi.h>
+#include <brushfire/queries/weighted_path.h>
 #include <brushfire/solvers/distance.h>
 
 #include <algorithm>
@@ -66,6 +70,14 @@ void set_range(const std::string& text, const char* what, ColorScale& scale) {
   scale.high = high;
 }
 
+// What the colours are: as said, or "distance, mm", or the name of the values' file.
+std::string bar_title(const Arguments& a) {
+  if (!a.bar_title.empty()) return a.bar_title;
+  const std::string what =
+      a.shared.scalar_file.empty() ? "distance" : std::filesystem::path(a.shared.scalar_file).stem().string();
+  return a.shared.unit.empty() ? what : what + ", " + a.shared.unit;
+}
+
 RenderOptions options_of(const Arguments& a) {
   RenderOptions options;
   const auto [width, height] = two_numbers(a.size, 'x', "a size is written as 1024x768");
@@ -76,7 +88,7 @@ RenderOptions options_of(const Arguments& a) {
   options.height = static_cast<int>(height);
   options.scales.resize(2);
   options.scales[kValues].colormap = colormap_named(a.colormap);
-  options.scales[kValues].unit = a.bar_title.empty() ? a.shared.unit : a.bar_title;
+  options.scales[kValues].unit = bar_title(a);
   set_range(a.range, "a range is written as 0,2.5", options.scales[kValues]);
   options.scales[kErrors].colormap = Colormap::Magma;
   options.scales[kErrors].unit = "error, %";
@@ -121,6 +133,9 @@ void check(const Arguments& a) {
   if (has_source || !a.shared.scalar_file.empty()) check_scalar_or_source(a.shared);
   if (!has_source && !a.paths.empty()) refuse("--path needs a --source to come from");
   if (!has_source && a.labels) refuse("--labels colours by the nearest --source: give some");
+  if (const char* name = given(a.shared, kWeights); name != nullptr && !has_source) {
+    refuse(std::string(name) + " needs a --source");
+  }
   if (!has_source && computing) refuse(std::string(computing) + " needs a --source");
   if (a.error && a.shared.methods.size() < 2) refuse("--error compares with the last --method: give at least two");
   if (!a.error_range.empty() && !a.error) refuse("--error-range is the range of the colours of --error");
@@ -158,18 +173,31 @@ struct Shown {
   std::vector<Polyline> paths;
 };
 
-// Paths are exact whatever the method of the colours: that is what a path is compared with.
+// Paths are exact whatever the method of the colours: that is what a path is compared with. Of costs, where they are
+// asked for.
 void find_paths(const Surface& surface, PlaceFinder& places, const DistanceOptions& how, Shown& shown) {
   if (shown.ends.empty()) return;
   const Mesh& mesh = surface.mesh();
   std::vector<SurfacePoint> targets;
   for (const Where& w : shown.ends) targets.push_back(places.target(surface.place(w)));
-  DistanceSolver solver(surface.domain());
-  const std::vector<SourcePath> found = paths_to(solver, shown.sources, targets, how);
+  std::vector<std::vector<SurfacePoint>> found;
+  if (how.weighting) {
+    WeightedSolver solver = how.weighting->solver();
+    WeightedOptions options;
+    options.tolerance = how.weighting->options().tolerance;
+    options.towards = how.weighting->options().towards;
+    options.lower = false;
+    options.max_distance = how.max_distance;
+    for (WeightedPath& p : weighted_paths(solver, shown.sources, targets, options))
+      found.push_back(std::move(p.points));
+  } else {
+    DistanceSolver solver(surface.domain());
+    for (SourcePath& p : paths_to(solver, shown.sources, targets, how)) found.push_back(std::move(p.points));
+  }
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i].points.empty()) throw Unreachable(shown.ends[i].text, how.max_distance < kInfinity);
+    if (found[i].empty()) throw Unreachable(shown.ends[i].text, how.max_distance < kInfinity);
     Polyline& line = shown.paths.emplace_back();
-    for (const SurfacePoint& p : found[i].points) line.points.push_back(position(mesh, p));
+    for (const SurfacePoint& p : found[i]) line.points.push_back(position(mesh, p));
   }
 }
 
@@ -192,9 +220,26 @@ void add_source(const Source& source, Panel& panel) {
   end_piece();
 }
 
+// Where a source looks to: away from the middle of the mesh, and along its face's normal.
+Vec3 outward_at(const Mesh& mesh, const Source& source) {
+  const SurfacePoint& at = source.curve && !source.curve->places.empty() ? source.curve->places.front() : source.point;
+  if (at.is_nowhere()) return {};
+  Vec3 low{kInfinity, kInfinity, kInfinity}, high = -1.0 * low;
+  for (const Vec3& p : mesh.positions()) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const auto [a, b, c] = mesh.faces()[at.face];
+  const Vec3 corner = mesh.positions()[a];
+  const Vec3 normal = cross(mesh.positions()[b] - corner, mesh.positions()[c] - corner);
+  const Vec3 from_middle = position(mesh, at) - 0.5 * (low + high);
+  const auto unit = [](const Vec3& v) { return norm(v) > 0 ? (1 / norm(v)) * v : Vec3{}; };
+  constexpr double kNormal = 0.7;  // less than the place counts: faces may be turned the wrong way round
+  return unit(from_middle) + kNormal * unit(normal);
+}
+
 // Distances from the sources by one method, and what is drawn with them.
-Panel solved_panel(const Arguments& a, const Domain& domain, const Shown& shown, DistanceOptions options,
-                   const Talk& talk) {
+Panel solved_panel(const Domain& domain, const Shown& shown, DistanceOptions options, const Talk& talk) {
   Panel panel;
   panel.mesh = domain.mesh();
   for (const Source& source : shown.sources) add_source(source, panel);
@@ -203,8 +248,18 @@ Panel solved_panel(const Arguments& a, const Domain& domain, const Shown& shown,
   talk.end_progress();
   panel.scalar = field.distance;
   panel.paths.insert(panel.paths.end(), shown.paths.begin(), shown.paths.end());
-  if (a.labels) panel.labels = field.source;
   return panel;
+}
+
+// Cells with their borders as exact as voronoi() has them, and colours that differ from one cell to the next.
+void add_cells(const Surface& surface, const Shown& shown, const DistanceOptions& how, std::vector<Panel>& panels) {
+  const VoronoiDiagram cells = voronoi(surface.domain(), shown.sources, how);
+  const std::vector<Index> colors = colors_of(cells, shown.sources.size());
+  for (Panel& panel : panels) {
+    panel.labels = cells.source;
+    panel.label_borders = cells.shared_faces;
+    panel.label_colors = colors;
+  }
 }
 
 // How far, in percent of it, `field` is from `exact`; +inf where there is nothing to compare.
@@ -267,15 +322,21 @@ Panel read_panel(const Arguments& a, const Surface& surface) {
 }
 
 // One for each method.
-std::vector<Panel> solved_panels(const Arguments& a, const Surface& surface, PlaceFinder& places, const Talk& talk) {
-  const std::vector<DistanceOptions> methods =
+std::vector<Panel> solved_panels(const Arguments& a, const Surface& surface, PlaceFinder& places,
+                                 RenderOptions& options, const Talk& talk) {
+  std::vector<DistanceOptions> methods =
       a.shared.methods.empty() ? std::vector{computation(a.shared)} : computations(a.shared, {});
+  weigh(methods.front(), a.shared, surface);
   Shown shown{sources_on(surface, places, parse_sources(a.shared)), parse_places(a.paths, "the end of a path"), {}};
   find_paths(surface, places, methods.front(), shown);
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    panels.push_back(solved_panel(a, surface.domain(), shown, methods[i], talk));
+    panels.push_back(solved_panel(surface.domain(), shown, methods[i], talk));
     if (methods.size() > 1) panels.back().title = a.shared.methods[i];
+  }
+  if (a.labels) add_cells(surface, shown, methods.front(), panels);
+  if (!shown.sources.empty() && a.view.empty() && !a.azimuth && !a.elevation) {
+    options.camera = turned_to(outward_at(surface.mesh(), shown.sources.front()), options.camera);
   }
   return panels;
 }
@@ -284,7 +345,7 @@ std::vector<Panel> panels_of(const Arguments& a, const Surface& surface, PlaceFi
                              const Talk& talk) {
   std::vector<Panel> panels;
   if (given(a.shared, {Shared::Source, Shared::Sources})) {
-    panels = solved_panels(a, surface, places, talk);
+    panels = solved_panels(a, surface, places, options, talk);
   } else {
     panels.push_back(read_panel(a, surface));
   }
@@ -407,7 +468,8 @@ void add_render(CommandLine& command_line) {
     verb.option("--isolines", a->isolines, "N", whole_from(0, 10000), "This many isolines");
     verb.flag("--bands", a->bands, "Bands of alternating lightness between the isolines");
     verb.option("--path", a->paths, "PLACE", "Draw the shortest path from the sources to here; may be repeated");
-    verb.option("--view", a->view, "NAME", "front, back, left, right, top, bottom or iso");
+    verb.option("--view", a->view, "NAME",
+                "front, back, left, right, top, bottom or iso; the side of the source if nothing is said");
     verb.option("--azimuth", a->azimuth, "DEG", kAnyNumber, "Degrees around the up axis");
     verb.option("--elevation", a->elevation, "DEG", kAnyNumber, "Degrees above the horizon");
     verb.choice("--up", a->up, {"x", "y", "z"}, "The axis that points up");
@@ -418,7 +480,7 @@ void add_render(CommandLine& command_line) {
     verb.option("--range", a->range, "LO,HI", "Range of the colours");
     verb.option("--error-range", a->error_range, "LO,HI",
                 "Range of the colours of --error, in percent (0 to what 99 % stay under)");
-    verb.option("--bar-title", a->bar_title, "TEXT", "Above the colour bar; --unit if not given");
+    verb.option("--bar-title", a->bar_title, "TEXT", "Above the colour bar; what it shows, and --unit, if not given");
     verb.option("--title", a->title, "TEXT", "Above the (first) panel");
     verb.flag("--no-bar", a->no_bar, "No colour bar and no legend");
     verb.flag("--wireframe", a->wireframe, "Show the edges of the mesh");

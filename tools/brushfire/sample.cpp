@@ -5,6 +5,7 @@
 #include "output.h"
 #include "sources.h"
 #include "surface.h"
+#include "weights.h"
 
 #include <brushfire/queries/centroidal.h>
 #include <brushfire/queries/sampling.h>
@@ -90,10 +91,14 @@ int sample_verb(const Arguments& a, const Talk& talk) {
   if (a.lloyd && given(a.shared, {Shared::Method, Shared::Tolerance, Shared::Bound, Shared::Radius})) {
     refuse("--lloyd is exact: there is no --method, tolerance or radius to choose");
   }
+  if (const char* name = given(a.shared, kWeights); name != nullptr && a.lloyd) {
+    refuse("--lloyd: not with " + std::string(name) + ": middles of cells are those of distances");
+  }
   DistanceOptions options = computation(a.shared);
   const Surface surface(a.file, a.shared);
   stop_if_interrupted();
   PlaceFinder finder(surface.mesh(), a.shared.snap_within);
+  weigh(options, a.shared, surface);
   options.progress = talk.progress("samples");
   const Found found = a.lloyd ? centroidal(a, surface, finder, options) : farthest(a, surface, finder, options);
   finder.tell(talk);

@@ -127,6 +127,39 @@ const std::vector<Row>& table() {
                      "Nothing crosses these edges: pairs of vertices, one to a line, or .npy");
        },
        [](const SharedArguments& a) { return !a.edges_file.empty(); }},
+      {Shared::Weights, "--weights", "",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.weights_file, "FIELD",
+                     "What a unit of length costs in each face, > 0, inf: a wall; FILE:NAME is a property of\n"
+                     "a mesh's faces");
+       },
+       [](const SharedArguments& a) { return !a.weights_file.empty(); }},
+      {Shared::EdgeWeights, "--edge-weights", "",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.edge_weights_file, "FILE", "Lines of two vertices, cost along their edge, cost to cross");
+       },
+       [](const SharedArguments& a) { return !a.edge_weights_file.empty(); }},
+      {Shared::Cost, "--cost", "",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.costs, "LABEL=COST",
+                     "With labels as --weights: what these cost; others 1; may be repeated");
+       },
+       [](const SharedArguments& a) { return !a.costs.empty(); }},
+      {Shared::Slope, "--slope", "",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.slope, "NAME", "What slopes cost: tobler, naismith, energy, or a file of paces");
+       },
+       [](const SharedArguments& a) { return !a.slope.empty(); }},
+      {Shared::Steepest, "--steepest", "",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.steepest, "S", kPositive, "With --slope: no step is steeper than this");
+       },
+       [](const SharedArguments& a) { return a.steepest.has_value(); }},
+      {Shared::Towards, "--towards", "",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.flag(names, a.towards, "With --slope: to the sources, not from them");
+       },
+       [](const SharedArguments& a) { return a.towards; }},
       {Shared::Unit, "--unit", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.choice(names, a.unit, unit_names(), "What the mesh is measured in");

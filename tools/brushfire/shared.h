@@ -33,6 +33,12 @@ enum class Shared : std::uint8_t {
   Region,
   BlockFaces,
   BlockEdges,
+  Weights,
+  EdgeWeights,
+  Cost,
+  Slope,
+  Steepest,
+  Towards,
   Unit,
 };
 
@@ -49,6 +55,10 @@ struct SharedArguments {
   std::optional<int> threads;
   std::optional<double> weld;
   std::string mask_file, region, faces_file, edges_file;
+  std::string weights_file, edge_weights_file, slope;
+  std::vector<std::string> costs;  // of labels
+  std::optional<double> steepest;
+  bool towards = false;
   std::string unit;
 };
 
@@ -73,6 +83,11 @@ inline const std::vector<Shared> kComputing{Shared::Method,    Shared::Tolerance
                                             Shared::Precision, Shared::Radius,    Shared::Threads};
 
 inline const std::vector<Shared> kWalls{Shared::Mask, Shared::Region, Shared::BlockFaces, Shared::BlockEdges};
+
+// What going costs; without the last three one costs as much one way as the other.
+inline const std::vector<Shared> kWeights{Shared::Weights, Shared::EdgeWeights, Shared::Cost,
+                                          Shared::Slope,   Shared::Steepest,    Shared::Towards};
+inline const std::vector<Shared> kSlopes{Shared::Slope, Shared::Steepest, Shared::Towards};
 
 // Binds the options, or refuses them. `arguments` must outlive the parsing.
 void add_shared(Verb& verb, SharedArguments& arguments, const SharedOptions& options = {});

@@ -79,7 +79,8 @@ void add_smooth(CommandLine& command_line) {
                 ("Write the values: " + extensions_of(fields_written()) + "; - prints CSV").c_str());
     verb.talks();
     add_shared(verb, a->shared,
-               {.without = {{kStarting, "every vertex has a kernel of its own"},
+               {.without = {{kWeights, "kernels fall off with the length of the way"},
+                            {kStarting, "every vertex has a kernel of its own"},
                             {{Shared::Radius}, "the kernel ends at 4 sigma"},
                             {{Shared::Scalar}, "the values to smooth are FIELD"}}});
     verb.examples(kExamples);

@@ -13,7 +13,7 @@ std::vector<Where> parse_sources(const SharedArguments& arguments) {
   for (const std::string& text : split_places(arguments.sources)) places.push_back(parse_where(text));
   const std::string& file = arguments.sources_file;
   if (!file.empty()) {
-    for (Where& w : read_where_file(file)) places.push_back(std::move(w));
+    for (Where& w : read_where_file(file, true)) places.push_back(std::move(w));
   }
   if (places.empty()) {
     refuse(file.empty() ? "where from? give --source or --sources" : file + ": no source in this file");

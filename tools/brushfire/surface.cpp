@@ -3,9 +3,11 @@
 
 #include "output.h"
 #include "walls.h"
+#include "weights.h"
 
 #include <brushfire/io/formats.h>
 #include <brushfire/mesh/weld.h>
+#include <brushfire/solvers/steiner/weighting.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +26,15 @@ Surface::Surface(const std::string& file, const SharedArguments& arguments)
     vertex_map_ = std::move(welded.vertex_map);
     joined_ = welded.joined;
   }
-  if (!given(arguments, kWalls)) return;
-  const Walls walls = walls_of(arguments, loaded_.mesh, mesh(), vertex_map_);
-  domain_ = Domain(mesh(), walls.barriers);
+  Walls walls;
+  if (given(arguments, kWalls)) {
+    walls = walls_of(arguments, loaded_.mesh, mesh(), vertex_map_);
+    domain_ = Domain(mesh(), walls.barriers);
+  }
+  if (given(arguments, kWeights)) {
+    weights_ = weights_of(arguments, *this);
+    domain_ = with_walls(domain_, walls_of(*weights_));
+  }
   for (Index v = 0; v < walls.mask.size(); ++v) {
     left_alone_ += walls.mask[v] && !domain_.is_open(v) && !mesh().corners(v).empty();
   }

@@ -8,6 +8,7 @@
 #include <brushfire/io/read_field.h>
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/mesh/domain.h>
+#include <brushfire/solvers/steiner/weights.h>
 
 #include <optional>
 #include <span>
@@ -27,6 +28,8 @@ class Surface {
   const Domain& domain() const { return domain_; }     // to compute in
   const Mesh& mesh() const { return domain_.mesh(); }  // all of it, whose numbers are used
   const LoadedMesh& file() const { return loaded_; }   // as it was read
+  // What going costs; null where nothing was said. Its walls are walls of domain().
+  const Weights* weights() const { return weights_ ? &*weights_ : nullptr; }
   bool is_welded() const { return !vertex_map_.empty(); }
   std::vector<std::string> remarks() const;
 
@@ -59,6 +62,7 @@ class Surface {
  private:
   LoadedMesh loaded_;
   Domain domain_;
+  std::optional<Weights> weights_;
   std::vector<Index> vertex_map_;
   Index joined_ = 0, left_alone_ = 0;
 };

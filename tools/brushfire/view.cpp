@@ -101,7 +101,8 @@ void add_view(CommandLine& command_line) {
     verb.option("-o,--output", a->output, "FILE.html", "Write the page there and open no browser; - prints it");
     verb.talks();
     add_shared(verb, a->shared,
-               {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed in the page, not read"},
+               {.without = {{kWeights, "the page computes distances, without costs"},
+                            {{Shared::Scalar, Shared::Name}, "distances are computed in the page, not read"},
                             {kWalls, "the page computes on the whole mesh"},
                             {{Shared::Bound, Shared::Precision, Shared::Radius, Shared::Threads},
                              "the page computes whole fields on one thread; it takes --method and --tolerance"},

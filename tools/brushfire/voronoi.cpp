@@ -5,6 +5,7 @@
 #include "output.h"
 #include "sources.h"
 #include "surface.h"
+#include "weights.h"
 
 #include <brushfire/io/write_lines.h>
 #include <brushfire/queries/voronoi.h>
@@ -85,6 +86,7 @@ int voronoi_verb(const Arguments& a, const Talk& talk) {
   PlaceFinder finder(surface.mesh(), a.shared.snap_within);
   const std::vector<Source> sources = sources_on(surface, finder, places);
   finder.tell(talk);
+  weigh(options, a.shared, surface);
   options.progress = talk.progress("cells");
   const VoronoiDiagram cells = voronoi(surface.domain(), sources, options);
   talk.end_progress();

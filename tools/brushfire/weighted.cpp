@@ -23,7 +23,7 @@ std::int64_t count(std::uint64_t n) { return static_cast<std::int64_t>(n); }
 // What both verbs need: the mesh, weights, sources and targets.
 struct Scene {
   Scene(const WeightedRequest& request, const Talk& talk)
-      : options(weighted_computation(request.shared, request.weights)),
+      : options(weighted_computation(request.shared)),
         source_places(parse_sources(request.shared)),
         target_places(parse_places(request.targets, "a target")),
         surface(request.file, request.shared),
@@ -32,7 +32,7 @@ struct Scene {
     sources = sources_on(surface, finder, source_places);
     for (const Where& w : target_places) options.targets.push_back(finder.target(surface.place(w)));
     finder.tell(talk);
-    solver.emplace(surface.domain(), weights_of(request.weights, surface));
+    solver.emplace(surface.domain(), *surface.weights());
   }
 
   WeightedOptions options;
@@ -47,10 +47,10 @@ Record head(const WeightedRequest& request, const Scene& scene) {
   Record record;
   record.add("file", request.file)
       .add("method", std::string(scene.solver->weights().uniform() > 0 ? "windows" : "steiner"))
-      .add("weights", request.weights.faces_file)
-      .add("edge_weights", request.weights.edges_file)
-      .add("slope", request.weights.slope)
-      .add("towards", request.weights.towards)
+      .add("weights", request.shared.weights_file)
+      .add("edge_weights", request.shared.edge_weights_file)
+      .add("slope", request.shared.slope)
+      .add("towards", request.shared.towards)
       .add("tolerance", scene.options.tolerance)
       .add("sources", count(scene.sources.size()))
       .add("radius", scene.options.max_distance)
@@ -65,6 +65,7 @@ std::string json(const WeightedRequest& request, const Scene& scene, const Weigh
       .add("reached", count(field.reached))
       .add("max_error_bound", field.max_error_bound)
       .add("mean_error_bound", field.mean_error_bound)
+      .add("engine", std::string(name_of(field.engine)))
       .add("points", count(field.points))
       .add("solve_s", solve_s);
   std::vector<Record> targets;
@@ -92,6 +93,7 @@ std::string in_words(const WeightedRequest& request, const Scene& scene, const W
             " % on average; asked for: " + readable(100 * scene.options.tolerance) + " %\n";
   }
   return text + "solved in " + duration(solve_s) +
+         (field.engine == WeightedEngine::Windows ? ", by windows that refract" : "") +
          (field.points > 0 ? ", with " + counted(field.points, "point", "points") + " on edges" : "");
 }
 
@@ -148,6 +150,7 @@ int weighted_distance(const WeightedRequest& request, const Talk& talk) {
   const WeightedField field = scene.solver->distance(scene.sources, scene.options);
   const double solve_s = seconds_since(start);
   talk.end_progress();
+  if (wants_lower && field.lower.empty()) refuse("--bound lower: from curves there are upper bounds only");
   if (!request.output.empty()) {
     const std::vector<double>& values = wants_lower ? field.lower : field.distance;
     const bool has_labels = !request.output.ends_with(".gii");

@@ -14,7 +14,6 @@ namespace brushfire::tool {
 struct WeightedRequest {
   std::string file, output;
   const SharedArguments& shared;
-  const WeightArguments& weights;
   std::vector<std::string> targets;  // places
 };
 

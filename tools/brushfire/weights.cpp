@@ -2,15 +2,19 @@
 #include "weights.h"
 
 #include "computing.h"
+#include "fields.h"
 #include "numbers.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/npy.h>
+#include <brushfire/io/read_face_values.h>
 #include <brushfire/io/read_field.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <memory>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -20,9 +24,15 @@ namespace {
 
 constexpr double kDefaultTolerance = 0.01;
 
+// FILE, or FILE:NAME where there is no file of that whole name.
+std::vector<double> face_values(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || std::ifstream(text).good()) return read_field(text).values;
+  return read_face_values(text.substr(0, colon), text.substr(colon + 1));
+}
+
 // One for every triangle, or for every face of the file, whose triangles share it.
-std::vector<double> face_weights(const std::string& file, const Surface& surface) {
-  std::vector<double> values = read_field(file).values;
+std::vector<double> on_faces(const std::string& file, std::vector<double> values, const Surface& surface) {
   const Index count = surface.mesh().face_count();
   if (values.size() == count) return values;
   const std::vector<Index>& origin = surface.file().face_origin;
@@ -35,6 +45,46 @@ std::vector<double> face_weights(const std::string& file, const Surface& surface
   on_triangles.reserve(count);
   for (const Index f : origin) on_triangles.push_back(values[f]);
   return on_triangles;
+}
+
+std::vector<double> face_weights(const std::string& file, const Surface& surface) {
+  return on_faces(file, face_values(file), surface);
+}
+
+// What labels cost, by their keys.
+std::map<double, double> costs_of(const SharedArguments& a, const LoadedField& field) {
+  std::map<double, double> costs;
+  for (const std::string& text : a.costs) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0) refuse("--cost " + text + ": LABEL=COST is needed, marsh=4");
+    const double cost =
+        text.substr(equals + 1) == "inf" ? kInfinity : number_in(kPositive, "--cost", text.substr(equals + 1));
+    for (const double key : keys_named(field, text.substr(0, equals), a.weights_file, "--cost")) costs[key] = cost;
+  }
+  return costs;
+}
+
+// Labels of faces cost what they cost; of vertices, a face costs the mean of its three corners.
+std::vector<double> label_weights(const SharedArguments& a, const Surface& surface) {
+  const std::string& file = a.weights_file;
+  LoadedField field;
+  if (file.rfind(':') != std::string::npos && !std::ifstream(file).good()) {
+    field.values = face_values(file);
+  } else {
+    field = read_field(file);
+  }
+  const std::map<double, double> costs = costs_of(a, field);
+  const bool of_vertices = !field.vertices.empty() || field.values.size() == surface.file().mesh.vertex_count();
+  if (of_vertices) field.values = values_on_vertices(field, surface.file().mesh.vertex_count());
+  for (double& value : field.values) {
+    const auto found = costs.find(value);
+    value = found == costs.end() ? 1 : found->second;
+  }
+  if (!of_vertices) return on_faces(file, std::move(field.values), surface);
+  const std::vector<double> at = surface.on_mesh(std::move(field.values), file);
+  std::vector<double> weights;
+  for (const Face& f : surface.mesh().faces()) weights.push_back((at[f[0]] + at[f[1]] + at[f[2]]) / 3);
+  return weights;
 }
 
 Index vertex_of(double value, const Surface& surface, const std::string& file) {
@@ -113,40 +163,43 @@ SlopePace pace_of(const std::string& slope) {
 
 }  // namespace
 
-void add_weights(Verb& verb, WeightArguments& arguments) {
-  verb.option("--weights", arguments.faces_file, "FIELD", "What a unit of length costs in each face, > 0; inf: a wall");
-  verb.option("--edge-weights", arguments.edges_file, "FILE",
-              "Lines of two vertices, cost along their edge, cost to cross");
-  verb.option("--slope", arguments.slope, "NAME", "What slopes cost: tobler, naismith, energy, or a file of paces");
-  verb.option("--steepest", arguments.steepest, "S", kPositive, "With --slope: no step is steeper than this");
-  verb.flag("--towards", arguments.towards, "With --slope: to the sources, not from them");
-}
-
-Weights weights_of(const WeightArguments& arguments, const Surface& surface) {
+Weights weights_of(const SharedArguments& a, const Surface& surface) {
+  if (a.slope.empty() && (a.steepest || a.towards)) {
+    refuse(std::string(a.towards ? "--towards" : "--steepest") + ": without --slope it makes no difference");
+  }
+  if (!a.costs.empty() && a.weights_file.empty()) refuse("--cost: of which labels? give them by --weights");
   Weights weights;
-  if (!arguments.faces_file.empty()) weights.face = face_weights(arguments.faces_file, surface);
-  if (!arguments.edges_file.empty()) weights.edges = edge_costs(arguments.edges_file, surface);
-  if (!arguments.slope.empty()) weights.pace = pace_of(arguments.slope);
-  if (weights.pace && arguments.steepest) weights.pace = weights.pace->up_to(*arguments.steepest);
+  if (!a.costs.empty()) {
+    weights.face = label_weights(a, surface);
+  } else if (!a.weights_file.empty()) {
+    weights.face = face_weights(a.weights_file, surface);
+  }
+  if (!a.edge_weights_file.empty()) weights.edges = edge_costs(a.edge_weights_file, surface);
+  if (!a.slope.empty()) weights.pace = pace_of(a.slope);
+  if (weights.pace && a.steepest) weights.pace = weights.pace->up_to(*a.steepest);
   return weights;
 }
 
-WeightedOptions weighted_computation(const SharedArguments& a, const WeightArguments& weights) {
+WeightedOptions weighted_computation(const SharedArguments& a) {
   if (const char* name = given(a, {Shared::Method, Shared::Precision})) {
     refuse(std::string(name) + ": with --weights there is one method, points on edges");
   }
-  if (weights.slope.empty() && (weights.steepest || weights.towards)) {
-    refuse(std::string(weights.towards ? "--towards" : "--steepest") + ": without --slope it makes no difference");
-  }
-  if (!weights.slope.empty() && a.bound == "lower") refuse("--bound lower: with --slope there are upper bounds only");
+  if (!a.slope.empty() && a.bound == "lower") refuse("--bound lower: with --slope there are upper bounds only");
   DistanceOptions plain = computation(a);
   WeightedOptions options;
   options.tolerance = given(a, {Shared::Tolerance}) ? plain.tolerance : kDefaultTolerance;
-  options.towards = weights.towards;
+  options.towards = a.towards;
   options.lower = plain.bound != Bound::Upper;
   options.max_distance = plain.max_distance;
   options.cancel = plain.cancel;
   return options;
+}
+
+void weigh(DistanceOptions& options, const SharedArguments& a, const Surface& surface) {
+  if (surface.weights() == nullptr) return;
+  const WeightedOptions how = weighted_computation(a);
+  options.weighting = std::make_shared<const Weighting>(surface.domain(), *surface.weights(),
+                                                        WeightingOptions{how.tolerance, how.towards});
 }
 
 }  // namespace brushfire::tool

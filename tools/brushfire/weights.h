@@ -1,29 +1,23 @@
-// What it costs to cross a face or an edge: --weights and --edge-weights.
+// What it costs to cross a face or an edge: --weights, --edge-weights, --cost, --slope, --steepest and --towards.
 #pragma once
 
 #include "command_line.h"
 #include "surface.h"
 
-#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/steiner/weighting.h>
 
-#include <optional>
 #include <string>
 
 namespace brushfire::tool {
 
-struct WeightArguments {
-  std::string faces_file, edges_file, slope;
-  std::optional<double> steepest;
-  bool towards = false;
-  bool given() const { return !faces_file.empty() || !edges_file.empty() || !slope.empty(); }
-};
-
-void add_weights(Verb& verb, WeightArguments& arguments);
-
-// On surface.mesh(). Throws Error(InvalidArgument) where a file does not fit the mesh, and what the readers throw.
-Weights weights_of(const WeightArguments& arguments, const Surface& surface);
+// On surface.mesh(). Throws Error(InvalidArgument) where a file does not fit the mesh, for options that have no meaning
+// together, and what the readers throw.
+Weights weights_of(const SharedArguments& arguments, const Surface& surface);
 
 // --tolerance, --accuracy, --bound and --radius. Throws Error(InvalidArgument) for options that have no meaning here.
-WeightedOptions weighted_computation(const SharedArguments& arguments, const WeightArguments& weights);
+WeightedOptions weighted_computation(const SharedArguments& arguments);
+
+// Makes costs of distances where weights were given, in surface.domain(). Throws as weighted_computation() does.
+void weigh(DistanceOptions& options, const SharedArguments& arguments, const Surface& surface);
 
 }  // namespace brushfire::tool

@@ -169,7 +169,7 @@ class Lines {
 
 }  // namespace
 
-std::vector<Where> read_where_file(const std::string& path) {
+std::vector<Where> read_where_file(const std::string& path, bool or_curves) {
   constexpr std::size_t kMost = 10'000'000;
   Lines lines(path);
   std::vector<Where> places;
@@ -180,7 +180,9 @@ std::vector<Where> read_where_file(const std::string& path) {
     try {
       for (const std::string& place : split_places({std::string(content)})) places.push_back(parse_where(place));
     } catch (const Error& e) {
-      lines.fail(e.what());
+      const bool of_curves =
+          or_curves && places.empty() && parse_curve(path).value_or(CurvePlace{}).kind == CurvePlace::Kind::File;
+      lines.fail(of_curves ? e.what() + ("; a file of curves is a source by its name: --source " + path) : e.what());
     }
   }
   return places;

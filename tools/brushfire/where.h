@@ -64,7 +64,8 @@ std::vector<std::string> split_places(const std::vector<std::string>& texts);
 // One place, or a list of vertices, per line; empty lines and what follows a # are skipped. "-" is standard input, and
 // named pipes are read. Throws Error(FileNotReadable), and Error(InvalidArgument) with file and line number: also for a
 // line of more than 65536 bytes, and for more than ten million places.
-std::vector<Where> read_where_file(const std::string& path);
+// `or_curves`: files of curves can be given here by their names, which one that was given as a list is told.
+std::vector<Where> read_where_file(const std::string& path, bool or_curves = false);
 
 // From a position in space to the surface.
 using Snap = std::function<SurfacePoint(Vec3)>;

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from brushfire._arrays import Floats
+from brushfire._arrays import Floats, radius_of
 from brushfire._mesh import Mesh
 from brushfire.compat._exact import GEODESIC_INF, METHOD, in_faces, indices, whole_faces
 
@@ -63,7 +63,7 @@ def compute_gdist(
     if sources.size == 0:
         return np.full(mesh.vertex_count if targets is None else targets.size, np.inf)
     if targets is None:
-        return mesh.distance(sources, radius=max_distance, method=METHOD)
+        return mesh.distance(sources, radius=radius_of(max_distance, "max_distance"), method=METHOD)
     distances = np.full(targets.size, np.inf)
     reachable = joined[targets]
     if reachable.any():
@@ -90,7 +90,7 @@ def local_gdist_matrix(
     if max_distance >= GEODESIC_INF:
         return _stored(mesh, np.arange(mesh.vertex_count), mesh.distance_matrix(method=METHOD, dtype=np.float64))
     # Row v of ours is column v of the original's: the transpose is the same arrays, read the other way.
-    matrix = mesh.distances_within(max_distance, method=METHOD, dtype=np.float64).T
+    matrix = mesh.distances_within(radius_of(max_distance, "max_distance"), method=METHOD, dtype=np.float64).T
     matrix.eliminate_zeros()
     return matrix
 

@@ -35,6 +35,18 @@ Camera named_view(std::string_view name, Camera camera) {
               "unknown view '" + std::string(name) + "': it is one of front, back, left, right, top, bottom, iso");
 }
 
+Camera turned_to(const Vec3& outward, Camera camera) {
+  Vec3 d = outward;  // in axes in which y is up
+  if (camera.up == Axis::X) d = {outward.z, outward.x, outward.y};
+  if (camera.up == Axis::Z) d = {outward.x, outward.z, -outward.y};
+  const double level = std::hypot(d.x, d.z), length = std::hypot(level, d.y);
+  if (!(length > 0) || !std::isfinite(length)) return camera;
+  constexpr double kDegrees = 180 / kPi, kLowest = -10, kHighest = 40, kUpright = 1e-3;
+  if (level > kUpright * length) camera.azimuth = kDegrees * std::atan2(d.x, d.z);
+  camera.elevation = std::clamp(kDegrees * std::atan2(d.y, level), kLowest, kHighest);
+  return camera;
+}
+
 namespace detail {
 namespace {
 

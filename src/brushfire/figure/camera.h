@@ -22,4 +22,8 @@ struct Camera {
 // Throws Error(InvalidArgument) that lists them.
 Camera named_view(std::string_view name, Camera camera = {});
 
+// Looks along `outward` at the surface, from no more than 40 degrees above and 10 below, so that up stays up: what lies
+// on the side that a direction points to is seen. The null vector changes nothing.
+Camera turned_to(const Vec3& outward, Camera camera = {});
+
 }  // namespace brushfire

@@ -105,8 +105,10 @@ std::vector<std::uint8_t> encode_webp(std::span<const Image> frames, int millise
   if (WebPAnimEncoderOptionsInit(&animation) == 0 || WebPConfigInit(&config) == 0) {
     throw Error(ErrorCode::InvalidArgument, "the WebP library is of another version than its headers");
   }
-  animation.allow_mixed = 1;
-  config.quality = 82;
+  // Without loss: a frame says only what has changed, and what a lossy one leaves of those before shows as ghosts.
+  config.lossless = 1;
+  config.near_lossless = 60;  // of 100: colours are rounded where nobody sees it
+  config.quality = 75;        // how long smaller files are looked for
   config.method = 4;
   const std::unique_ptr<WebPAnimEncoder, decltype(&WebPAnimEncoderDelete)> encoder(
       WebPAnimEncoderNew(frames[0].width, frames[0].height, &animation), &WebPAnimEncoderDelete);

@@ -73,18 +73,40 @@ bool lacks_values(std::span<const Panel> panels, std::size_t scale) {
   });
 }
 
-// The labels in use, with a name each.
-std::vector<std::pair<Index, std::string>> legend_entries(std::span<const Panel> panels) {
-  std::set<Index> used;
+// Of the finite values of one scale; (0, 0) where there are none.
+ScalarRange extent_of(std::span<const Panel> panels, std::size_t scale) {
+  ScalarRange all{kInfinity, -kInfinity};
+  for (const Panel& p : panels) {
+    if (p.scale != scale) continue;
+    for (const double x : p.scalar) {
+      if (!std::isfinite(x)) continue;
+      all.low = std::min(all.low, x);
+      all.high = std::max(all.high, x);
+    }
+  }
+  return all.low > all.high ? ScalarRange{0, 0} : all;
+}
+
+struct LegendEntry {
+  Color color;
+  std::string name;
+};
+
+// The labels in use. Where colours serve for several labels, which name no label: none.
+std::vector<LegendEntry> legend_entries(std::span<const Panel> panels) {
+  std::set<Index> used, colors;
   for (const Panel& p : panels) used.insert(p.labels.begin(), p.labels.end());
   used.erase(kNoIndex);
-  std::vector<std::pair<Index, std::string>> entries;
+  std::vector<LegendEntry> entries;
   for (const Index label : used) {
-    std::string name = std::to_string(label);
+    LegendEntry entry{label_color(label), std::to_string(label)};
     for (const Panel& p : panels) {
-      if (label < p.label_names.size()) name = p.label_names[label];
+      if (label < p.label_names.size()) entry.name = p.label_names[label];
+      if (label >= p.label_colors.size()) continue;
+      if (!colors.insert(p.label_colors[label]).second && panels.size() == 1) return {};
+      entry.color = label_color(p.label_colors[label]);
     }
-    entries.emplace_back(label, std::move(name));
+    entries.push_back(std::move(entry));
   }
   return entries;
 }
@@ -104,12 +126,16 @@ class Builder {
     layout_.width += options_.width;
   }
 
-  void add_bar(const ColorScale& scale, ScalarRange range, bool with_no_value) {
+  // `extent` is that of the values, which may go beyond the range of the colours.
+  void add_bar(const ColorScale& scale, ScalarRange range, ScalarRange extent, std::span<const double> levels,
+               bool with_no_value) {
     const int x = layout_.width + kPad, width = static_cast<int>(std::max(14.0, 0.9 * size_));
-    const int unit_room = scale.unit.empty() ? 0 : static_cast<int>(1.6 * size_);
-    const int height = std::max(16, static_cast<int>(0.82 * options_.height) - unit_room);
-    const Rectangle at{x, top_ + unit_room + (options_.height - height - unit_room) / 2, width, height};
-    Bar& bar = layout_.bars.emplace_back(Bar{at, scale.colormap, {}});
+    const int point = static_cast<int>(1.3 * size_);  // tall enough for what is written beside it
+    const int above = extent.high > range.high ? point : 0, below = extent.low < range.low ? point : 0;
+    const int unit_room = (scale.unit.empty() ? 0 : static_cast<int>(1.6 * size_)) + above;
+    const int height = std::max(16, static_cast<int>(0.82 * options_.height) - unit_room - below);
+    const Rectangle at{x, top_ + unit_room + (options_.height - height - unit_room - below) / 2, width, height};
+    Bar& bar = layout_.bars.emplace_back(Bar{at, bar_rows(scale, range, levels, height), above, below, {}});
     double right = at.x + width;
     const double span = range.high - range.low;
     for (const Tick& tick : ticks_of(range)) {
@@ -118,16 +144,21 @@ class Builder {
       bar.ticks.push_back(row);
       right = std::max(right, add_text(at.x + width + 7, row + 0.32 * size_, tick.text));
     }
-    if (unit_room > 0) right = std::max(right, add_text(x, at.y - 0.6 * size_, scale.unit));
+    const auto beyond = [&](double value, double baseline) {
+      right = std::max(right, add_text(at.x + width + 7, baseline, "to " + number(value, 0.1 * std::abs(value))));
+    };
+    if (above > 0) beyond(extent.high, at.y - 0.75 * size_);
+    if (below > 0) beyond(extent.low, at.y + height + 1.4 * size_);
+    if (!scale.unit.empty()) right = std::max(right, add_text(x, at.y - above - 0.6 * size_, scale.unit));
     if (with_no_value) {
-      const int side = static_cast<int>(0.75 * size_), y = at.y + at.height + static_cast<int>(0.6 * size_);
+      const int side = static_cast<int>(0.75 * size_), y = at.y + at.height + below + static_cast<int>(0.6 * size_);
       layout_.swatches.push_back({{x, y, side, side}, kNoValueColor});
       right = std::max(right, add_text(x + side + 7, y + 0.88 * side, "no value"));
     }
     layout_.width = static_cast<int>(std::ceil(right)) + kPad;
   }
 
-  void add_legend(const std::vector<std::pair<Index, std::string>>& entries) {
+  void add_legend(const std::vector<LegendEntry>& entries) {
     const int x = layout_.width + kPad, side = static_cast<int>(size_);
     const double row_height = 1.45 * size_;
     const auto room = static_cast<std::size_t>(std::max(1.0, (options_.height - 2 * kPad) / row_height));
@@ -137,8 +168,8 @@ class Builder {
         right = std::max(right, add_text(x, y + 0.85 * size_, "+ " + std::to_string(entries.size() - i) + " more"));
         break;
       }
-      layout_.swatches.push_back({{x, static_cast<int>(y), side, side}, label_color(entries[i].first)});
-      right = std::max(right, add_text(x + side + 7, y + 0.85 * size_, entries[i].second));
+      layout_.swatches.push_back({{x, static_cast<int>(y), side, side}, entries[i].color});
+      right = std::max(right, add_text(x + side + 7, y + 0.85 * size_, entries[i].name));
     }
     layout_.width = static_cast<int>(std::ceil(right)) + kPad;
   }
@@ -146,6 +177,18 @@ class Builder {
   Layout take() { return std::move(layout_); }
 
  private:
+  // Colours of the bar from the top, bands as they are on the surface.
+  std::vector<Color> bar_rows(const ColorScale& scale, ScalarRange range, std::span<const double> levels,
+                              int height) const {
+    std::vector<Color> rows;
+    for (int row = 0; row < height; ++row) {
+      const double share = 1 - static_cast<double>(row) / std::max(1, height - 1);
+      rows.push_back(
+          value_color(range.low + share * (range.high - range.low), range, scale.colormap, options_.fill, levels));
+    }
+    return rows;
+  }
+
   // Returns where the text ends.
   double add_text(double x, double y, const std::string& text) {
     layout_.texts.push_back({x, y, size_, text});
@@ -172,18 +215,10 @@ class Builder {
 }  // namespace
 
 std::vector<ScalarRange> ranges_of(std::span<const Panel> panels, const RenderOptions& options) {
-  std::vector<ScalarRange> ranges(options.scales.size(), {kInfinity, -kInfinity});
-  for (const Panel& p : panels) {
-    ScalarRange& range = ranges[p.scale];
-    for (const double x : p.scalar) {
-      if (!std::isfinite(x)) continue;
-      range.low = std::min(range.low, x);
-      range.high = std::max(range.high, x);
-    }
-  }
+  std::vector<ScalarRange> ranges(options.scales.size());
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    if (ranges[i].low > ranges[i].high) ranges[i] = {0, 0};
-    ranges[i] = {options.scales[i].low.value_or(ranges[i].low), options.scales[i].high.value_or(ranges[i].high)};
+    const ScalarRange all = extent_of(panels, i);
+    ranges[i] = {options.scales[i].low.value_or(all.low), options.scales[i].high.value_or(all.high)};
   }
   return ranges;
 }
@@ -195,7 +230,8 @@ Layout lay_out(std::span<const Panel> panels, const RenderOptions& options, std:
     builder.add_panel(panels[i]);
     const std::size_t scale = panels[i].scale;
     if (options.colour_bar && last_of_its_scale(panels.subspan(i))) {
-      builder.add_bar(options.scales[scale], ranges[scale], lacks_values(panels, scale));
+      builder.add_bar(options.scales[scale], ranges[scale], extent_of(panels, scale), panels[i].isolines,
+                      lacks_values(panels, scale));
     }
   }
   if (options.colour_bar) {
@@ -218,9 +254,14 @@ void fill(Image& picture, Rectangle r, Color c) {
 void paint_bar(const Bar& bar, Image& picture) {
   const Rectangle& at = bar.at;
   for (int row = 0; row < at.height; ++row) {
-    const double share = 1 - static_cast<double>(row) / std::max(1, at.height - 1);
-    fill(picture, {at.x, at.y + row, at.width, 1}, color_of(bar.colormap, share));
+    fill(picture, {at.x, at.y + row, at.width, 1}, bar.rows[static_cast<std::size_t>(row)]);
   }
+  const auto point_row = [&](int y, int step, int steps, Color color) {
+    const int inset = (step + 1) * at.width / (2 * steps);
+    fill(picture, {at.x + inset, y, at.width - 2 * inset, 1}, color);
+  };
+  for (int i = 0; i < bar.point_above; ++i) point_row(at.y - 1 - i, i, bar.point_above, bar.rows.front());
+  for (int i = 0; i < bar.point_below; ++i) point_row(at.y + at.height + i, i, bar.point_below, bar.rows.back());
   for (const double row : bar.ticks) {
     constexpr int kTickLength = 4;
     fill(picture, {at.x + at.width, static_cast<int>(std::lround(row)), kTickLength, 1}, kInk);

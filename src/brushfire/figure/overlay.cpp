@@ -31,8 +31,10 @@ Capsule capsule(const Projection::Screen& a, const Projection::Screen& b, double
   return c;
 }
 
-// Shades samples of one capsule that lie in the strip.
-void draw_one(const Capsule& c, Strip& strip, std::span<Color> colors) {
+// Calls visit(sample, t, nx, ny) for the samples of the strip within the capsule's reach: t is the share of the way
+// along it, (nx, ny) the offset from its axis in radii.
+template <class Visit>
+void for_samples(const Capsule& c, const Strip& strip, const Visit& visit) {
   const float reach = c.radius + 1;
   const int left = std::max(0, static_cast<int>(std::floor(std::min(c.x0, c.x1) - reach)));
   const int right = std::min(strip.columns - 1, static_cast<int>(std::ceil(std::max(c.x0, c.x1) + reach)));
@@ -45,18 +47,41 @@ void draw_one(const Capsule& c, Strip& strip, std::span<Color> colors) {
       const float px = static_cast<float>(column) + 0.5F - c.x0, py = static_cast<float>(row) + 0.5F - c.y0;
       const float t = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.0F, 1.0F) : 0.0F;
       const float nx = (px - t * dx) / c.radius, ny = (py - t * dy) / c.radius;
-      const float off = nx * nx + ny * ny;
-      if (off > 1) continue;
-      const float nz = std::sqrt(1 - off);
-      const float depth = c.depth0 + t * (c.depth1 - c.depth0) + c.lift * nz;
-      const std::size_t i = strip.at(column, row);
-      if (depth < strip.depth[i]) continue;
-      strip.depth[i] = depth;
-      strip.face[i] = kNoIndex;
-      const float light = 0.55F + 0.45F * std::max(0.0F, -0.36F * nx - 0.48F * ny + 0.80F * nz);
-      const bool on_rim = off > (1 - c.rim) * (1 - c.rim);
-      colors[i] = on_rim && c.rim > 0 ? c.rim_color : scaled(c.color, light);
+      if (nx * nx + ny * ny <= 1) visit(strip.at(column, row), t, nx, ny);
     }
+  }
+}
+
+// Shades samples of one capsule that lie in the strip.
+void draw_one(const Capsule& c, Strip& strip, std::span<Color> colors) {
+  for_samples(c, strip, [&](std::size_t i, float t, float nx, float ny) {
+    const float off = nx * nx + ny * ny;
+    const float nz = std::sqrt(1 - off);
+    const float depth = c.depth0 + t * (c.depth1 - c.depth0) + c.lift * nz;
+    if (depth < strip.depth[i]) return;
+    strip.depth[i] = depth;
+    strip.face[i] = kNoIndex;
+    const float light = 0.55F + 0.45F * std::max(0.0F, -0.36F * nx - 0.48F * ny + 0.80F * nz);
+    const bool on_rim = off > (1 - c.rim) * (1 - c.rim);
+    colors[i] = on_rim && c.rim > 0 ? c.rim_color : scaled(c.color, light);
+  });
+}
+
+// Dashes where the surface is in front; a sample that two pieces cover is mixed once.
+void draw_hidden(std::span<const Capsule> capsules, const Strip& strip, std::span<Color> colors) {
+  constexpr float kOpacity = 0.6F, kShareOfRadius = 0.5F;
+  std::vector<char> drawn(colors.size(), 0);
+  for (Capsule c : capsules) {
+    if (!(c.dash > 0)) continue;
+    c.radius *= kShareOfRadius;
+    const float length = std::hypot(c.x1 - c.x0, c.y1 - c.y0);
+    for_samples(c, strip, [&](std::size_t i, float t, float, float) {
+      const float depth = c.depth0 + t * (c.depth1 - c.depth0) + c.lift;
+      const bool in_gap = std::fmod((c.begin + t * length) / c.dash, 2.0F) >= 1;
+      if (depth >= strip.depth[i] || drawn[i] || in_gap) return;
+      drawn[i] = 1;
+      colors[i] = mix(colors[i], c.color, kOpacity);
+    });
   }
 }
 
@@ -66,6 +91,7 @@ std::vector<Capsule> overlay_capsules(const Panel& panel, const RenderOptions& o
   std::vector<Capsule> out;
   for (const Polyline& path : panel.paths) {
     const std::size_t n = path.points.size();
+    float begin = 0;
     for (std::size_t i = 0; i + (path.closed ? 0 : 1) < n; ++i) {
       Capsule c = capsule(projection(path.points[i]), projection(path.points[(i + 1) % n]), options.path_width,
                           projection, options.samples);
@@ -76,6 +102,9 @@ std::vector<Capsule> overlay_capsules(const Panel& panel, const RenderOptions& o
       c.radius *= kPathShare;
       c.depth0 += c.lift;
       c.depth1 += c.lift;
+      c.begin = begin;
+      c.dash = options.hidden_paths ? static_cast<float>(kDashes * options.path_width * options.samples) : 0;
+      begin += std::hypot(c.x1 - c.x0, c.y1 - c.y0);
       out.push_back(c);
     }
   }
@@ -90,6 +119,7 @@ std::vector<Capsule> overlay_capsules(const Panel& panel, const RenderOptions& o
 }
 
 void draw(std::span<const Capsule> capsules, Strip& strip, std::span<Color> colors) {
+  draw_hidden(capsules, strip, colors);
   for (const Capsule& c : capsules) draw_one(c, strip, colors);
 }
 

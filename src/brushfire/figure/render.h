@@ -5,6 +5,7 @@
 #include <brushfire/figure/colormap.h>
 #include <brushfire/figure/image.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/shared_face.h>
 
 #include <array>
 #include <optional>
@@ -22,11 +23,13 @@ struct Polyline {
 
 // One mesh and what is shown on it. All that is empty is not shown.
 struct Panel {
-  Mesh mesh;                             // with positions
-  std::vector<double> scalar;            // [vertex_count]; faces with a value that is not finite are grey
-  std::size_t scale = 0;                 // which of RenderOptions::scales colours it
-  std::vector<Index> labels;             // [vertex_count]; coloured by label instead of by scalar; kNoIndex is grey
-  std::vector<std::string> label_names;  // for the legend; by number where there are none
+  Mesh mesh;                              // with positions
+  std::vector<double> scalar;             // [vertex_count]; faces with a value that is not finite are grey
+  std::size_t scale = 0;                  // which of RenderOptions::scales colours it
+  std::vector<Index> labels;              // [vertex_count]; coloured by label instead of by scalar; kNoIndex is grey
+  std::vector<std::string> label_names;   // for the legend; by number where there are none
+  std::vector<SharedFace> label_borders;  // ascending by face; elsewhere the nearest corner gives the label
+  std::vector<Index> label_colors;        // of label i, a number for label_color(); empty: i
   double front = kInfinity;      // where `scalar` is greater, the surface is plain: what a fire has not reached yet
   std::vector<double> isolines;  // levels of `scalar`, ascending; drawn as lines of constant screen width
   std::vector<Polyline> paths;
@@ -42,7 +45,8 @@ enum class Fill : std::uint8_t {
   Bands,   // alternating darker and lighter bands between consecutive isolines (figure 8 of Novotni & Klein 2002)
 };
 
-// How values become colours, and the colour bar that says so.
+// How values become colours, and the colour bar that says so. Values beyond a given range have the colour of its end:
+// the bar then has a point there, and says how far they go.
 struct ColorScale {
   Colormap colormap = Colormap::Viridis;
   std::optional<double> low, high;  // the range; from the finite scalars of all panels with this scale otherwise
@@ -60,6 +64,7 @@ struct RenderOptions {
   bool transparent = false;  // background; otherwise white
   double line_width = 1.6;   // of isolines, pixels
   double path_width = 6.5;   // pixels, its white seam included
+  bool hidden_paths = true;  // dashed where the surface hides them; false: left out there
   double dot_size = 13;      // pixels
   int samples = 3;           // per pixel and direction, 1 to 8
   unsigned threads = 0;      // 0: one per processor; the pixels are the same for any number

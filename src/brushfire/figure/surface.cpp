@@ -24,6 +24,15 @@ std::vector<std::array<float, 3>> normals_seen(const Mesh& mesh, const Projectio
 
 }  // namespace
 
+Color value_color(double value, ScalarRange range, Colormap colormap, Fill fill, std::span<const double> levels) {
+  const double span = range.high - range.low;
+  const Color c = color_of(colormap, span > 0 ? (value - range.low) / span : 0);
+  if (fill == Fill::Smooth || levels.empty()) return c;
+  const auto band = std::upper_bound(levels.begin(), levels.end(), value) - levels.begin();
+  constexpr float kDarkBand = 0.45F, kLightBand = 0.55F;
+  return band % 2 == 0 ? scaled(c, kDarkBand) : mix(c, {1, 1, 1}, kLightBand);
+}
+
 Surface::Surface(const Panel& panel, const RenderOptions& options, const Projection& projection, ScalarRange range)
     : panel_(panel),
       options_(options),
@@ -43,6 +52,10 @@ void SurfaceShader::enter(Index face) {
     value_[k] = surface_.panel_.scalar[t[k]];
     has_value_ = std::isfinite(value_[k]);
   }
+  const std::vector<SharedFace>& shared = surface_.panel_.label_borders;
+  const auto found = std::lower_bound(shared.begin(), shared.end(), face,
+                                      [](const SharedFace& shared_face, Index f) { return shared_face.face < f; });
+  shared_ = found != shared.end() && found->face == face ? &*found : nullptr;
   // Seen from the front where its corners run counter-clockwise; y runs down on the screen.
   const std::size_t side = triangle_->double_area() < 0 ? 0 : 1;
   const auto& openness = surface_.panel_.openness;
@@ -85,21 +98,29 @@ float SurfaceShader::depth_step(int columns, int rows) const {
 Color SurfaceShader::base_color(double value, std::array<float, 3> w) const {
   const Panel& panel = surface_.panel_;
   if (!panel.labels.empty()) {
-    // A face belongs to the label of the corner that the sample is nearest to.
-    const auto k = static_cast<std::size_t>(std::max_element(w.begin(), w.end()) - w.begin());
-    const Index label = panel.labels[surface_.mesh().faces()[face_][k]];
-    return label == kNoIndex ? kNoValueColor : label_color(label);
+    const Index label = nearest_label(w);
+    if (label == kNoIndex) return kNoValueColor;
+    return label_color(label < panel.label_colors.size() ? panel.label_colors[label] : label);
   }
   if (panel.scalar.empty()) return kPlain;
   if (!has_value_) return kNoValueColor;
   if (value > panel.front) return kPlain;
-  const ScalarRange range = surface_.range_;
-  const double span = range.high - range.low;
-  const Color c = color_of(surface_.options_.scales[panel.scale].colormap, span > 0 ? (value - range.low) / span : 0);
-  if (surface_.options_.fill == Fill::Smooth || panel.isolines.empty()) return c;
-  const auto band = std::upper_bound(panel.isolines.begin(), panel.isolines.end(), value) - panel.isolines.begin();
-  constexpr float kDarkBand = 0.45F, kLightBand = 0.55F;
-  return band % 2 == 0 ? scaled(c, kDarkBand) : mix(c, {1, 1, 1}, kLightBand);
+  const RenderOptions& options = surface_.options_;
+  return value_color(value, surface_.range_, options.scales[panel.scale].colormap, options.fill, panel.isolines);
+}
+
+// That of the nearest corner, or of the nearest cell where that is known.
+Index SurfaceShader::nearest_label(std::array<float, 3> w) const {
+  if (!shared_) {
+    const auto k = static_cast<std::size_t>(std::max_element(w.begin(), w.end()) - w.begin());
+    return surface_.panel_.labels[surface_.mesh().faces()[face_][k]];
+  }
+  std::array<double, 3> distance{};
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    for (std::size_t k = 0; k < 3; ++k) distance[k] += static_cast<double>(w[corner]) * shared_->distance[corner][k];
+  }
+  return shared_
+      ->label[static_cast<std::size_t>(std::min_element(distance.begin(), distance.end()) - distance.begin())];
 }
 
 Color SurfaceShader::with_isoline(Color c, double value, double gradient) const {

@@ -4,6 +4,7 @@
 #include <brushfire/core/detail/base64.h>
 #include <brushfire/core/error.h>
 #include <brushfire/figure/detail/legend.h>
+#include <brushfire/figure/detail/overlay.h>
 #include <brushfire/figure/detail/panel.h>
 
 #include <algorithm>
@@ -57,20 +58,20 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   return detail::encode_base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-// Draws polylines of one panel, leaving out what lies behind the surface.
+// Draws polylines of one panel where they are seen, or where the surface hides them.
 class VisibleLines {
  public:
   VisibleLines(const Projection& projection, Rectangle at, std::span<const float> depth)
       : projection_(projection), at_(at), depth_(depth) {}
 
   // The `d` attribute of an SVG path.
-  std::string trace(std::span<const Polyline> lines) const {
+  std::string trace(std::span<const Polyline> lines, bool hidden = false) const {
     std::string d;
     for (const Polyline& line : lines) {
       bool pen_down = false;
       const std::size_t n = line.points.size();
       for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
-        trace_segment(projection_(line.points[i]), projection_(line.points[(i + 1) % n]), pen_down, d);
+        trace_segment(projection_(line.points[i]), projection_(line.points[(i + 1) % n]), hidden, pen_down, d);
       }
     }
     return d;
@@ -94,7 +95,8 @@ class VisibleLines {
   std::string place(double x, double y) const { return number(at_.x + x) + " " + number(at_.y + y); }
 
  private:
-  void trace_segment(const Projection::Screen& a, const Projection::Screen& b, bool& pen_down, std::string& d) const {
+  void trace_segment(const Projection::Screen& a, const Projection::Screen& b, bool hidden, bool& pen_down,
+                     std::string& d) const {
     const int steps = std::max(1, static_cast<int>(std::ceil(std::hypot(b.x - a.x, b.y - a.y))));
     const auto along = [&](int i) {
       const double t = static_cast<double>(i) / steps;
@@ -103,7 +105,7 @@ class VisibleLines {
     int last_written = -1;
     for (int i = 0; i <= steps; ++i) {
       const Projection::Screen s = along(i);
-      if (visible(s)) {
+      if (visible(s) != hidden) {
         if (!pen_down) {
           d += "M" + place(s.x, s.y);
           last_written = i;
@@ -122,10 +124,10 @@ class VisibleLines {
   std::span<const float> depth_;
 };
 
-std::string stroke(const std::string& d, const char* color, double width) {
+std::string stroke(const std::string& d, const char* color, double width, const std::string& more = {}) {
   if (d.empty()) return {};
-  return "<path d=\"" + d + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" + number(width) +
-         "\" stroke-linecap=\"round\" stroke-linejoin=\"round\"/>\n";
+  return "<path d=\"" + d + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" + number(width) + "\"" + more +
+         " stroke-linecap=\"round\" stroke-linejoin=\"round\"/>\n";
 }
 
 std::string draw_panel(const Panel& panel, std::span<const Polyline> lines, const RenderOptions& options,
@@ -143,6 +145,11 @@ std::string draw_panel(const Panel& panel, std::span<const Polyline> lines, cons
   out += stroke(visible.trace(lines), "#14141a", options.line_width);
   const std::string paths = visible.trace(panel.paths);
   constexpr double kCore = 0.66;  // the rest is a white seam
+  if (options.hidden_paths) {
+    const double dash = detail::kDashes * options.path_width;
+    out += stroke(visible.trace(panel.paths, true), "#ed4229", 0.5 * kCore * options.path_width,
+                  " stroke-dasharray=\"" + number(dash) + " " + number(dash) + "\" opacity=\"0.6\"");
+  }
   out += stroke(paths, "#ffffff", options.path_width) + stroke(paths, "#ed4229", kCore * options.path_width);
   for (const Vec3& p : panel.dots) {
     const Projection::Screen s = projection(p);
@@ -154,17 +161,27 @@ std::string draw_panel(const Panel& panel, std::span<const Polyline> lines, cons
   return out;
 }
 
-std::string draw_bar(const detail::Bar& bar, const std::string& id) {
-  std::string out = "<defs><linearGradient id=\"" + id + "\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">";
-  constexpr int kStops = 33;
-  for (int i = 0; i < kStops; ++i) {
-    const double share = static_cast<double>(i) / (kStops - 1);
-    out += "<stop offset=\"" + number(share) + "\" stop-color=\"" + hex(color_of(bar.colormap, share)) + "\"/>";
-  }
+// The colours as runs of equal rows; each reaches under the next, lest a gap between them shows.
+std::string draw_bar(const detail::Bar& bar) {
   const Rectangle& at = bar.at;
-  out += "</linearGradient></defs>\n<rect x=\"" + std::to_string(at.x) + "\" y=\"" + std::to_string(at.y) +
-         "\" width=\"" + std::to_string(at.width) + "\" height=\"" + std::to_string(at.height) + "\" fill=\"url(#" +
-         id + ")\"/>\n";
+  std::string out;
+  const auto box = [&](int row, int rows, Color color) {
+    out += "<rect x=\"" + std::to_string(at.x) + "\" y=\"" + std::to_string(at.y + row) + "\" width=\"" +
+           std::to_string(at.width) + "\" height=\"" + std::to_string(rows) + "\" fill=\"" + hex(color) + "\"/>\n";
+  };
+  for (int row = 0; row < at.height;) {
+    const std::string color = hex(bar.rows[static_cast<std::size_t>(row)]);
+    int end = row + 1;
+    while (end < at.height && hex(bar.rows[static_cast<std::size_t>(end)]) == color) ++end;
+    box(row, std::min(at.height, end + 1) - row, bar.rows[static_cast<std::size_t>(row)]);
+    row = end;
+  }
+  const auto point = [&](int base, int tip, Color color) {
+    out += "<path d=\"M" + std::to_string(at.x) + " " + std::to_string(base) + "h" + std::to_string(at.width) + "L" +
+           number(at.x + 0.5 * at.width) + " " + std::to_string(tip) + "z\" fill=\"" + hex(color) + "\"/>\n";
+  };
+  if (bar.point_above > 0) point(at.y, at.y - bar.point_above, bar.rows.front());
+  if (bar.point_below > 0) point(at.y + at.height, at.y + at.height + bar.point_below, bar.rows.back());
   for (const double row : bar.ticks) {
     out += "<path d=\"M" + std::to_string(at.x + at.width) + " " + number(row) + "h4\" stroke=\"#1f1f24\"/>\n";
   }
@@ -173,7 +190,7 @@ std::string draw_bar(const detail::Bar& bar, const std::string& id) {
 
 std::string draw_frame(const detail::Layout& layout) {
   std::string out;
-  for (std::size_t i = 0; i < layout.bars.size(); ++i) out += draw_bar(layout.bars[i], "bar" + std::to_string(i));
+  for (const detail::Bar& bar : layout.bars) out += draw_bar(bar);
   for (const detail::Swatch& s : layout.swatches) {
     out += "<rect x=\"" + std::to_string(s.at.x) + "\" y=\"" + std::to_string(s.at.y) + "\" width=\"" +
            std::to_string(s.at.width) + "\" height=\"" + std::to_string(s.at.height) + "\" fill=\"" + hex(s.color) +

@@ -52,11 +52,12 @@ class PlyReader {
     return std::move(parts_);
   }
 
-  // The vertex property `name`; "" takes `quality`, or the first that is no coordinate, normal or colour.
-  LoadedField read_field(const std::string& name) {
+  // The property `name` of vertices or faces; "" takes `quality`, or the first that is no coordinate, normal or colour.
+  LoadedField read_field(const std::string& name, ValuesOn on) {
+    const std::string_view element = on == ValuesOn::Faces ? "face" : "vertex";
     LoadedField field;
     for (const Element& e : header_->elements) {
-      const Property* p = e.name == "vertex" ? scalar(e, name) : nullptr;
+      const Property* p = e.name == element ? scalar(e, name) : nullptr;
       check_rows(e);
       if (p != nullptr) {
         field.name = p->name;
@@ -65,7 +66,8 @@ class PlyReader {
       }
       if (!e.properties.empty()) skip(e);
     }
-    rows_.fail(rows_.place(), "the vertices have no scalar" + (name.empty() ? std::string() : " " + quote(name)));
+    rows_.fail(rows_.place(), (on == ValuesOn::Faces ? "the faces" : "the vertices") + std::string(" have no scalar") +
+                                  (name.empty() ? std::string() : " " + quote(name)));
   }
 
   // Edges in the order of the file: one that starts where the last one ended goes on with its line. A vertex in no edge
@@ -392,6 +394,12 @@ class PlyReader {
   MeshParts parts_;
 };
 
+LoadedField read_field_on(const Input& input, const std::string& name, ValuesOn on) {
+  const Header header = ply::read_header(input);
+  if (header.encoding == Encoding::Ascii) return PlyReader<AsciiRows>(input, header).read_field(name, on);
+  return PlyReader<BinaryRows>(input, header).read_field(name, on);
+}
+
 }  // namespace
 
 MeshParts read_ply(const Input& input) {
@@ -401,9 +409,11 @@ MeshParts read_ply(const Input& input) {
 }
 
 LoadedField read_ply_field(const Input& input, const std::string& name) {
-  const Header header = ply::read_header(input);
-  if (header.encoding == Encoding::Ascii) return PlyReader<AsciiRows>(input, header).read_field(name);
-  return PlyReader<BinaryRows>(input, header).read_field(name);
+  return read_field_on(input, name, ValuesOn::Vertices);
+}
+
+LoadedField read_ply_face_field(const Input& input, const std::string& name) {
+  return read_field_on(input, name, ValuesOn::Faces);
 }
 
 LoadedLines read_ply_lines(const Input& input) {

@@ -46,9 +46,9 @@ std::string upper(std::string_view text) {
 
 class VtkReader {
  public:
-  // `wanted`: the point array to keep; nullptr for none, "" for the first of one component.
-  VtkReader(const Input& input, const std::string* wanted)
-      : input_(&input), text_(input, input.bytes()), wanted_(wanted) {}
+  // `wanted`: the array of points or cells to keep; nullptr for none, "" for the first of one component.
+  VtkReader(const Input& input, const std::string* wanted, ValuesOn on)
+      : input_(&input), text_(input, input.bytes()), wanted_(wanted), on_points_(on == ValuesOn::Vertices) {}
 
   MeshParts read() {
     read_preamble();
@@ -253,7 +253,8 @@ class VtkReader {
   }
 
   void keep(const std::string& name, std::size_t components, const std::vector<double>& values) {
-    if (wanted_ == nullptr || !point_data_ || field_ || components != 1 || values.size() != attributes_of_) return;
+    if (wanted_ == nullptr || point_data_ != on_points_ || field_ || components != 1 || values.size() != attributes_of_)
+      return;
     if (!wanted_->empty() && *wanted_ != name) return;
     field_.emplace();
     field_->name = name;
@@ -356,6 +357,7 @@ class VtkReader {
   const Input* input_;
   TextCursor text_;
   const std::string* wanted_;
+  bool on_points_;
   MeshParts parts_;
   VtkCells cells_;
   std::optional<LoadedField> field_;
@@ -367,17 +369,27 @@ class VtkReader {
   std::size_t grid_place_ = 0;
 };
 
-}  // namespace
-
-MeshParts read_vtk(const Input& input) { return VtkReader(input, nullptr).read(); }
-
-LoadedField read_vtk_field(const Input& input, const std::string& name) {
-  VtkReader reader(input, &name);
+LoadedField read_field_on(const Input& input, const std::string& name, ValuesOn on) {
+  VtkReader reader(input, &name, on);
   reader.read();
   std::optional<LoadedField> field = reader.field();
-  if (!field)
-    input.fail(name.empty() ? "has no scalars on its points" : "has no scalars " + quote(name) + " on its points");
+  if (!field) {
+    input.fail("has no scalars" + (name.empty() ? std::string() : " " + quote(name)) +
+               (on == ValuesOn::Vertices ? " on its points" : " on its cells"));
+  }
   return std::move(*field);
+}
+
+}  // namespace
+
+MeshParts read_vtk(const Input& input) { return VtkReader(input, nullptr, ValuesOn::Vertices).read(); }
+
+LoadedField read_vtk_field(const Input& input, const std::string& name) {
+  return read_field_on(input, name, ValuesOn::Vertices);
+}
+
+LoadedField read_vtk_face_field(const Input& input, const std::string& name) {
+  return read_field_on(input, name, ValuesOn::Faces);
 }
 
 void write_vtk(Output& out, const Mesh& mesh, const FieldView& field) {

@@ -72,14 +72,15 @@ class VtpReader {
     return parts;
   }
 
-  LoadedField field(const std::string& wanted) {
+  LoadedField field(const std::string& wanted, ValuesOn on) {
+    const bool on_cells = on == ValuesOn::Faces;
     LoadedField field;
     bool found = false;
     for (const Piece& piece : pieces_) {
-      for (const ArrayPlace& array : piece.point_data) {
+      for (const ArrayPlace& array : on_cells ? piece.cell_data : piece.point_data) {
         if (array.components != 1 || (wanted.empty() ? found && array.name != field.name : array.name != wanted))
           continue;
-        const std::vector<double> values = numbers(array, piece.points);
+        const std::vector<double> values = on_cells ? numbers(array) : numbers(array, piece.points);
         field.values.insert(field.values.end(), values.begin(), values.end());
         field.name = array.name;
         found = true;
@@ -87,7 +88,8 @@ class VtpReader {
       }
     }
     if (!found)
-      input_->fail("has no scalars" + (wanted.empty() ? std::string() : " " + quote(wanted)) + " on its points");
+      input_->fail("has no scalars" + (wanted.empty() ? std::string() : " " + quote(wanted)) +
+                   (on_cells ? " on its cells" : " on its points"));
     return field;
   }
 
@@ -430,7 +432,12 @@ class VtpReader {
 
 MeshParts read_vtp(const Input& input) { return VtpReader(input).read(); }
 
-LoadedField read_vtp_field(const Input& input, const std::string& name) { return VtpReader(input).field(name); }
+LoadedField read_vtp_field(const Input& input, const std::string& name) {
+  return VtpReader(input).field(name, ValuesOn::Vertices);
+}
+LoadedField read_vtp_face_field(const Input& input, const std::string& name) {
+  return VtpReader(input).field(name, ValuesOn::Faces);
+}
 
 LoadedLines read_vtp_lines(const Input& input) { return VtpReader(input).lines(); }
 

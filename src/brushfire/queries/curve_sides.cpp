@@ -5,6 +5,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/leaving_angles.h>
+#include <brushfire/queries/detail/lengths_only.h>
 #include <brushfire/queries/straightest.h>
 
 #include <algorithm>
@@ -339,6 +340,7 @@ std::vector<double> signed_distance(const DistanceField& field, std::span<const 
 
 std::vector<double> signed_distance(const Mesh& mesh, std::span<const Source> curves, const DistanceOptions& how) {
   check_have_sides(curves);
+  detail::check_lengths_only(how, "signs");
   DistanceOptions exact;
   exact.method = Method::Exact;
   exact.keep_paths = true;

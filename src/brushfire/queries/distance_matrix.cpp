@@ -205,8 +205,11 @@ void require_dense_memory(std::size_t rows, std::size_t columns, ValueType type,
   const double bytes = static_cast<double>(rows) * static_cast<double>(columns) * (is_float ? 4 : 8);
   // Beyond what 64 bits count it is too large all the same.
   const std::uint64_t counted = bytes < 0x1p63 ? static_cast<std::uint64_t>(bytes) : ~std::uint64_t{0};
+  const std::uint64_t fit =
+      (limit == 0 ? available_memory() : limit) / std::max<std::uint64_t>(1, columns) / (is_float ? 4 : 8);
   require_memory(counted, limit, size_text(rows, columns, type),
-                 std::string("ask for fewer rows or columns, ") + (is_float ? "" : "for float32, ") +
+                 "ask for fewer rows or columns (" + std::to_string(fit) + " rows would fit), " +
+                     (is_float ? "" : "for float32, ") +
                      "for distances within a radius (sparse), or have it written to a .npy file");
 }
 
@@ -257,10 +260,14 @@ class SparseBudget {
                    "a sparse matrix of " + std::to_string(rows_) + " rows with " +
                        std::to_string(static_cast<std::uint64_t>(entries / static_cast<double>(rows_))) +
                        " entries each",
-                   "take a smaller radius, or fewer rows at a time");
+                   "take a smaller radius, or fewer rows at a time: " + std::to_string(rows_that_fit(entries)) +
+                       " of them would fit");
   }
 
  private:
+  std::uint64_t rows_that_fit(double entries) const {
+    return static_cast<std::uint64_t>(static_cast<double>(rows_) * static_cast<double>(limit_) / bytes(entries));
+  }
   double bytes(double entries) const {
     return 2 * entries * (sizeof(Index) + sizeof(T)) + static_cast<double>(rows_) * 64;
   }
@@ -273,12 +280,7 @@ template <class T>
 void check_expected_size(detail::Rows& all, const SparseBudget<T>& budget) {
   const double rows = static_cast<double>(all.count());
   if (budget.fits(rows * static_cast<double>(all.columns()))) return;  // even if every row reaches everything
-  std::vector<std::size_t> sample;
-  const std::size_t stride = std::max<std::size_t>(1, all.count() / kSampleRows);
-  for (std::size_t i = 0; i < all.count(); i += stride) sample.push_back(i);
-  std::atomic<std::uint64_t> entries{0};
-  all.run_sparse(sample, 1, nullptr, [&](unsigned, std::size_t, const SparseField& f) { entries += f.vertex.size(); });
-  budget.require(static_cast<double>(entries) / static_cast<double>(sample.size()) * rows);
+  budget.require(detail::expected_entries(all));
 }
 
 // Where a row's entries begin in its block, and how many there are.
@@ -312,6 +314,16 @@ SparseMatrix<T> join(std::vector<SparseBlock<T>>& entries, const detail::Rows::B
 }
 
 }  // namespace
+
+double detail::expected_entries(Rows& all) {
+  if (all.count() == 0) return 0;
+  std::vector<std::size_t> sample;
+  const std::size_t stride = std::max<std::size_t>(1, all.count() / kSampleRows);
+  for (std::size_t i = 0; i < all.count(); i += stride) sample.push_back(i);
+  std::atomic<std::uint64_t> entries{0};
+  all.run_sparse(sample, 1, nullptr, [&](unsigned, std::size_t, const SparseField& f) { entries += f.vertex.size(); });
+  return static_cast<double>(entries) / static_cast<double>(sample.size()) * static_cast<double>(all.count());
+}
 
 void detail::require_sparse_memory(Rows& all, ValueType type, std::uint64_t limit) {
   type == ValueType::Float32 ? check_expected_size(all, SparseBudget<float>(all.count(), limit))

@@ -131,7 +131,8 @@ Extent extent(const Domain& domain, const ExtentOptions& options) {
   best.diameter_upper = upper;
   best.runs = runs;
   if (best.centre == kNoIndex) return best;
-  for (Index* v : {&best.pair[0], &best.pair[1], &best.centre}) *v = domain.vertex(*v);
+  best.pair = {domain.vertex(best.pair[0]), domain.vertex(best.pair[1])};
+  best.centre = domain.vertex(best.centre);
   if (best.pair[0] > best.pair[1]) std::swap(best.pair[0], best.pair[1]);
   return best;
 }

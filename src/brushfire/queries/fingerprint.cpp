@@ -1,6 +1,7 @@
 // From everything that a row depends on to one number.
 #include <brushfire/queries/detail/fingerprint.h>
 
+#include <brushfire/solvers/steiner/weighting.h>
 #include <brushfire/version.h>
 
 namespace brushfire::detail {
@@ -24,6 +25,21 @@ void Fingerprint::add(const Places& places) {
   for (const Place& p : *places) add(p);
 }
 
+void Fingerprint::add(const Weighting& weighting) {
+  add(weighting.options().tolerance);
+  add(std::uint64_t{weighting.options().towards});
+  const Weights& weights = weighting.weights();
+  add(weights.face.data(), weights.face.size() * sizeof(double));
+  for (const EdgeCost& e : weights.edges) {
+    add(std::uint64_t{e.vertices[0]} << 32 | e.vertices[1]);
+    add(e.along);
+    add(e.crossing);
+  }
+  if (!weights.pace) return;
+  constexpr int kSamples = 1000;  // on each side of the flat, up to 45 degrees and beyond
+  for (int i = -kSamples; i <= kSamples; ++i) add((*weights.pace)(i * (1.5 / kSamples)));
+}
+
 std::uint64_t fingerprint_of(const Domain& domain, const Places& rows, const Places& columns, ValueType type,
                              const DistanceOptions& options) {
   const Mesh& mesh = domain.open();
@@ -45,6 +61,7 @@ std::uint64_t fingerprint_of(const Domain& domain, const Places& rows, const Pla
   f.add(static_cast<std::uint64_t>(options.bound));
   f.add(static_cast<std::uint64_t>(options.precision));
   f.add(options.max_distance);
+  if (options.weighting) f.add(*options.weighting);
   return f.value();
 }
 

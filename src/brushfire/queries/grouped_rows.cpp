@@ -48,6 +48,7 @@ Rows::Worker::~Worker() = default;
 Rows::~Rows() = default;
 
 bool Rows::can_group() const {
+  if (options_.weighting) return false;
   if (!carried_source::GroupedRows::serve(domain_, options_)) return false;
   if (!all_columns_ && options_.targets.empty()) return false;  // nothing to compute
   return std::all_of(options_.targets.begin(), options_.targets.end(),

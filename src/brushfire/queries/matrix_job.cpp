@@ -9,14 +9,18 @@
 #include <brushfire/queries/detail/fingerprint.h>
 #include <brushfire/queries/detail/little_endian.h>
 #include <brushfire/queries/detail/matrix_store.h>
+#include <brushfire/queries/detail/nearest_store.h>
 #include <brushfire/queries/detail/row_ledger.h>
 #include <brushfire/queries/detail/rows.h>
 #include <brushfire/queries/detail/shards.h>
 #include <brushfire/queries/detail/symmetrize.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <mutex>
 #include <numeric>
 #include <system_error>
 #include <thread>
@@ -64,7 +68,12 @@ void check(const fs::path& path, const Places& rows, const Places& columns, cons
     refuse("shard " + std::to_string(options.shard) + " of " + std::to_string(options.shards) +
            ": shards are numbered from 1 on");
   }
+  if (options.nearest > 0 && path.extension() != ".npy") refuse("the nearest of every row are written as .npy");
+  if (options.nearest > 0 && options.shards > 1) {
+    refuse("a shard holds whole rows: choose the nearest when the shards are merged");
+  }
   if (!options.symmetry) return;
+  if (options.nearest > 0) refuse("the nearest of every row are no symmetric matrix");
   if (options.shards > 1 && path.extension() == ".npy") {
     refuse("a shard holds one direction of a pair only: make the merged matrix symmetric");
   }
@@ -85,6 +94,11 @@ struct MatrixJob::State {
         all(domain, row_places, columns, given),
         output(detail::followed(path.string())) {
     check(path, row_places, columns, file);
+    detail::require_columns(file.nearest, all.columns());
+    radii = {given.distance.max_distance};
+    if (file.nearest > 0 && !columns) {
+      radii = detail::radii_for_nearest(domain.mesh(), file.nearest, given.distance.max_distance);
+    }
     choose_rows();
     if (own_file) output = detail::shard_path(output, file.shard, file.shards);
     describe(domain, row_places, columns);
@@ -165,24 +179,39 @@ struct MatrixJob::State {
     return left;
   }
 
+  // Rows that have not found enough within one radius try the next.
   template <class T>
-  std::size_t compute(const std::vector<std::size_t>& rows) {
+  std::size_t compute(std::vector<std::size_t> rows) {
     std::atomic<std::size_t> computed{0};
     const std::size_t before = ledger->entries() - rows.size();
     Progress part;
     if (options.distance.progress) {
-      part = [&](double share) {
-        options.distance.progress((static_cast<double>(before) + share * static_cast<double>(rows.size())) /
-                                  static_cast<double>(ledger->entries()));
+      part = [&](double) {
+        options.distance.progress(static_cast<double>(before + computed) / static_cast<double>(ledger->entries()));
       };
     }
-    all.run_dense<T>(
-        rows, part,
-        [&](unsigned, std::size_t i, std::span<const T> values) {
-          put(entry(i), std::span<const char>(detail::as_little_endian(values)));
-          ++computed;
-        },
-        [&](std::size_t i) { return ledger->claim(entry(i)); });
+    for (const double radius : radii) {
+      all.set_radius(radius);
+      const std::size_t enough = radius < radii.back() ? static_cast<std::size_t>(file.nearest) : 0;
+      std::mutex mutex;
+      std::vector<std::size_t> again;
+      all.run_dense<T>(
+          rows, part,
+          [&](unsigned, std::size_t i, std::span<const T> values) {
+            if (detail::has_finite(values, enough)) {
+              put(entry(i), std::span<const char>(detail::as_little_endian(values)));
+              ++computed;
+            } else {
+              ledger->release(entry(i));
+              const std::lock_guard lock(mutex);
+              again.push_back(i);
+            }
+          },
+          [&](std::size_t i) { return ledger->claim(entry(i)); });
+      rows = std::move(again);
+      if (rows.empty()) break;
+      std::sort(rows.begin(), rows.end());
+    }
     return computed;
   }
   std::size_t compute_rows(const std::vector<std::size_t>& rows) {
@@ -231,6 +260,7 @@ struct MatrixJob::State {
   std::string ledger_path;
   bool own_file = false;  // which holds the rows of this shard alone
   std::vector<std::size_t> numbers;
+  std::vector<double> radii;  // ascending; to the last one all that is wanted is found
   std::optional<detail::Rows::ByUnits> by_units;
   detail::StoredMatrix stored;
   detail::LedgerHead head;

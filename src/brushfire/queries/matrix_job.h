@@ -12,6 +12,8 @@
 //     job.run();
 #pragma once
 
+#include <brushfire/core/progress.h>
+#include <brushfire/mesh/domain.h>
 #include <brushfire/queries/distance_matrix.h>
 
 #include <cstdint>
@@ -33,6 +35,10 @@ struct MatrixFileOptions {
   // a matrix of its own rows alone, for merge_shards(); the shards of a Zarr store write into it together.
   std::uint64_t shard = 1, shards = 1;
   std::optional<Symmetry> symmetry{};  // needs rows and columns that are the same places, and no shards in .npy files
+  // Not 0: of every row only so many columns, the nearest ones, from near to far, and in a second .npy file of int32
+  // (d.index.npy) which they are; what is not reached comes last, by number. Where the columns are all vertices a row
+  // costs what it has to reach. In .npy files that are no shards, and not symmetric.
+  std::uint64_t nearest = 0;
 };
 
 // One process's part in a matrix that is written to disk: PATH ends in .npy (little-endian, C order, version 1.0) or in

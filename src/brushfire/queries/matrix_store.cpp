@@ -7,6 +7,7 @@
 #include <brushfire/io/detail/shared_file.h>
 #include <brushfire/io/detail/zarr.h>
 #include <brushfire/queries/detail/fingerprint.h>
+#include <brushfire/queries/detail/nearest_store.h>
 
 #include <algorithm>
 #include <bit>
@@ -38,7 +39,7 @@ std::string content_of(const fs::path& path) {
 
 // Magic, version 1.0, length and text, padded so that the data start at a multiple of 64 bytes.
 std::string npy_header(const StoredMatrix& m) {
-  std::string text = std::string("{'descr': '<f") + (m.type == ValueType::Float32 ? "4" : "8") +
+  std::string text = std::string("{'descr': '<") + (m.whole_numbers ? 'i' : 'f') + std::to_string(m.value_bytes()) +
                      "', 'fortran_order': False, 'shape': (" + std::to_string(m.rows) + ", " +
                      std::to_string(m.columns) + "), }";
   constexpr std::size_t kPreamble = 10, kAlignment = 64;
@@ -62,7 +63,7 @@ class NpyStore : public MatrixStore {
     if (fs::is_directory(path_)) throw_not_writable(path_, "is a folder");
     std::error_code error;
     fs::remove(part_, error);
-    require_disk(path_, matrix_);
+    require_disk(path_, matrix_.rows, matrix_.row_bytes());
     const SharedFile file(part_, SharedFile::Missing::Created);
     file.write(0, header_);
     file.resize(size());
@@ -137,7 +138,7 @@ class ZarrStore : public MatrixStore {
     if (fs::exists(path_) && !(fs::is_directory(path_) && fs::is_empty(path_, error))) {
       throw_not_writable(path_, "is there already, and is not this matrix: remove it, or choose another name");
     }
-    require_disk(path_, matrix_);
+    require_disk(path_, matrix_.rows, matrix_.row_bytes());
     // Under another name first: what is killed in its midst leaves no half of a store.
     const fs::path draft = path_.string() + ".part";
     fs::remove_all(draft, error);
@@ -207,6 +208,14 @@ class ZarrStore : public MatrixStore {
 }  // namespace
 
 std::unique_ptr<MatrixStore> open_store(const fs::path& path, StoredMatrix matrix, const MatrixFileOptions& options) {
+  if (path.extension() == ".npy" && options.nearest > 0) {
+    StoredMatrix values = matrix;
+    values.columns = options.nearest;
+    StoredMatrix indices = values;
+    indices.whole_numbers = true;
+    return nearest_store(std::make_unique<NpyStore>(path, values),
+                         std::make_unique<NpyStore>(index_path(path), indices), path, matrix, options.nearest);
+  }
   if (path.extension() == ".npy") return std::make_unique<NpyStore>(path, std::move(matrix));
   if (path.extension() == ".zarr") return std::make_unique<ZarrStore>(path, std::move(matrix), options);
   throw Error(ErrorCode::UnknownFormat, path.string() + ": a dense matrix is written as .npy or .zarr");
@@ -219,6 +228,7 @@ std::uint64_t layout_of(const fs::path& path, const StoredMatrix& matrix, const 
     f.add(static_cast<std::uint64_t>(options.zarr_format));
     f.add(chunk_rows_of(matrix, options));
   }
+  f.add(options.nearest);
   f.add(options.symmetry ? 1 + static_cast<std::uint64_t>(*options.symmetry) : std::uint64_t{0});
   return f.value();
 }
@@ -230,16 +240,16 @@ bool is_complete_store(const fs::path& path, const std::string& attributes) {
   return false;
 }
 
-void require_disk(const fs::path& path, const StoredMatrix& matrix) {
+void require_disk(const fs::path& path, std::uint64_t rows, std::uint64_t row_bytes) {
   std::error_code error;
   const fs::path folder = path.parent_path();
   const fs::space_info space = fs::space(folder.empty() ? "." : folder, error);
-  const double bytes = static_cast<double>(matrix.rows) * static_cast<double>(matrix.row_bytes());
+  const double bytes = static_cast<double>(rows) * static_cast<double>(row_bytes);
   if (error || static_cast<double>(space.available) >= bytes) return;
-  const std::uint64_t fit = space.available / std::max<std::uint64_t>(1, matrix.row_bytes());
+  const std::uint64_t fit = space.available / std::max<std::uint64_t>(1, row_bytes);
   throw_not_writable(path, "the matrix takes " + bytes_as_text(static_cast<std::uint64_t>(std::min(bytes, 0x1p63))) +
                                ", but " + bytes_as_text(space.available) + " are free there: " + std::to_string(fit) +
-                               " of its " + std::to_string(matrix.rows) + " rows would fit");
+                               " of its " + std::to_string(rows) + " rows would fit");
 }
 
 }  // namespace brushfire::detail

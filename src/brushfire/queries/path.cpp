@@ -5,6 +5,7 @@
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/queries/detail/lengths_only.h>
 #include <brushfire/queries/detail/sleeve.h>
 #include <brushfire/queries/shorten.h>
 #include <brushfire/solvers/detail/walls.h>
@@ -162,6 +163,7 @@ SurfacePath path_in(const Domain& domain, const WindowField& field, const Surfac
 
 std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source> sources,
                                  std::span<const SurfacePoint> targets, const DistanceOptions& how) {
+  detail::check_lengths_only(how, "these paths");
   DistanceOptions options;
   options.method = Method::Exact;
   options.keep_paths = true;
@@ -182,6 +184,7 @@ std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source>
 
 std::vector<SourcePath> edge_paths_to(const Domain& domain, std::span<const Source> sources,
                                       std::span<const SurfacePoint> targets, const DistanceOptions& how) {
+  detail::check_lengths_only(how, "paths along edges");
   const Mesh& open = domain.open();
   const auto check_vertex = [&](const SurfacePoint& p) {
     if (p.is_nowhere() || locate(domain.mesh(), p).on == On::Vertex) return;

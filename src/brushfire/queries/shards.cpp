@@ -5,6 +5,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/zarr.h>
 #include <brushfire/queries/detail/matrix_store.h>
+#include <brushfire/queries/detail/nearest_store.h>
 #include <brushfire/queries/detail/symmetrize.h>
 #include <brushfire/queries/matrix_job.h>
 #include <brushfire/version.h>
@@ -135,6 +136,10 @@ void merge_shards(std::span<const fs::path> paths, const fs::path& path, const M
   if (options.symmetry && head.rows != head.columns) {
     throw Error(ErrorCode::InvalidArgument, "a symmetric matrix needs as many rows as columns");
   }
+  if (options.nearest > 0 && (options.symmetry || path.extension() != ".npy")) {
+    throw Error(ErrorCode::InvalidArgument, "the nearest of every row are written as .npy, and not symmetric");
+  }
+  detail::require_columns(options.nearest, head.columns);
   const auto numbers_to = [](std::uint64_t count) {
     std::vector<std::int64_t> numbers(static_cast<std::size_t>(count));
     std::iota(numbers.begin(), numbers.end(), std::int64_t{0});

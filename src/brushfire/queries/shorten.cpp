@@ -129,29 +129,29 @@ class Shortener {
     return pieces;
   }
 
-  // One round: every vertex between two pieces that are both still as they were is passed on its shortest side.
+  // One round: vertices between two pieces are passed on their shortest side, those of the smallest angles first and no
+  // piece twice.
   std::pair<std::vector<Sleeve>, bool> go_round_vertices(const std::vector<StraightPiece>& pieces) const {
+    std::vector<std::optional<detail::WayAround>> ways = chosen_ways(pieces);
     std::vector<Sleeve> sleeves;
     bool changed = false;
-    std::size_t i = 0;
-    for (; i + 1 < pieces.size(); ++i) {
-      if (const auto way = shorter_way(pieces[i], pieces[i + 1])) {
-        sleeves.push_back(joined(pieces[i].sleeve, *way, pieces[i + 1].sleeve));
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (ways[i]) {
+        sleeves.push_back(joined(pieces[i].sleeve, ways[i]->steps, pieces[i + 1].sleeve));
         changed = true;
         ++i;
       } else {
         sleeves.push_back(pieces[i].sleeve);
       }
     }
-    if (i < pieces.size()) sleeves.push_back(pieces[i].sleeve);
     if (closed_ && !changed && !pieces.empty()) {
       // The corner where the list closes; it is looked at last, so that no piece is used twice.
       if (const auto way = shorter_way(pieces.back(), pieces.front())) {
         const bool single = pieces.size() == 1;
         // It crosses nothing, as along the edges of a face that names a vertex twice: it pulls together.
-        if (single && pieces.front().sleeve.steps.empty() && way->empty()) return {{}, true};
-        Sleeve sleeve =
-            single ? rotated(pieces.front().sleeve, *way) : joined(pieces.back().sleeve, *way, pieces.front().sleeve);
+        if (single && pieces.front().sleeve.steps.empty() && way->steps.empty()) return {{}, true};
+        Sleeve sleeve = single ? rotated(pieces.front().sleeve, way->steps)
+                               : joined(pieces.back().sleeve, way->steps, pieces.front().sleeve);
         sleeves.erase(sleeves.begin());
         if (!single) sleeves.pop_back();
         sleeves.push_back(std::move(sleeve));
@@ -161,14 +161,35 @@ class Shortener {
     return {std::move(sleeves), changed};
   }
 
-  // The steps around the vertex between two pieces, where the angle there is less than pi.
-  std::optional<std::vector<Step>> shorter_way(const StraightPiece& a, const StraightPiece& b) const {
+  // Of each piece the way around the vertex at its end that is to be taken in this round.
+  std::vector<std::optional<detail::WayAround>> chosen_ways(const std::vector<StraightPiece>& pieces) const {
+    std::vector<std::optional<detail::WayAround>> ways(pieces.size());
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+      ways[i] = shorter_way(pieces[i], pieces[i + 1]);
+      if (ways[i]) order.push_back(i);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return ways[a]->angle < ways[b]->angle; });
+    std::vector<bool> used(pieces.size(), false);
+    for (const std::size_t i : order) {
+      if (used[i] || used[i + 1]) {
+        ways[i].reset();
+      } else {
+        used[i] = used[i + 1] = true;
+      }
+    }
+    return ways;
+  }
+
+  // Around the vertex between two pieces, where the angle there is less than pi.
+  std::optional<detail::WayAround> shorter_way(const StraightPiece& a, const StraightPiece& b) const {
     if (!same_vertex(a.sleeve.end, b.sleeve.begin)) return std::nullopt;
     if (a.length.high == 0 || b.length.high == 0) return std::nullopt;  // no direction, so no angle
     detail::WayAround way = detail::shortest_way_around(mesh_, a.sleeve.end.vertex, detail::direction_at_end(mesh_, a),
                                                         detail::direction_at_begin(mesh_, b));
     if (!(way.angle < kPi - detail::kStraightAngle)) return std::nullopt;
-    return std::move(way.steps);
+    return way;
   }
 
   // A closed curve that hangs on one vertex only and leaves it: it is cut open on an edge instead.

@@ -6,6 +6,7 @@
 #include <brushfire/io/detail/temporary_file.h>
 #include <brushfire/queries/detail/fingerprint.h>
 #include <brushfire/queries/detail/little_endian.h>
+#include <brushfire/queries/detail/matrix_store.h>
 #include <brushfire/queries/detail/row_ledger.h>
 #include <brushfire/queries/detail/rows.h>
 #include <brushfire/queries/matrix_job.h>
@@ -67,6 +68,7 @@ class SparseJob {
         [&] {
           std::error_code error;
           fs::remove_all(folder_, error);
+          require_room();
           fs::create_directory(folder_, error);
           if (error) throw Error(ErrorCode::FileNotWritable, folder_.string() + ": " + error.message());
         });
@@ -111,6 +113,17 @@ class SparseJob {
     MatrixOptions o = options;
     o.distance.max_distance = std::min(radius, o.distance.max_distance);
     return o;
+  }
+
+  // Blocks and the file that they become are there together for a while.
+  void require_room() {
+    const double rows = static_cast<double>(all_.count()), bytes = 2 * (sizeof(Index) + sizeof(T));
+    std::error_code error;
+    const fs::path folder = path_.parent_path();
+    const fs::space_info space = fs::space(folder.empty() ? "." : folder, error);
+    if (error || rows * static_cast<double>(all_.columns()) * bytes <= static_cast<double>(space.available)) return;
+    detail::require_disk(path_, all_.count(),
+                         static_cast<std::uint64_t>(detail::expected_entries(all_) / std::max(1.0, rows) * bytes));
   }
 
   // Rows that are computed together are in one file.

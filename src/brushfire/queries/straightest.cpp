@@ -5,6 +5,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/leaving_angles.h>
+#include <brushfire/queries/detail/lengths_only.h>
 #include <brushfire/queries/detail/tangent_fan.h>
 #include <brushfire/solvers/windows/paths/departures.h>
 
@@ -359,6 +360,7 @@ SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double 
 }
 
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const DistanceOptions& how) {
+  detail::check_lengths_only(how, "directions and lengths of a log map");
   if (const Domain& domain = solver.domain(); domain.has_walls()) {
     DistanceSolver on_open(domain.open());
     return brought_back(domain, log_map(on_open, only_side(domain, source), how));

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/solvers/detail/walls.h>
+#include <brushfire/solvers/steiner/weighting.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +13,8 @@
 namespace brushfire {
 namespace {
 
-// A face whose corners have two or three different sources, and how far each corner is from each of them.
-struct BorderFace {
-  Index face = kNoIndex;
-  std::array<Index, 3> label{};                     // of each corner
-  std::array<std::array<double, 3>, 3> distance{};  // [corner][j]: from the source of corner j
-};
-
-std::vector<BorderFace> border_faces(const Mesh& mesh, const VoronoiDiagram& diagram) {
-  std::vector<BorderFace> faces;
+std::vector<SharedFace> border_faces(const Mesh& mesh, const VoronoiDiagram& diagram) {
+  std::vector<SharedFace> faces;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto [a, b, c] = mesh.faces()[f];
     const std::array<Index, 3> label{diagram.source[a], diagram.source[b], diagram.source[c]};
@@ -33,7 +27,7 @@ std::vector<BorderFace> border_faces(const Mesh& mesh, const VoronoiDiagram& dia
 
 // Fills in the distances: every source runs once, as far as the border faces of its cell need it.
 void measure(const Mesh& mesh, const detail::WalledRun& sources, const DistanceOptions& options,
-             const VoronoiDiagram& diagram, std::vector<BorderFace>& faces) {
+             const VoronoiDiagram& diagram, std::vector<SharedFace>& faces) {
   std::vector<std::vector<std::pair<Index, std::size_t>>> of_source(diagram.area.size());  // (border face, corner)
   for (Index i = 0; i < faces.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) of_source[faces[i].label[k]].emplace_back(i, k);
@@ -46,10 +40,13 @@ void measure(const Mesh& mesh, const detail::WalledRun& sources, const DistanceO
     if (of_source[s].empty()) continue;
     // No corner is farther than the source's own corner of the face and the way along the edge.
     double reach = 0;
-    const auto bound = [&](const BorderFace& face, std::size_t from, std::size_t to) {
+    const auto bound = [&](const SharedFace& face, std::size_t from, std::size_t to) {
       const Index own = 3 * face.face + static_cast<Index>(from);
       const Index edge = (from + 1) % 3 == to ? own : Mesh::previous(own);
-      const double along = from == to ? 0 : mesh.lengths()[edge] * mesh.unit();
+      const double along = from == to ? 0
+                           : options.weighting
+                               ? options.weighting->along(face.face, static_cast<Index>(from), static_cast<Index>(to))
+                               : mesh.lengths()[edge] * mesh.unit();
       return diagram.distance[mesh.from(own)] + along;
     };
     for (const auto& [i, k] : of_source[s]) {
@@ -69,7 +66,7 @@ void measure(const Mesh& mesh, const detail::WalledRun& sources, const DistanceO
 }
 
 // The share of the way from corner a to corner b at which their two sources are equally far.
-double crossing(const BorderFace& face, std::size_t a, std::size_t b) {
+double crossing(const SharedFace& face, std::size_t a, std::size_t b) {
   // How much nearer each corner's own source is: not less than nothing, whatever the runs' errors say.
   const double at_a = std::max(0.0, face.distance[a][b] - face.distance[a][a]);
   const double at_b = std::max(0.0, face.distance[b][a] - face.distance[b][b]);
@@ -77,7 +74,7 @@ double crossing(const BorderFace& face, std::size_t a, std::size_t b) {
 }
 
 // Where all three sources are equally far; moved into the face where it lies outside.
-std::array<double, 3> triple_point(const BorderFace& face) {
+std::array<double, 3> triple_point(const SharedFace& face) {
   Vec3 first, second;  // the differences of the distances at the corners, which the weights must cancel
   const auto& d = face.distance;
   first = {d[0][0] - d[0][1], d[1][0] - d[1][1], d[2][0] - d[2][1]};
@@ -103,7 +100,7 @@ class FaceDivider {
  public:
   FaceDivider(const Mesh& mesh, std::vector<double>& area) : mesh_(mesh), area_(area) {}
 
-  void divide(const BorderFace& face) {
+  void divide(const SharedFace& face) {
     const double whole = 0.5 * mesh_.double_areas()[face.face] * mesh_.unit() * mesh_.unit();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
@@ -134,7 +131,7 @@ class FaceDivider {
     SurfacePoint point;
   };
 
-  End on_edge(const BorderFace& face, std::size_t a, std::size_t b) const {
+  End on_edge(const SharedFace& face, std::size_t a, std::size_t b) const {
     SurfacePoint p{face.face, {0, 0, 0}};
     const double t = crossing(face, a, b);
     p.weights[a] = 1 - t;
@@ -145,7 +142,7 @@ class FaceDivider {
     return {lowest, p};
   }
 
-  void add(const BorderFace& face, const End& a, const End& b, std::size_t one, std::size_t other) {
+  void add(const SharedFace& face, const End& a, const End& b, std::size_t one, std::size_t other) {
     const auto [low, high] = std::minmax(face.label[one], face.label[other]);
     pieces.push_back({{low, high}, {a.node, b.node}, {a.point, b.point}});
   }
@@ -233,9 +230,9 @@ class Joiner {
 
 namespace {
 
-std::vector<Face> dual_of(std::span<const BorderFace> faces) {
+std::vector<Face> dual_of(std::span<const SharedFace> faces) {
   std::vector<Face> dual;
-  for (const BorderFace& face : faces) {
+  for (const SharedFace& face : faces) {
     Face t = face.label;
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
@@ -253,19 +250,20 @@ VoronoiDiagram voronoi(const Domain& domain, std::span<const Source> sources, co
   run.targets.clear();
   // All of it on the open mesh, where what lies at walls is there once for every side.
   const Mesh& mesh = domain.open();
+  if (run.weighting && domain.has_walls()) run.weighting = std::make_shared<const Weighting>(run.weighting->on_open());
   const detail::WalledRun walled(domain, sources, run);
   DistanceField field = distance(mesh, walled.sources(), run);
   VoronoiDiagram diagram;
   diagram.distance = field.distance;
   for (const Index s : field.source) diagram.source.push_back(walled.origin(s));
   diagram.area.assign(sources.size(), 0);
-  std::vector<BorderFace> faces = border_faces(mesh, diagram);
+  std::vector<SharedFace> faces = border_faces(mesh, diagram);
   measure(mesh, walled, run, diagram, faces);
 
   diagram.dual = dual_of(faces);
   FaceDivider divider(mesh, diagram.area);
   Poll poll(256);
-  for (const BorderFace& face : faces) {
+  for (const SharedFace& face : faces) {
     poll();
     divider.divide(face);
   }
@@ -283,6 +281,8 @@ VoronoiDiagram voronoi(const Domain& domain, std::span<const Source> sources, co
     Joiner(mesh, std::span(pieces).subspan(begin, end - begin)).join(diagram.borders);
   }
   for (VoronoiBorder& border : diagram.borders) domain.to_mesh(border.line.points);
+  for (SharedFace& face : faces) face.face = domain.face(face.face);
+  diagram.shared_faces = std::move(faces);
   if (domain.has_walls()) {
     walled.bring_back(field);
     diagram.distance = std::move(field.distance);

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/types.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/shared_face.h>
 #include <brushfire/mesh/surface_path.h>
 #include <brushfire/solvers/distance.h>
 
@@ -27,6 +28,7 @@ struct VoronoiDiagram {
   // ascending, each once. Its edges are the pairs of `borders`. For sources that lie densely enough it triangulates the
   // surface (an intrinsic Delaunay triangulation of the sources).
   std::vector<Face> dual;
+  std::vector<SharedFace> shared_faces;  // ascending by face; those that borders run through
 };
 
 // Labels are those of distance(); borders and areas are finer than faces: in a face whose corners have different

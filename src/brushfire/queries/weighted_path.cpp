@@ -2,6 +2,7 @@
 #include <brushfire/queries/weighted_path.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/strip.h>
 #include <brushfire/queries/path.h>
@@ -78,14 +79,15 @@ WeightedPath path_of(const Run& run, const Strip& strip) {
 }
 
 // Of the sides of a target, the cheapest.
-WeightedPath path_to(const Run& run, std::size_t target) {
-  const std::vector<steiner::ValueAt>& values = run.target_values[target];
+WeightedPath path_to(const Run& run, std::span<const PointLocation> sides, std::span<const steiner::ValueAt> values) {
   const auto best =
       std::min_element(values.begin(), values.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   if (best == values.end() || best->value == kInfinity) return {};
-  Strip strip = weighted::trace(run, run.targets[target][static_cast<std::size_t>(best - values.begin())], *best);
+  Strip strip = weighted::trace(run, sides[static_cast<std::size_t>(best - values.begin())], *best);
   if (run.mesh->pace() == nullptr) make_locally_shortest(*run.mesh, strip);
-  return path_of(run, strip);
+  WeightedPath path = path_of(run, strip);
+  path.source = run.sources[steiner::source_behind(run, best->parent)].label;
+  return path;
 }
 
 // One weight everywhere.
@@ -134,9 +136,30 @@ std::vector<WeightedPath> weighted_paths(WeightedSolver& solver, std::span<const
       paths.emplace_back();
       continue;
     }
-    WeightedPath& path = paths.emplace_back(path_to(*field.run, t));
-    path.source = field.target_source[t];
+    WeightedPath& path = paths.emplace_back(path_to(*field.run, field.run->targets[t], field.run->target_values[t]));
     if (!field.target_lower.empty()) path.lower = field.target_lower[t] - sources[path.source].offset;
+  }
+  return paths;
+}
+
+std::vector<WeightedPath> weighted_paths(const WeightedField& field, std::span<const SurfacePoint> targets) {
+  if (!field.run) {
+    throw Error(ErrorCode::InvalidArgument, "the field keeps no run to read paths from: WeightedOptions::keep_paths");
+  }
+  const Run& run = *field.run;
+  const steiner::Places places(*run.mesh, *run.layout, steiner::Costs::Real, {run.mesh->pace(), run.towards});
+  std::vector<WeightedPath> paths;
+  for (const SurfacePoint& target : targets) {
+    std::vector<PointLocation> sides;
+    std::vector<steiner::ValueAt> values;
+    for (const SurfacePoint& p : run.mesh->on_open(target)) {
+      const PointLocation side = locate(run.mesh->mesh(), p);
+      const steiner::ValueAt value = places.value(run.front, run.sources, side);
+      if (value.value > run.front.horizon) continue;
+      sides.push_back(side);
+      values.push_back(value);
+    }
+    paths.push_back(path_to(run, sides, values));
   }
   return paths;
 }

@@ -48,6 +48,10 @@ struct WeightedPath : SurfacePath {
 std::vector<WeightedPath> weighted_paths(WeightedSolver& solver, std::span<const Source> sources,
                                          std::span<const SurfacePoint> targets, WeightedOptions options = {});
 
+// Off a field that kept its run (WeightedOptions::keep_paths, or Replanner::field()), without another search. Throws
+// Error(InvalidArgument) where there is none.
+std::vector<WeightedPath> weighted_paths(const WeightedField& field, std::span<const SurfacePoint> targets);
+
 // From one point to another.
 WeightedPath weighted_path(WeightedSolver& solver, const SurfacePoint& from, const SurfacePoint& to,
                            const WeightedOptions& options = {});

@@ -11,10 +11,12 @@
 #include <brushfire/solvers/detail/methods.h>
 #include <brushfire/solvers/detail/offsets.h>
 #include <brushfire/solvers/detail/walls.h>
+#include <brushfire/solvers/steiner/detail/as_distance.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -107,8 +109,11 @@ struct DistanceSolver::Workspace {
   std::vector<detail::LocatedSource> points;  // in place of these, where there are curves that the method does not take
   detail::Offsets offsets;                    // of these
   std::vector<PointLocation> targets;         // those that are somewhere
+  std::shared_ptr<const Weighting> weighting;  // of the last run that had one, and its solver
+  std::optional<WeightedSolver> weighted;
 
   detail::Engine& engine(Method method);
+  DistanceField run_weighted(std::span<const Source> from, const DistanceOptions& options);
   detail::Problem problem(const DistanceOptions& options, std::vector<Index>* list) const {
     return {points.empty() ? sources : points,
             targets,
@@ -132,6 +137,14 @@ detail::Engine& DistanceSolver::Workspace::engine(Method method) {
   std::unique_ptr<detail::Engine>& engine = engines[engine_of(method)];
   if (!engine) engine = detail::make_engine(mesh, method);
   return *engine;
+}
+
+DistanceField DistanceSolver::Workspace::run_weighted(std::span<const Source> from, const DistanceOptions& options) {
+  if (weighting != options.weighting) {
+    weighted.emplace(options.weighting->solver());
+    weighting = options.weighting;
+  }
+  return steiner::run_as_distance(*weighted, domain, from, options);
 }
 
 void DistanceSolver::Workspace::locate_all(std::span<const Source> from, const DistanceOptions& options) {
@@ -184,6 +197,7 @@ const Mesh& DistanceSolver::mesh() const noexcept { return workspace_->domain.me
 
 void DistanceSolver::set_up(const DistanceOptions& options) {
   const CancelScope listen(options.cancel);
+  if (options.weighting) return;
   workspace_->engine(options.method).set_up(options);
 }
 
@@ -195,6 +209,10 @@ DistanceField DistanceSolver::distance(std::span<const Source> sources, const Di
 
 void DistanceSolver::distance(std::span<const Source> sources, const DistanceOptions& options, DistanceField& field) {
   field.side_distance.clear();
+  if (options.weighting) {
+    field = workspace_->run_weighted(sources, options);
+    return;
+  }
   if (!workspace_->domain.has_walls()) return workspace_->run(sources, options, field);
   const detail::WalledRun walled(workspace_->domain, sources, options);
   workspace_->run(walled.sources(), walled.options(), field);
@@ -223,6 +241,10 @@ void DistanceSolver::Workspace::run(std::span<const Source> from, const Distance
 
 void DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options,
                                      SparseField& field) {
+  if (options.weighting) {
+    field = steiner::reached_of(workspace_->run_weighted(sources, options));
+    return;
+  }
   if (!workspace_->domain.has_walls()) return workspace_->run_sparse(sources, options, field);
   const detail::WalledRun walled(workspace_->domain, sources, options);
   workspace_->run_sparse(walled.sources(), walled.options(), field);

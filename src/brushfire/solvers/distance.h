@@ -23,6 +23,8 @@
 
 namespace brushfire {
 
+class Weighting;
+
 enum class Method : std::uint8_t {
   Windows,           // window propagation with merging: relative error <= DistanceOptions::tolerance, proven
   Exact,             // window propagation: the polyhedral distance, to rounding
@@ -77,9 +79,11 @@ struct DistanceOptions {
   double max_distance = kInfinity;         // vertices farther than this read +inf; >= 0, may be +inf
   // If there are targets, the solver may stop once all of them are final; those that are nowhere read +inf.
   std::vector<SurfacePoint> targets = {};
-  bool keep_paths = false;              // fill DistanceField::windows, for paths to vertices and targets (exact)
-  bool keep_windows = false;            // the same for every surface point: all windows are kept, some kB a vertex
-  unsigned threads = 1;                 // for this one field; 0: one per processor. The result does not depend on it
+  bool keep_paths = false;    // fill DistanceField::windows, for paths to vertices and targets (exact)
+  bool keep_windows = false;  // the same for every surface point: all windows are kept, some kB a vertex
+  unsigned threads = 1;       // for this one field; 0: one per processor. The result does not depend on it
+  // Costs in place of distances: see solvers/steiner/weighting.h.
+  std::shared_ptr<const Weighting> weighting = nullptr;
   Progress progress = {};               // called now and then; may be empty
   const CancelToken* cancel = nullptr;  // polled now and then; null: what the thread listens to (see cancel.h)
 };

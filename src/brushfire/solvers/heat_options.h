@@ -14,9 +14,9 @@ enum class HeatBoundary : std::uint8_t {
 
 struct HeatOptions {
   // For how long heat spreads: time_factor times the square of the mean edge length (of the triangulation that is
-  // computed on). In (0, 1e6]. Larger ones smooth more.
+  // computed on). In [1e-12, 1e6]. Larger ones smooth more.
   double time_factor = 1;
-  // The time itself, in units of the mesh squared, in place of the factor; 0: the factor counts.
+  // The time itself, in units of the mesh squared, in place of the factor, within the same range; 0: the factor counts.
   double time = 0;
   HeatBoundary boundary = HeatBoundary::Neumann;
   // On the intrinsic Delaunay triangulation of the surface, whose edges are flipped without moving a vertex; non-

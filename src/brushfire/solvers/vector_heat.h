@@ -28,7 +28,7 @@ enum class LogMapStrategy : std::uint8_t {
 // only. Of the options time_factor, time and delaunay count: borders are free. Not for use from several threads at
 // once.
 //
-// What heat does not reach, which are other components and what is some 700 sqrt(t) away, has no value: NaN.
+// Other components have no value: NaN. In its own component everything has one, however far away.
 //
 // Based on: Sharp, Soliman, Crane, "The vector heat method", 2019; Soliman, Sharp, "The affine heat method", 2025.
 class VectorHeatSolver {
@@ -54,7 +54,7 @@ class VectorHeatSolver {
   std::vector<double> extend(std::span<const Index> vertices, std::span<const double> values);
 
   // The vector of the nearest of the vertices, carried along the shortest path: [vertex_count]. Directions and lengths
-  // are blended apart. Throws as extend().
+  // are blended apart; 0 where directions cancel. Throws as extend().
   std::vector<std::complex<double>> transport(std::span<const Index> vertices,
                                               std::span<const std::complex<double>> vectors);
 

@@ -141,6 +141,42 @@ TEST_F(Heat, TheFieldScalesWithTheMeshToTheBit) {
   EXPECT_NE(field.distance, heat_from(mesh, {at_vertex(mesh, 1)}).distance);
 }
 
+// Pieces of very different size: the field of each is that of the piece alone.
+TEST_F(Heat, APieceIsRightHoweverSmallItIsBesideOthers) {
+  const Shape alone = shapes::torus(20, 10);
+  const Mesh one = alone.mesh();
+  const std::vector<double> expected = heat_from(one, {at_vertex(one, 1)}).distance;
+  const double longest = *std::max_element(expected.begin(), expected.end());
+  for (const double size : {1e-3, 1e-6, 1e-15, 1e-40, 1e3, 1e15}) {
+    Shape shape = shapes::icosphere(2);
+    const Index first = static_cast<Index>(shape.positions.size());
+    for (const Vec3& p : alone.positions) shape.positions.push_back(size * p);
+    shape.positions.push_back(size * alone.positions[0]);  // a face without area in it, which all are mollified for
+    for (const Face& f : alone.faces) shape.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+    shape.faces.push_back({first, first + 1, static_cast<Index>(shape.positions.size()) - 1});
+    const Mesh mesh = shape.mesh();
+    const DistanceField field = heat_from(mesh, {at_vertex(mesh, first + 1)});
+    for (Index v = 0; v < one.vertex_count(); ++v) {
+      EXPECT_NEAR(field.distance[first + v] / size, expected[v], 0.15 * longest) << size;
+    }
+  }
+}
+
+TEST_F(Heat, APieceWithoutSizeReadsItsLeastOffset) {
+  Shape shape = shapes::icosphere(2);
+  const Index first = static_cast<Index>(shape.positions.size());
+  for (const Face& f : shapes::plane(2, 2).faces) shape.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+  for (int i = 0; i < 9; ++i) shape.positions.push_back({5, 5, 5});
+  const Mesh mesh = shape.mesh();
+  const DistanceField field =
+      heat_from(mesh, {at_vertex(mesh, first + 3, 7), at_vertex(mesh, first + 1, -2), at_vertex(mesh, 0, 1)});
+  for (Index v = first; v < mesh.vertex_count(); ++v) {
+    EXPECT_EQ(field.distance[v], -2);
+    EXPECT_EQ(field.source[v], 1u);
+  }
+  EXPECT_GT(field.distance[20], 1);
+}
+
 TEST_F(Heat, AFactorIsItsMultipleOfTheSquaredMeanEdge) {
   const Mesh mesh = shapes::torus(30, 15).mesh();
   const double mean = mesh.report().mean_edge_length;
@@ -208,7 +244,8 @@ TEST_F(Heat, APoissonShiftFlattensFarValues) {
 TEST_F(Heat, OptionsOutOfRangeAreErrors) {
   const Mesh mesh = shapes::icosphere(1).mesh();
   for (const HeatOptions& bad :
-       {HeatOptions{.time_factor = 0}, HeatOptions{.time_factor = -1}, HeatOptions{.time_factor = std::nan("")},
+       {HeatOptions{.time_factor = 0}, HeatOptions{.time_factor = 1e-300}, HeatOptions{.time = 1e-20},
+        HeatOptions{.time = 1e20}, HeatOptions{.time_factor = -1}, HeatOptions{.time_factor = std::nan("")},
         HeatOptions{.time = -1}, HeatOptions{.time = kInfinity}, HeatOptions{.poisson_shift = 2}}) {
     EXPECT_THROW(heat_from(mesh, {at_vertex(mesh, 0)}, bad), Error);
   }

@@ -66,6 +66,18 @@ TEST_F(SignedHeat, GapsAreClosed) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) EXPECT_NEAR(d[v], 12 - mesh.positions()[v].y, 0.8) << v;
 }
 
+TEST_F(SignedHeat, ItGoesFartherThanNumbersReach) {
+  const Mesh mesh = shapes::plane(3, 1500, 3, 1500).mesh();
+  const SignedCurve line = row_of(mesh, 3, 100, 0, 3);
+  for (const bool preserve : {false, true}) {
+    const std::vector<double> d = SignedHeatSolver(mesh).distance({&line, 1}, {}, {.preserve_normals = preserve});
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const double expected = 100 - mesh.positions()[v].y;
+      ASSERT_NEAR(d[v], expected, 0.3 + 1e-3 * std::abs(expected)) << v;
+    }
+  }
+}
+
 TEST_F(SignedHeat, WithoutADirectionItGrowsOnBothSides) {
   const Mesh mesh = shapes::icosphere(3).mesh();
   const SurfacePoint pole = vertex_point(mesh, 4);

@@ -3,6 +3,7 @@
 #include <brushfire/mesh/delaunay.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/solvers/heat/operators.h>
+#include <brushfire/solvers/heat/scales.h>
 #include <brushfire/solvers/heat/triangulation.h>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace brushfire {
@@ -105,14 +107,14 @@ TEST(IntrinsicTriangulation, MollificationLeavesSoundMeshesAloneAndGivesEveryOth
   const Mesh sound = shapes::icosphere(3).mesh();
   Triangulation t = heat::triangulation_of(sound, Cover::AsItIs);
   const std::vector<double> before = t.length;
-  heat::mollify(t);
+  heat::mollify(t, detail::components_of(sound));
   EXPECT_EQ(t.length, before);
 
   const std::vector<Vec3> p{{0, 0, 0}, {1, 1, 0}, {1, 1, 0}, {4, 0, 0}, {2, 0, 0}};
   const Mesh bad(p, std::vector<Face>{{0, 1, 2}, {0, 4, 1}, {4, 3, 2}, {4, 2, 1}, {0, 3, 4}, {3, 3, 1}, {2, 2, 2}});
   Triangulation u = heat::triangulation_of(bad, Cover::AsItIs);
   EXPECT_EQ(u.sheets, 2);
-  heat::mollify(u);
+  heat::mollify(u, detail::components_of(bad));
   for (std::size_t f = 0; f < u.face_count(); ++f) EXPECT_GT(heat::lay_flat(u, f).double_area(), 0);
   heat::flip_to_delaunay(u);
   expect_glued(u);
@@ -190,8 +192,25 @@ TEST(IntrinsicTriangulation, TheLaplacianTakesConstantsToZeroAndLinearFunctionsI
   }
 }
 
-TEST(IntrinsicTriangulation, ASingleCoverOfWhatIsNotOrientedIsRefused) {
-  EXPECT_THROW(heat::triangulation_of(shapes::book(3, 2, 2).mesh(), Cover::Single), Error);
+TEST(IntrinsicTriangulation, ASingleCoverOfWhatIsNotOrientedIsRefusedWithThePlace) {
+  const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}};
+  const auto fault = [&](const std::vector<Face>& faces) -> std::string {
+    try {
+      heat::triangulation_of(Mesh(p, faces), Cover::Single);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const auto contains = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_EQ(fault({{0, 1, 2}, {2, 1, 3}}), "");
+  EXPECT_TRUE(
+      contains(fault({{0, 1, 2}, {2, 1, 3}, {1, 2, 4}}), "the edge between vertices 1 and 2 has more than two"));
+  EXPECT_TRUE(
+      contains(fault({{0, 1, 2}, {1, 2, 3}}), "faces 0 and 1 run the same way along the edge between vertices"));
+  EXPECT_TRUE(contains(fault({{0, 1, 2}, {3, 3, 4}}), "face 1 has a vertex twice"));
 }
 
 }  // namespace

@@ -144,6 +144,74 @@ TEST_F(VectorHeat, LogarithmicMapsOfTheSphereAreGreatCircles) {
   }
 }
 
+// A flat strip 2000 edges long: heat at its far end is e^-2000.
+TEST_F(VectorHeat, WhatIsCarriedGoesFartherThanNumbersReach) {
+  const Index length = 2000, row = length + 1, from = row + 3;
+  const Mesh mesh = shapes::plane(length, 2, length, 2).mesh();
+  VectorHeatSolver solver(mesh);
+  const VectorHeatSolver::Frames frames = solver.tangent_frames();
+  const std::vector<Index> ends{from, 2 * row - 4};
+  const std::vector<double> all = solver.extend(ends, std::vector<double>{-7, 30});
+  const Vec3 up{0, 3, 0}, down{0, -5, 0};
+  const std::vector<Complex> both{in_frame(frames, ends[0], up), in_frame(frames, ends[1], down)};
+  const std::vector<Complex> vectors = solver.transport(ends, both);
+  std::vector<std::vector<Complex>> logs;
+  for (const LogMapStrategy strategy :
+       {LogMapStrategy::VectorHeat, LogMapStrategy::AffineLocal, LogMapStrategy::AffineAdaptive}) {
+    logs.push_back(solver.log_map(from, strategy));
+  }
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 p = mesh.positions()[v], away = p - mesh.positions()[from];
+    const bool is_near_end = p.x < 4 || p.x > length - 4;  // where angles are stretched
+    ASSERT_TRUE(std::isfinite(all[v]) && std::isfinite(std::abs(vectors[v]))) << p.x;
+    if (std::abs(p.x - 1000) > 20) {
+      EXPECT_NEAR(all[v], p.x < 1000 ? -7 : 30, 1e-6) << p.x;
+      const double off = norm(in_space(frames, v, vectors[v]) - (p.x < 1000 ? up : down));
+      EXPECT_LT(off, is_near_end ? 10 : 0.01) << p.x;
+    }
+    for (std::size_t k = 0; k < logs.size(); ++k) {
+      const Vec3 is = in_space(frames, from, logs[k][v]);
+      ASSERT_LT(norm(is - away), 1.5 + (is_near_end ? 1 : 0.03) * std::abs(away.x)) << p.x << " " << k;
+    }
+  }
+}
+
+// Border edges opposite of obtuse angles have negative weights, which flips cannot mend: heat would be negative, and
+// the equation of vectors indefinite.
+TEST_F(VectorHeat, BordersOfObtuseTrianglesAreLikeOthers) {
+  Shape shape = shapes::noise_terrain(10, 10, 2);
+  for (Vec3& p : shape.positions) p = {p.x + 6 * p.y, p.y, p.z};
+  const Mesh mesh = shape.mesh();
+  VectorHeatSolver solver(mesh);
+  const Index from = 60;
+  const Complex z(3, 4);
+  for (const double value : solver.extend({&from, 1}, std::vector<double>{7})) EXPECT_EQ(value, 7);
+  for (const Complex& all : solver.transport({&from, 1}, {&z, 1})) EXPECT_NEAR(std::abs(all), 5, 1e-9);
+  for (const LogMapStrategy strategy :
+       {LogMapStrategy::VectorHeat, LogMapStrategy::AffineLocal, LogMapStrategy::AffineAdaptive}) {
+    for (const Complex& at : solver.log_map(from, strategy)) EXPECT_LT(std::abs(at), 200);
+  }
+}
+
+TEST_F(VectorHeat, VectorsThatCancelLeaveNone) {
+  const Mesh mesh = flat_torus(8);
+  VectorHeatSolver solver(mesh);
+  const Index from = 3;
+  const std::vector<Complex> all =
+      solver.transport(std::vector<Index>{from, from}, std::vector<Complex>{{0, 2}, {0, -2}});
+  for (const Complex z : all) EXPECT_EQ(z, Complex());
+}
+
+TEST_F(VectorHeat, ValuesOfAnySizeAreExtended) {
+  const Mesh mesh = shapes::icosphere(2).mesh();
+  VectorHeatSolver solver(mesh);
+  const std::vector<Index> vertices{3, 30};
+  for (const auto& [low, high] : {std::pair{-1.7e308, 1.7e308}, std::pair{0.0, 5e-324}, std::pair{3.0, 3.0}}) {
+    const std::vector<double> all = solver.extend(vertices, std::vector<double>{low, high});
+    for (const double value : all) EXPECT_TRUE(value >= low && value <= high) << value;
+  }
+}
+
 TEST_F(VectorHeat, TheConnectionLaplacianIsHermitianAndPositive) {
   const Mesh mesh = shapes::torus(20, 9).mesh();
   const VectorHeatSolver::SparseComplex l = VectorHeatSolver(mesh).connection_laplacian();

@@ -297,5 +297,19 @@ TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
   EXPECT_EQ(face, kNoIndex);
 }
 
+// Threads hand lists on to each other: a pool that had room enough in what others gave it has no memory of its own.
+// When a run was stopped, its blocks went to two lists at a time in the next one, and windows named sources that nobody
+// knew.
+TEST(ExactLists, APoolForgetsBlocksOfAnotherPoolsToo) {
+  BlockPool one, other;
+  const WindowBlock block = one.allocate(3);
+  other.release(block);
+  one.clear();
+  other.clear();
+  const WindowBlock first = one.allocate(3), second = other.allocate(3);
+  EXPECT_EQ(first.data, block.data) << "its memory stays";
+  EXPECT_NE(second.data, first.data);
+}
+
 }  // namespace
 }  // namespace brushfire::windows

@@ -7,10 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
 #include <vector>
 
+#include "oracle/zoo.h"
 #include "support/engine_run.h"
 
 namespace brushfire {
@@ -33,6 +35,29 @@ TEST(Rounding, KnowsTheEdgesOfFacesOneOfWhoseEdgesHasNoLength) {
   windows::Unevenness folded;
   folded.add(2, 2, 0);
   EXPECT_GE(windows::rounding_of(folded).absolute, 2 * windows::kEpsilon);
+}
+
+// A source is turned from frame to frame; where all faces are alike it comes nearer, or goes away, by the same each
+// time.
+TEST(Rounding, CountsTheFacesThatAPathCrosses) {
+  for (const double step : {0.003, 0.01, 0.1, 1.0, 2.7, 30.0}) {
+    const Mesh mesh = oracle::strip(100'000, step);
+    const Source source{vertex_point(mesh, 0)};
+    DistanceOptions options;
+    options.method = Method::Exact;
+    const DistanceField field = distance(mesh, std::span(&source, 1), options);
+    const auto positions = mesh.positions();
+    double most = 0, each_face = 0;
+    for (Index v = 1; v < mesh.vertex_count(); ++v) {
+      const long double x = static_cast<long double>(positions[v].x) - positions[0].x, y = positions[v].y;
+      const auto error = static_cast<double>(std::abs(field.distance[v] - std::sqrt(x * x + y * y)));
+      most = std::max(most, error / field.error_bound[v]);
+      if (v > 1000) each_face = std::max(each_face, error / (windows::kEpsilon * field.distance[v] * v));
+    }
+    std::printf("strip of 1e5 faces, step %g: %.2f epsilons a face, %.3f of the bound\n", step, each_face, most);
+    EXPECT_LT(most, 0.5) << step;
+    EXPECT_LT(field.max_error_bound, 1e-8) << step;
+  }
 }
 
 TEST(WideNumbers, GiveWhatDoublesGiveOnOrdinaryMeshes) {

@@ -21,8 +21,9 @@ struct Swatch {
 
 struct Bar {
   Rectangle at;
-  Colormap colormap;
-  std::vector<double> ticks;  // rows that have a mark
+  std::vector<Color> rows;               // [at.height], from the top
+  int point_above = 0, point_below = 0;  // pixels, for values beyond the range; 0: there are none
+  std::vector<double> ticks;             // rows that have a mark
 };
 
 // The picture's frame around its panels.

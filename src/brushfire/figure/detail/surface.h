@@ -16,6 +16,9 @@ struct ScalarRange {
 // Faces that have no value, as they cannot be reached, and places that have no label.
 inline constexpr Color kNoValueColor{0.72F, 0.72F, 0.72F};
 
+// The colour of a value: of the map, or of its band between two of the ascending `levels`.
+Color value_color(double value, ScalarRange range, Colormap colormap, Fill fill, std::span<const double> levels);
+
 // Everything about one panel's surface that does not depend on the sample. Keeps references to its arguments.
 class Surface {
  public:
@@ -45,6 +48,7 @@ class SurfaceShader {
  private:
   void enter(Index face);
   Color base_color(double value, std::array<float, 3> w) const;
+  Index nearest_label(std::array<float, 3> w) const;
   Color with_isoline(Color c, double value, double gradient) const;
   Color with_wireframe(Color c, std::array<float, 3> screen_weights) const;
   float light(std::array<float, 3> w) const;
@@ -56,6 +60,7 @@ class SurfaceShader {
   std::optional<ScreenTriangle> triangle_;
   std::array<float, 3> dx_{}, dy_{};
   std::array<double, 3> value_{};
+  const SharedFace* shared_ = nullptr;  // what several labels share of the current face
   std::array<float, 3> open_{1, 1, 1};
   bool has_value_ = false;
 };

@@ -35,6 +35,9 @@ bool is_medit_binary(std::string_view bytes);
 bool is_stl(std::string_view bytes);
 bool is_binary_stl(std::string_view bytes);
 
+// Which values of a mesh's file.
+enum class ValuesOn : std::uint8_t { Vertices, Faces };
+
 // Scalars on vertices; `name` chooses the array, "" takes the first.
 LoadedField read_csv_field(const Input& input, const std::string& name);
 LoadedField read_freesurfer_annot(const Input& input, const std::string& name);
@@ -48,6 +51,11 @@ LoadedField read_ply_field(const Input& input, const std::string& name);
 LoadedField read_text_field(const Input& input, const std::string& name);
 LoadedField read_vtk_field(const Input& input, const std::string& name);
 LoadedField read_vtp_field(const Input& input, const std::string& name);
+
+// Scalars on faces.
+LoadedField read_ply_face_field(const Input& input, const std::string& name);
+LoadedField read_vtk_face_field(const Input& input, const std::string& name);
+LoadedField read_vtp_face_field(const Input& input, const std::string& name);
 
 // Curves.
 LoadedLines read_csv_lines(const Input& input);

@@ -17,6 +17,7 @@ class Fingerprint {
   void add(std::string_view text) { add(text.data(), text.size()); }
   void add(const Place& place);
   void add(const Places& places);
+  void add(const Weighting& weighting);
   std::uint64_t value() const { return hash_; }
 
  private:

@@ -17,10 +17,11 @@ namespace brushfire::detail {
 struct StoredMatrix {
   std::uint64_t rows = 0, columns = 0;  // of what is stored
   ValueType type = ValueType::Float32;
+  bool whole_numbers = false;                               // int32 in place of values; in .npy files only
   std::vector<std::int64_t> row_vertices, column_vertices;  // where all are vertices; Zarr keeps them as coordinates
   std::string attributes;                                   // members of a JSON object, for Zarr
 
-  std::uint64_t value_bytes() const { return type == ValueType::Float32 ? 4 : 8; }
+  std::uint64_t value_bytes() const { return whole_numbers || type == ValueType::Float32 ? 4 : 8; }
   std::uint64_t row_bytes() const { return columns * value_bytes(); }
 };
 
@@ -54,7 +55,7 @@ std::uint64_t layout_of(const std::filesystem::path& path, const StoredMatrix& m
 // Whether a complete store with these attributes is there.
 bool is_complete_store(const std::filesystem::path& path, const std::string& attributes);
 
-// Throws where fewer bytes are free at the path than the matrix takes; says how many rows would fit.
-void require_disk(const std::filesystem::path& path, const StoredMatrix& matrix);
+// Throws where fewer bytes are free at the path than so many rows take; says how many would fit.
+void require_disk(const std::filesystem::path& path, std::uint64_t rows, std::uint64_t row_bytes);
 
 }  // namespace brushfire::detail

@@ -56,6 +56,9 @@ class Rows {
   void run_dense(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take,
                  const Claim& claim = nullptr);
 
+  // What is farther reads +inf from the next run on: the options' max_distance.
+  void set_radius(double radius) { options_.max_distance = radius; }
+
   // The numbers of all rows so that those that are computed together are together, unit after unit; `unit_start`: the
   // position of each unit's first row, and at the end count().
   struct ByUnits {
@@ -112,6 +115,9 @@ class Rows {
 // Throws Error(TooLarge) where the rows within the radius of `all` are expected to take more than `limit` bytes (0:
 // what is available), from an evenly spread sample of them.
 void require_sparse_memory(Rows& all, ValueType type, std::uint64_t limit);
+
+// How many entries all rows together are expected to have, from such a sample.
+double expected_entries(Rows& all);
 
 // 0, 1, ..., count - 1.
 std::vector<std::size_t> numbers_below(std::size_t count);

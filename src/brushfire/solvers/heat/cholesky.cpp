@@ -1,6 +1,7 @@
 // The only file that knows Eigen.
 #include <brushfire/solvers/heat/cholesky.h>
 
+#include <brushfire/config.h>
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 
@@ -177,6 +178,9 @@ void solve_dense(std::span<const double> matrix, std::span<double> b) {
 
 bool can_factor() { return false; }
 void require_factorization() {
+  if (!BRUSHFIRE_HEAT) {
+    throw Error(ErrorCode::InvalidArgument, "the heat method was left out of this build (BRUSHFIRE_HEAT=OFF)");
+  }
   throw Error(ErrorCode::InvalidArgument,
               "the heat method needs Eigen, which this build lacks: install it (Debian and Ubuntu: libeigen3-dev) and "
               "build again");
@@ -190,13 +194,6 @@ Factors<Scalar>::Factors(const Pattern&, std::span<const std::vector<Scalar>>) {
 void solve_dense(std::span<const double>, std::span<double>) { require_factorization(); }
 
 #endif
-
-namespace {
-
-double conjugate(double a) { return a; }
-std::complex<double> conjugate(std::complex<double> a) { return std::conj(a); }
-
-}  // namespace
 
 template <class Scalar>
 template <std::size_t kWidth>

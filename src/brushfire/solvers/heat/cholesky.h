@@ -17,6 +17,9 @@ bool can_factor();
 // Throws what the factorizations throw without it.
 void require_factorization();
 
+inline double conjugate(double a) { return a; }
+inline std::complex<double> conjugate(std::complex<double> a) { return std::conj(a); }
+
 // The pattern of symmetric matrices: for every column its diagonal entry and the entries below, rows ascending.
 struct Pattern {
   std::vector<int> start;  // [columns + 1]

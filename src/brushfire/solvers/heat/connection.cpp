@@ -1,6 +1,8 @@
 #include <brushfire/solvers/heat/connection.h>
 
 #include <cmath>
+#include <span>
+#include <utility>
 
 namespace brushfire::heat {
 namespace {
@@ -57,56 +59,99 @@ Complex direction_back(const Triangulation& t, const TangentSpaces& spaces, Inde
   return std::polar(1.0, spaces.stretch[v] * (t.bearing[before] + angle_at_tail(t, before)));
 }
 
-std::vector<Complex> connection_laplacian(const Triangulation& t, const TangentSpaces& spaces, const Operators& o) {
-  std::vector<Complex> matrix(o.pattern.row.size());
+namespace {
+
+// Entry (i, j) below the diagonal: minus the weight of the edge, times turn(h) or its inverse.
+template <class Scalar, class Turn>
+std::vector<Scalar> assembled(const Triangulation& t, const Operators& o, std::span<const double> weight,
+                              const Turn& turn) {
+  std::vector<Scalar> matrix(o.pattern.row.size());
   for (Index h = 0; h < t.tail.size(); ++h) {
     const Index a = t.tail[h], b = t.tail[Mesh::next(h)];
-    const double weight = half_cotangent(t, h) / t.sheets;
-    // From the frame of b to that of a: the edge runs against its own way back.
-    const Complex turn = -direction(t, spaces, h) * std::conj(direction_back(t, spaces, h));
-    matrix[o.pattern.start[a]] += weight;
-    matrix[o.pattern.start[b]] += weight;
-    matrix[o.edge_entry[h]] -= a == b ? Complex(2 * weight * turn.real()) : weight * (a > b ? turn : std::conj(turn));
+    const double w = weight[h] / t.sheets;
+    const Scalar along = turn(h);
+    matrix[o.pattern.start[a]] += w;
+    matrix[o.pattern.start[b]] += w;
+    matrix[o.edge_entry[h]] -= a == b ? w * (along + conjugate(along)) : w * (a > b ? along : conjugate(along));
   }
   return matrix;
 }
 
-VectorSystem::VectorSystem(const Mesh& mesh, bool delaunay, double time_factor, double time) {
-  require_factorization();
-  triangulation_ = triangulation_of(mesh, Cover::Single);
-  mollify(triangulation_);
-  spaces_ = lay_out_tangents(triangulation_);
-  mesh_bearings_ = triangulation_.bearing;
-  if (delaunay) flip_to_delaunay(triangulation_);
-  const double mean = mean_edge_length(triangulation_);
-  time_ = time > 0 ? time / mesh.unit() / mesh.unit() : time_factor * mean * mean;
-  if (!(time_ > 0 && time_ < kInfinity)) time_ = 1;
-  operators_ = operators_of(triangulation_);
-  connection_ = heat::connection_laplacian(triangulation_, spaces_, operators_);
+std::vector<double> half_cotangents(const Triangulation& t) {
+  std::vector<double> weight;
+  for (Index h = 0; h < t.tail.size(); ++h) weight.push_back(half_cotangent(t, h));
+  return weight;
 }
 
-namespace {
-
-// M + t L, and 1 where there is nothing.
-template <class Scalar>
-Factors<Scalar> heat_factors(const Operators& o, std::vector<Scalar> laplacian, double time) {
-  for (Scalar& entry : laplacian) entry *= time;
-  for (std::size_t v = 0; v < o.mass.size(); ++v) {
-    laplacian[o.pattern.start[v]] += o.mass[v] > 0 ? o.mass[v] : 1;
+// 0 for edges whose both halves together are less.
+std::vector<double> without_negative(const Triangulation& t, std::vector<double> weight) {
+  for (Index h = 0; h < t.tail.size(); ++h) {
+    const Index twin = t.twin[h];
+    if (twin != kNoIndex && twin < h) continue;
+    if (weight[h] + (twin == kNoIndex ? 0 : weight[twin]) >= 0) continue;
+    weight[h] = 0;
+    if (twin != kNoIndex) weight[twin] = 0;
   }
-  return Factors<Scalar>(o.pattern, {&laplacian, 1});
+  return weight;
+}
+
+// From the frame at the head of h to that at its tail: the edge runs against its own way back.
+Complex turn_along(const Triangulation& t, const TangentSpaces& spaces, Index h) {
+  return -direction(t, spaces, h) * std::conj(direction_back(t, spaces, h));
 }
 
 }  // namespace
 
-const Factors<double>& VectorSystem::scalar_heat() {
-  if (scalar_.empty()) scalar_.push_back(heat_factors(operators_, operators_.laplacian, time_));
-  return scalar_.front();
+VectorSystem::VectorSystem(const Mesh& mesh, bool delaunay, double time_factor, double time) {
+  require_factorization();
+  triangulation_ = triangulation_of(mesh, Cover::Single);
+  components_ = detail::components_of(mesh);
+  is_point_ = points_among(triangulation_, components_);
+  mollify(triangulation_, components_);
+  spaces_ = lay_out_tangents(triangulation_);
+  mesh_bearings_ = triangulation_.bearing;
+  if (delaunay) flip_to_delaunay(triangulation_);
+  times_ = times_of(triangulation_, components_, time_factor, time / mesh.unit() / mesh.unit());
+  operators_ = operators_of(triangulation_);
+  weights_ = without_negative(triangulation_, half_cotangents(triangulation_));
 }
 
-const Factors<Complex>& VectorSystem::vector_heat() {
-  if (vector_.empty()) vector_.push_back(heat_factors(operators_, connection_, time_));
-  return vector_.front();
+namespace {
+
+// From L to M + t L; 1 where there is nothing.
+template <class Scalar>
+std::vector<Scalar> spreading(const Operators& o, std::vector<Scalar> laplacian, const VectorSystem& system) {
+  for (int v = 0; v < o.pattern.columns(); ++v) {
+    const double time = system.time_at(static_cast<Index>(v));
+    for (int e = o.pattern.start[v]; e < o.pattern.start[v + 1]; ++e) laplacian[e] *= time;
+    laplacian[o.pattern.start[v]] += o.mass[v] > 0 ? o.mass[v] : 1;
+  }
+  return laplacian;
+}
+
+}  // namespace
+
+std::vector<Complex> VectorSystem::connection_laplacian() const {
+  return assembled<Complex>(triangulation_, operators_, half_cotangents(triangulation_),
+                            [&](Index h) { return turn_along(triangulation_, spaces_, h); });
+}
+
+const HeatEquation<double>& VectorSystem::scalar_heat() {
+  if (!scalar_) {
+    const auto same = [](Index) { return 1.0; };
+    std::vector<double> laplacian = assembled<double>(triangulation_, operators_, weights_, same);
+    scalar_.emplace(operators_.pattern, spreading(operators_, std::move(laplacian), *this));
+  }
+  return *scalar_;
+}
+
+const HeatEquation<Complex>& VectorSystem::vector_heat() {
+  if (!vector_) {
+    const auto turn = [&](Index h) { return turn_along(triangulation_, spaces_, h); };
+    std::vector<Complex> laplacian = assembled<Complex>(triangulation_, operators_, weights_, turn);
+    vector_.emplace(operators_.pattern, spreading(operators_, std::move(laplacian), *this));
+  }
+  return *vector_;
 }
 
 }  // namespace brushfire::heat

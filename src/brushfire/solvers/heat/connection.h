@@ -3,10 +3,14 @@
 // Based on: Knoppel, Crane, Pinkall, Schroder, "Globally optimal direction fields", 2013.
 #pragma once
 
+#include <brushfire/mesh/detail/components.h>
 #include <brushfire/solvers/heat/operators.h>
+#include <brushfire/solvers/heat/scales.h>
 #include <brushfire/solvers/heat/triangulation.h>
 
 #include <complex>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace brushfire::heat {
@@ -31,9 +35,15 @@ Complex direction_back(const Triangulation& t, const TangentSpaces& spaces, Inde
 // The direction of halfedge k of a triangle laid flat.
 Complex direction_in(const FlatTriangle& flat, int k);
 
-// The entries of the connection Laplacian, below the diagonal: entry (i, j) takes a vector from the frame of j to that
-// of i along the edge, times minus its weight.
-std::vector<Complex> connection_laplacian(const Triangulation& t, const TangentSpaces& spaces, const Operators& o);
+// A matrix M + t L, below the diagonal, and its factors.
+template <class Scalar>
+struct HeatEquation {
+  HeatEquation(const Pattern& pattern, std::vector<Scalar> entries)
+      : matrix(std::move(entries)), factors(pattern, {&matrix, 1}) {}
+
+  std::vector<Scalar> matrix;
+  Factors<Scalar> factors;
+};
 
 // A surface with its tangent spaces, and both heat equations on it, each factored when it is first asked for.
 class VectorSystem {
@@ -44,24 +54,38 @@ class VectorSystem {
   const Triangulation& triangulation() const { return triangulation_; }
   const TangentSpaces& spaces() const { return spaces_; }
   const Operators& operators() const { return operators_; }
-  double time() const { return time_; }  // in mesh.unit() squared
+  const detail::Components& components() const { return components_; }
+  double time() const { return times_.all; }  // in mesh.unit() squared
+  // 1 at a vertex in no face.
+  double time_at(Index v) const {
+    return components_.of_vertex[v] == kNoIndex ? 1 : times_.of[components_.of_vertex[v]];
+  }
+  // Whether all of a component lies at one place.
+  bool is_point(Index component) const { return is_point_[component]; }
   // The bearings of the mesh's own halfedges, which are those before any flip.
   const std::vector<double>& mesh_bearings() const { return mesh_bearings_; }
-  // The Laplacian of vectors is kept: it is asked for by itself, too.
-  const std::vector<Complex>& laplacian_of_vectors() const { return connection_; }
+  // [halfedges] of each edge its own triangle's share, as the heat equations have it: half a cotangent; but 0 where an
+  // edge, on a border opposite of an obtuse angle, would have less. With no negative weight heat is positive, and the
+  // equation of vectors, whose frames need not agree around a triangle, is positive definite.
+  const std::vector<double>& weights() const { return weights_; }
+  // The entries of the connection Laplacian below the diagonal, of cotangents as they are: entry (i, j) takes a vector
+  // from the frame of j to that of i along the edge, times minus its weight.
+  std::vector<Complex> connection_laplacian() const;
 
-  const Factors<double>& scalar_heat();
-  const Factors<Complex>& vector_heat();
+  const HeatEquation<double>& scalar_heat();
+  const HeatEquation<Complex>& vector_heat();
 
  private:
   Triangulation triangulation_;
   TangentSpaces spaces_;
   std::vector<double> mesh_bearings_;
   Operators operators_;
-  std::vector<Complex> connection_;
-  double time_ = 0;
-  std::vector<Factors<double>> scalar_;  // none or one
-  std::vector<Factors<Complex>> vector_;
+  detail::Components components_;
+  std::vector<double> weights_;
+  Times times_;
+  std::vector<bool> is_point_;  // [components]
+  std::optional<HeatEquation<double>> scalar_;
+  std::optional<HeatEquation<Complex>> vector_;
 };
 
 }  // namespace brushfire::heat

@@ -8,6 +8,7 @@
 #include <queue>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace brushfire::heat {
 namespace {
@@ -41,7 +42,8 @@ std::vector<bool> starting(const System& system, std::span<const Origin> origins
     const Origin& best = *first[system.component(o.corners[0].vertex)];
     const double when_reached = best.offset + reading.at(o) - reading.at(best);
     // The function is that much off at sources themselves, whose tips it rounds.
-    starts.push_back(o.offset == best.offset || o.offset < when_reached + system.mean_edge_length());
+    starts.push_back(o.offset == best.offset ||
+                     o.offset < when_reached + system.mean_edge_in(system.component(o.corners[0].vertex)));
   }
   return starts;
 }
@@ -110,7 +112,8 @@ Sparks sparks_of(const System& system, std::span<const Origin> origins) {
   }
   Sparks sparks;
   for (const Origin& o : origins) {
-    const double delay = (o.offset - least[system.component(o.corners[0].vertex)]) / std::sqrt(system.time());
+    const Index component = system.component(o.corners[0].vertex);
+    const double delay = (o.offset - least[component]) / std::sqrt(system.time_in(component));
     for (int k = 0; k < o.count; ++k) sparks.push_back({o.corners[k].vertex, o.corners[k].weight, delay});
   }
   return sparks;
@@ -123,13 +126,21 @@ void read_off(const Mesh& mesh, const System& system, std::span<const Origin> or
   constexpr Index kSeveral = kNoIndex - 1;
   std::vector<Index> only(system.component_count(), kNoIndex);  // the origin of a component that has one
   bool any_several = false;
+  const auto rank = [&](Index i) { return std::pair(origins[i].offset, origins[i].label); };
   for (Index i = 0; i < origins.size(); ++i) {
-    Index& o = only[system.component(origins[i].corners[0].vertex)];
-    any_several = any_several || o != kNoIndex;
-    o = o == kNoIndex ? i : kSeveral;
+    const Index component = system.component(origins[i].corners[0].vertex);
+    Index& o = only[component];
+    if (o == kNoIndex) {
+      o = i;
+    } else if (system.is_point(component)) {
+      if (rank(i) < rank(o)) o = i;
+    } else {
+      any_several = true;
+      o = kSeveral;
+    }
   }
-  std::vector<double> moves;
-  for (const Origin& o : origins) moves.push_back(o.offset - reading.at(o));
+  std::vector<double> own;
+  for (const Origin& o : origins) own.push_back(reading.at(o));
   std::vector<Index> owner;
   if (any_several) owner = flooded(mesh, origins, starting(system, origins, reading), reading);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -138,7 +149,9 @@ void read_off(const Mesh& mesh, const System& system, std::span<const Origin> or
     if (by == kNoIndex) continue;
     if (by == kSeveral) by = owner[v];
     if (by == kNoIndex) continue;
-    distance[v] = std::max(reading.at(v) + moves[by], origins[by].offset);
+    const double offset = origins[by].offset;
+    // The offset last: one that is far below the readings would be lost in them, and the source not read it.
+    distance[v] = system.is_point(system.component(v)) ? offset : offset + std::max(0.0, reading.at(v) - own[by]);
     source[v] = origins[by].label;
   }
 }

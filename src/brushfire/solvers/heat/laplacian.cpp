@@ -1,6 +1,7 @@
 #include <brushfire/solvers/laplacian.h>
 
 #include <brushfire/solvers/heat/operators.h>
+#include <brushfire/solvers/heat/scales.h>
 #include <brushfire/solvers/heat/triangulation.h>
 
 #include <utility>
@@ -9,7 +10,7 @@ namespace brushfire {
 
 Laplacian laplacian_of(const Mesh& mesh, bool delaunay) {
   heat::Triangulation t = heat::triangulation_of(mesh, heat::Cover::AsItIs);
-  heat::mollify(t);
+  heat::mollify(t, detail::components_of(mesh));
   if (delaunay) heat::flip_to_delaunay(t);
   heat::Operators o = heat::operators_of(t);
   Laplacian l;

@@ -1,5 +1,5 @@
-// In place of engine.cpp where there is no Eigen: what cannot run is not linked either, and the WebAssembly stays
-// small.
+// In place of engine.cpp where there is no Eigen, or no BRUSHFIRE_HEAT: what cannot run is not linked either, and the
+// WebAssembly stays small.
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/heat/cholesky.h>
 #include <brushfire/solvers/heat/engine.h>

@@ -1,10 +1,11 @@
 #include <brushfire/solvers/signed_heat.h>
 
 #include <brushfire/core/error.h>
-#include <brushfire/mesh/detail/components.h>
 #include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/solvers/heat/carrier.h>
 #include <brushfire/solvers/heat/connection.h>
 #include <brushfire/solvers/heat/level_sets.h>
+#include <brushfire/solvers/heat/scales.h>
 #include <brushfire/solvers/heat/system.h>
 
 #include <algorithm>
@@ -33,6 +34,12 @@ struct Segment {
   std::array<double, 3> weights;  // of its middle
 };
 
+// Vectors at vertices, in the units of the heat that they came with.
+struct Directions {
+  heat::Heat heat;
+  std::vector<Complex> vector;
+};
+
 // The lowest face that both points are in.
 Index shared_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b, std::size_t where) {
   const Index f = common_face(mesh, a, b);
@@ -49,16 +56,14 @@ struct SignedHeatSolver::State {
   State(const Mesh& given, const HeatOptions& how)
       : mesh(given),
         system(given, how.delaunay, how.time_factor, how.time),
-        components(detail::components_of(given)),
-        levels(system.operators(), components) {
+        levels(system.operators(), system.components()) {
     flat = heat::triangulation_of(mesh, heat::Cover::Single);
-    heat::mollify(flat);
+    heat::mollify(flat, system.components());
     flat.bearing = system.mesh_bearings();
   }
 
   Mesh mesh;
   heat::VectorSystem system;
-  detail::Components components;
   heat::LevelSets levels;
   heat::Triangulation flat;  // the mesh itself, where curves are
 
@@ -66,9 +71,10 @@ struct SignedHeatSolver::State {
   std::vector<Segment> segments(const std::vector<PointLocation>& nodes) const;
   void add(const Segment& s, std::vector<Complex>& x) const;
   void add_outward(const PointLocation& p, double weight, std::vector<Complex>& x) const;
-  std::vector<double> divergence(const std::vector<Complex>& x) const;
-  void turn_along(std::span<const Segment> all, const std::vector<Complex>& x, std::vector<double>& b) const;
-  Complex mean_in(const heat::Triangulation& t, std::size_t face, const std::vector<Complex>& x) const;
+  Directions carried(std::vector<Complex> x);
+  std::vector<double> divergence(const Directions& x) const;
+  void turn_along(std::span<const Segment> all, const Directions& x, std::vector<double>& b) const;
+  Complex mean_in(const heat::Triangulation& t, std::size_t face, const Directions& x) const;
 };
 
 SignedHeatSolver::SignedHeatSolver(const Mesh& mesh, const HeatOptions& options)
@@ -127,18 +133,33 @@ void SignedHeatSolver::State::add_outward(const PointLocation& p, double weight,
 }
 
 // The vectors of a triangle's corners in its own frame, together.
-Complex SignedHeatSolver::State::mean_in(const heat::Triangulation& t, std::size_t face,
-                                         const std::vector<Complex>& x) const {
+Complex SignedHeatSolver::State::mean_in(const heat::Triangulation& t, std::size_t face, const Directions& x) const {
   const heat::FlatTriangle flat_face = heat::lay_flat(t, face);
+  const Index* const corners = &t.tail[3 * face];
+  const std::uint32_t base = std::min({x.heat.level[corners[0]], x.heat.level[corners[1]], x.heat.level[corners[2]]});
+  std::array<Complex, 3> at;
   double largest = 0;
-  for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(x[t.tail[3 * face + k]]));
+  for (int k = 0; k < 3; ++k) {
+    at[k] = x.vector[corners[k]] * x.heat.unit(corners[k], base);
+    largest = std::max(largest, std::abs(at[k]));
+  }
   Complex sum;
   for (int k = 0; k < 3 && largest > 0; ++k) {
     const Index h = static_cast<Index>(3 * face + k);
-    sum += x[t.tail[h]] / largest * heat::direction_in(flat_face, k) / heat::direction(t, system.spaces(), h);
+    sum += at[k] / largest * heat::direction_in(flat_face, k) / heat::direction(t, system.spaces(), h);
   }
   const double length = std::abs(sum);
   return length > 0 ? sum / length : Complex();
+}
+
+Directions SignedHeatSolver::State::carried(std::vector<Complex> x) {
+  std::vector<Index> from;
+  for (Index v = 0; v < x.size(); ++v) {
+    if (x[v] != Complex()) from.push_back(v);
+  }
+  const heat::Carrier carrier(system, from);
+  carrier.carry(x);
+  return {carrier.heat(), std::move(x)};
 }
 
 namespace {
@@ -154,7 +175,7 @@ void add_flux(const heat::Triangulation& t, std::size_t face, Complex x, std::ve
 
 }  // namespace
 
-std::vector<double> SignedHeatSolver::State::divergence(const std::vector<Complex>& x) const {
+std::vector<double> SignedHeatSolver::State::divergence(const Directions& x) const {
   const heat::Triangulation& t = system.triangulation();
   std::vector<double> b(mesh.vertex_count(), 0.0);
   for (std::size_t f = 0; f < t.face_count(); ++f) add_flux(t, f, mean_in(t, f, x), b);
@@ -162,7 +183,7 @@ std::vector<double> SignedHeatSolver::State::divergence(const std::vector<Comple
 }
 
 // In the faces that curves run through, the direction at right angles to them in place of what heat says.
-void SignedHeatSolver::State::turn_along(std::span<const Segment> all, const std::vector<Complex>& x,
+void SignedHeatSolver::State::turn_along(std::span<const Segment> all, const Directions& x,
                                          std::vector<double>& b) const {
   std::map<Index, Complex> across;
   for (const Segment& s : all) across[s.face] += Complex(0, -1) * s.along;
@@ -195,9 +216,9 @@ std::vector<double> SignedHeatSolver::distance(std::span<const SignedCurve> curv
     s.add_outward(p, 1, x);
     groups.push_back({p});
   }
-  s.system.vector_heat().solve(0, 1, x);
-  std::vector<double> b = s.divergence(x);
-  if (options.preserve_normals) s.turn_along(directed, x, b);
+  const Directions away = s.carried(std::move(x));
+  std::vector<double> b = s.divergence(away);
+  if (options.preserve_normals) s.turn_along(directed, away, b);
   return s.levels.integrate(s.mesh, std::move(b), groups, options);
 }
 

@@ -4,24 +4,19 @@
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/components.h>
+#include <brushfire/solvers/heat/scales.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace brushfire::heat {
-namespace {
-
-constexpr double kLargestFactor = 1e6;
-
-}  // namespace
-
 void check(const HeatOptions& options) {
   const auto refuse = [](const std::string& name, double value, const std::string& range) {
     throw Error(ErrorCode::InvalidArgument, "heat: " + name + " " + number_as_text(value) + " is not in " + range);
   };
-  if (!(options.time_factor > 0 && options.time_factor <= kLargestFactor)) {
-    refuse("time_factor", options.time_factor, "(0, 1e6]");
+  if (!(options.time_factor >= kLeastFactor && options.time_factor <= kLargestFactor)) {
+    refuse("time_factor", options.time_factor, "[1e-12, 1e6]");
   }
   if (!(options.time >= 0 && options.time < kInfinity)) refuse("time", options.time, "[0, infinity)");
   if (!(options.poisson_shift >= 0 && options.poisson_shift <= 1)) {
@@ -33,16 +28,16 @@ System::System(const Mesh& mesh, const HeatOptions& options) : options_(options)
   require_factorization();
   check(options);
   Triangulation t = triangulation_of(mesh, Cover::AsItIs);
-  mollify(t);
+  const detail::Components components = detail::components_of(mesh);
+  component_ = components.of_vertex;
+  component_count_ = components.count;
+  is_point_ = points_among(t, components);
+  mollify(t, components);
   if (options.delaunay) flip_to_delaunay(t);
   per_sheet_ = 1.0 / t.sheets;
+  mean_edges_ = mean_edge_lengths(t, components);
   mean_edge_length_ = heat::mean_edge_length(t);
-  time_ = options.time > 0 ? options.time / mesh.unit() / mesh.unit()
-                           : options.time_factor * mean_edge_length_ * mean_edge_length_;
-  if (!(time_ > 0 && time_ < kInfinity)) time_ = 1;  // a mesh without edges: nothing to spread on
-  detail::Components components = detail::components_of(mesh);
-  component_ = std::move(components.of_vertex);
-  component_count_ = components.count;
+  times_ = times_of(t, components, options.time_factor, options.time / mesh.unit() / mesh.unit());
   if (options.boundary != HeatBoundary::Neumann) find_border(mesh);
   operators_ = operators_of(t);
   faces_.reserve(t.face_count());
@@ -87,8 +82,9 @@ std::vector<double> System::poisson_matrix() const {
 std::vector<double> System::heat_matrix(bool cold_border) const {
   const Pattern& p = operators_.pattern;
   std::vector<double> matrix = operators_.laplacian;
-  for (double& entry : matrix) entry *= time_;
   for (Index v = 0; v < vertex_count(); ++v) {
+    const double time = component_[v] == kNoIndex ? 1 : times_.of[component_[v]];
+    for (int e = p.start[v]; e < p.start[v + 1]; ++e) matrix[e] *= time;
     double& diagonal = matrix[p.start[v]];
     diagonal += operators_.mass[v];
     const bool cold = cold_border && is_on_border(v);
@@ -162,7 +158,7 @@ std::vector<double> System::potentials(std::span<const Sparks> columns) const {
     if (now == 2) add_divergence<2>(u, b);
     if (now == 1) add_divergence<1>(u, b);
     for (std::size_t j = 0; j < now; ++j) {
-      if (!starves(columns[first + j], now, j, u)) continue;
+      if (!starves(lit_by(columns[first + j]), std::span(u).subspan(j), now)) continue;
       for (Index v = 0; v < vertex_count(); ++v) b[now * v + j] = 0;
       add_divergence(diffuse(columns[first + j]), now, j, b);
     }

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <brushfire/solvers/heat/operators.h>
+#include <brushfire/solvers/heat/relay.h>
+#include <brushfire/solvers/heat/scales.h>
 #include <brushfire/solvers/heat/triangulation.h>
 #include <brushfire/solvers/heat_options.h>
 
@@ -24,13 +26,6 @@ struct Spark {
 };
 using Sparks = std::vector<Spark>;
 
-// Positive numbers, far below the least double too: value * kStep^level.
-struct Heat {
-  static constexpr double kStep = 1e-200;
-  std::vector<double> value;         // [vertex_count] 0 where no heat comes
-  std::vector<std::uint32_t> level;  // [vertex_count] ascends away from the sparks
-};
-
 // Throws Error(InvalidArgument) for options out of range.
 void check(const HeatOptions& options);
 
@@ -41,12 +36,16 @@ class System {
 
   const HeatOptions& options() const { return options_; }
   Index vertex_count() const { return static_cast<Index>(component_.size()); }
-  // In mesh.unit(), squared and as it is.
-  double time() const { return time_; }
+  // Of all the mesh, in mesh.unit(), squared and as it is.
+  double time() const { return times_.all; }
   double mean_edge_length() const { return mean_edge_length_; }
   // Components of what heat can pass, kNoIndex for a vertex in no face.
   Index component(Index v) const { return component_[v]; }
   Index component_count() const { return component_count_; }
+  double time_in(Index component) const { return times_.of[component]; }
+  double mean_edge_in(Index component) const { return mean_edges_[component]; }
+  // Whether all of a component lies at one place: there is nowhere to flow to.
+  bool is_point(Index component) const { return is_point_[component]; }
   // False on a border that is kept cold.
   bool takes_heat(Index v) const { return options_.boundary != HeatBoundary::Dirichlet || !is_on_border(v); }
 
@@ -70,15 +69,17 @@ class System {
   std::vector<double> heat_matrix(bool cold_border) const;
   std::vector<double> heat_by(std::size_t matrix, std::size_t width, std::span<const Sparks> columns) const;
   std::vector<double> heat_of(std::size_t width, std::span<const Sparks> columns) const;
-  bool starves(const Sparks& sparks, std::size_t width, std::size_t column, std::span<const double> u) const;
-  std::vector<double> relay(std::size_t matrix, const Sparks& sparks, std::uint32_t level,
-                            const std::vector<std::uint8_t>& beyond, const std::vector<double>& last) const;
+  // The vertices that heat can come to.
+  std::vector<std::uint8_t> lit_by(const Sparks& sparks) const;
   template <std::size_t kWidth>
   void add_divergence(std::span<const double> u, std::span<double> b) const;
   void add_divergence(const Heat& heat, std::size_t width, std::size_t column, std::span<double> b) const;
 
   HeatOptions options_;
-  double time_ = 0, mean_edge_length_ = 0, per_sheet_ = 1;
+  Times times_;
+  double mean_edge_length_ = 0, per_sheet_ = 1;
+  std::vector<double> mean_edges_;  // [components]
+  std::vector<bool> is_point_;
   Index component_count_ = 0;
   std::vector<Index> component_;
   std::vector<std::uint8_t> border_;  // [vertex_count], where borders are kept cold

@@ -1,4 +1,4 @@
-// Triangulations from meshes: the gluing of the cover, and mollification.
+// Triangulations from meshes: the gluing of the cover.
 #include <brushfire/solvers/heat/triangulation.h>
 
 #include <brushfire/core/cancel.h>
@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <string>
+#include <utility>
 
 namespace brushfire::heat {
 namespace {
@@ -110,23 +112,40 @@ bool is_closed(const Mesh& mesh) {
 
 }  // namespace
 
-bool is_oriented_manifold(const Mesh& mesh) {
+namespace {
+
+// What keeps a mesh from being an oriented surface; empty where nothing does.
+std::string fault_of(const Mesh& mesh) {
   const std::span<const Index> opposite = mesh.opposite();
+  const auto text = [](Index i) { return std::to_string(i); };
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (!mesh.is_face_usable(Mesh::face_of(h))) return false;
-    const Index o = opposite[h];
-    if (o != h && (opposite[o] != h || mesh.from(o) == mesh.from(h))) return false;
+    const Index f = Mesh::face_of(h), o = opposite[h];
+    if (!mesh.is_face_usable(f)) return "face " + text(f) + " has a vertex twice";
+    if (o == h) continue;
+    const auto edge = [&] { return "the edge between vertices " + text(mesh.from(h)) + " and " + text(mesh.to(h)); };
+    if (opposite[o] != h) return edge() + " has more than two faces";
+    if (mesh.from(o) == mesh.from(h)) {
+      return "faces " + text(f) + " and " + text(Mesh::face_of(o)) + " run the same way along " + edge();
+    }
   }
-  return true;
+  return {};
 }
 
+}  // namespace
+
+bool is_oriented_manifold(const Mesh& mesh) { return fault_of(mesh).empty(); }
+
 Triangulation triangulation_of(const Mesh& mesh, Cover cover) {
-  if (cover == Cover::Single && !is_oriented_manifold(mesh)) {
-    throw Error(ErrorCode::InvalidArgument,
-                "this needs a surface whose faces lie the same way round and whose edges have one or two of them: see "
-                "brushfire info");
+  if (cover == Cover::Single) {
+    if (const std::string fault = fault_of(mesh); !fault.empty()) {
+      throw Error(
+          ErrorCode::InvalidArgument,
+          "vectors need a surface whose faces lie the same way round and whose edges have one or two of them: " +
+              fault + " (distances by heat take any mesh)");
+    }
+    return single(mesh);
   }
-  const bool once = cover == Cover::Single || (cover == Cover::AsItIs && is_closed(mesh) && is_oriented_manifold(mesh));
+  const bool once = cover == Cover::AsItIs && is_closed(mesh) && is_oriented_manifold(mesh);
   return once ? single(mesh) : tufted(mesh);
 }
 
@@ -139,22 +158,6 @@ double mean_edge_length(const Triangulation& t) {
     ++count;
   }
   return count == 0 ? 0 : sum / static_cast<double>(count);
-}
-
-void mollify(Triangulation& t, double share) {
-  const double mean = mean_edge_length(t);
-  // All points at one place: triangles so small that nothing is far, whose fourth powers (of areas) still have numbers.
-  constexpr double kNowhere = 1e-60;
-  const double least = mean > 0 ? share * mean : kNowhere;
-  double add = 0;
-  for (std::size_t f = 0; f < t.face_count(); ++f) {
-    const double* l = &t.length[3 * f];
-    const double longest = std::max({l[0], l[1], l[2]});
-    const double rest = l[0] + l[1] + l[2] - longest;
-    add = std::max(add, longest - rest + least);
-  }
-  if (add == 0) return;
-  for (double& l : t.length) l += add;
 }
 
 FlatTriangle lay_flat(const Triangulation& t, std::size_t face) {

@@ -1,7 +1,7 @@
 // Intrinsic triangulations: triangles that are known by the lengths of their edges and by how they are glued.
 //
 // Based on: Bobenko, Springborn, "A discrete Laplace-Beltrami operator for simplicial surfaces", 2007 (edge flips on
-// lengths); Sharp, Crane, "A Laplacian for nonmanifold triangle meshes", 2020 (the tufted cover, mollification).
+// lengths); Sharp, Crane, "A Laplacian for nonmanifold triangle meshes", 2020 (the tufted cover).
 #pragma once
 
 #include <brushfire/mesh/mesh.h>
@@ -35,10 +35,6 @@ enum class Cover : std::uint8_t {
 Triangulation triangulation_of(const Mesh& mesh, Cover cover);
 // Whether Cover::Single is for it.
 bool is_oriented_manifold(const Mesh& mesh);
-
-// Adds to every edge the same length, the least after which in every triangle the sum of two edges exceeds the third by
-// `share` of the mean edge: nothing at all on sound meshes, and no triangle without area afterwards.
-void mollify(Triangulation& t, double share = 1e-5);
 
 // Flips edges until the cotangents opposite of each sum to -kFlipTolerance or more: the Laplacian has no negative
 // weight then. Returns the number of flips. O(edges + flips); polls for cancelling.

@@ -2,6 +2,7 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/distance.h>
+#include <brushfire/solvers/heat/carrier.h>
 #include <brushfire/solvers/heat/connection.h>
 #include <brushfire/solvers/heat/system.h>
 
@@ -26,8 +27,11 @@ struct VectorHeatSolver::State {
   std::optional<DistanceSolver> radius;  // for LogMapStrategy::VectorHeat
 
   void check(std::span<const Index> vertices, std::size_t values) const;
-  std::vector<double> warmth(std::span<const Index> vertices, std::span<const double> values);
-  std::vector<Complex> carried(std::span<const Index> vertices, std::span<const Complex> vectors);
+  std::vector<double> values(const heat::Carrier& carrier, std::span<const Index> vertices,
+                             std::span<const double> given) const;
+  std::vector<Complex> directions(const heat::Carrier& carrier, std::span<const Index> vertices,
+                                  std::span<const Complex> vectors) const;
+  std::vector<Complex> axes(const heat::Carrier& carrier, Index source) const;
   std::vector<Complex> affine(Index source, bool adaptive);
   std::vector<Complex> polar(Index source);
 };
@@ -41,10 +45,10 @@ HeatOptions checked(const HeatOptions& options) {
   return options;
 }
 
-// Of length 1; NaN for what has none.
+// Of length 1; 0 for 0.
 Complex unit(Complex z) {
   const double length = std::abs(z);
-  return length > 0 ? z / length : Complex(kNone, kNone);
+  return length > 0 ? z / length : Complex();
 }
 
 }  // namespace
@@ -66,11 +70,34 @@ void VectorHeatSolver::State::check(std::span<const Index> vertices, std::size_t
   for (const Index v : vertices) vertex_point(mesh, v);  // throws for one that cannot be
 }
 
-std::vector<double> VectorHeatSolver::State::warmth(std::span<const Index> vertices, std::span<const double> values) {
-  std::vector<double> u(mesh.vertex_count(), 0.0);
-  for (std::size_t i = 0; i < vertices.size(); ++i) u[vertices[i]] += values[i];
-  system.scalar_heat().solve(0, 1, u);
-  return u;
+// How far each is on the way from the least value to the largest: so all sums are positive.
+std::vector<double> VectorHeatSolver::State::values(const heat::Carrier& carrier, std::span<const Index> vertices,
+                                                    std::span<const double> given) const {
+  const auto [low, high] = std::minmax_element(given.begin(), given.end());
+  const double scale = std::isfinite(*high - *low) ? 1 : 0.5, range = scale * *high - scale * *low;
+  std::vector<double> x(mesh.vertex_count(), 0.0);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    x[vertices[i]] += range > 0 ? (scale * given[i] - scale * *low) / range : 0;
+  }
+  carrier.carry(1, x);
+  const std::vector<double>& heat = carrier.heat().value;
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const double way = x[v] / heat[v];
+    x[v] = heat[v] > 0 ? std::clamp(*low * (1 - way) + *high * way, *low, *high) : kNone;
+  }
+  return x;
+}
+
+// Unit vectors; 0 where they cancel, NaN where no heat comes.
+std::vector<Complex> VectorHeatSolver::State::directions(const heat::Carrier& carrier, std::span<const Index> vertices,
+                                                         std::span<const Complex> vectors) const {
+  std::vector<Complex> x(mesh.vertex_count());
+  for (std::size_t i = 0; i < vertices.size(); ++i) x[vertices[i]] += vectors[i];
+  carrier.carry(x);
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    x[v] = carrier.heat().value[v] > 0 ? unit(x[v]) : Complex(kNone, kNone);
+  }
+  return x;
 }
 
 std::vector<double> VectorHeatSolver::extend(std::span<const Index> vertices, std::span<const double> values) {
@@ -78,26 +105,7 @@ std::vector<double> VectorHeatSolver::extend(std::span<const Index> vertices, st
   for (const double value : values) {
     if (!std::isfinite(value)) throw Error(ErrorCode::InvalidArgument, "a value to extend is not finite");
   }
-  // The values over their least, in proportion to their range, keep all sums positive.
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  const double range = *high - *low;
-  std::vector<double> scaled;
-  for (const double value : values) scaled.push_back(range > 0 ? (value - *low) / range : 0);
-  const std::vector<double> ones(vertices.size(), 1.0);
-  std::vector<double> result = state_->warmth(vertices, scaled);
-  const std::vector<double> all = state_->warmth(vertices, ones);
-  for (std::size_t v = 0; v < result.size(); ++v) {
-    result[v] = all[v] > 0 ? *low + range * std::clamp(result[v] / all[v], 0.0, 1.0) : kNone;
-  }
-  return result;
-}
-
-std::vector<Complex> VectorHeatSolver::State::carried(std::span<const Index> vertices,
-                                                      std::span<const Complex> vectors) {
-  std::vector<Complex> x(mesh.vertex_count());
-  for (std::size_t i = 0; i < vertices.size(); ++i) x[vertices[i]] += vectors[i];
-  system.vector_heat().solve(0, 1, x);
-  return x;
+  return state_->values(heat::Carrier(state_->system, vertices), vertices, values);
 }
 
 std::vector<Complex> VectorHeatSolver::transport(std::span<const Index> vertices, std::span<const Complex> vectors) {
@@ -105,12 +113,14 @@ std::vector<Complex> VectorHeatSolver::transport(std::span<const Index> vertices
   std::vector<Complex> directions;
   std::vector<double> lengths;
   for (const Complex& z : vectors) {
+    if (!std::isfinite(std::abs(z))) throw Error(ErrorCode::InvalidArgument, "a vector to transport is not finite");
     lengths.push_back(std::abs(z));
-    directions.push_back(lengths.back() > 0 ? z / lengths.back() : Complex());
+    directions.push_back(unit(z));
   }
-  std::vector<Complex> x = state_->carried(vertices, directions);
-  const std::vector<double> length = extend(vertices, lengths);
-  for (std::size_t v = 0; v < x.size(); ++v) x[v] = length[v] == 0 ? Complex() : length[v] * unit(x[v]);
+  const heat::Carrier carrier(state_->system, vertices);
+  std::vector<Complex> x = state_->directions(carrier, vertices, directions);
+  const std::vector<double> length = state_->values(carrier, vertices, lengths);
+  for (std::size_t v = 0; v < x.size(); ++v) x[v] *= length[v];
   return x;
 }
 
@@ -118,42 +128,42 @@ std::vector<Complex> VectorHeatSolver::transport(std::span<const Index> vertices
 // with the frames, and grow by the edge.
 std::vector<Complex> VectorHeatSolver::State::affine(Index source, bool adaptive) {
   const heat::Triangulation& t = system.triangulation();
-  const std::vector<double> one{1.0};
-  const std::vector<double> heat = warmth({&source, 1}, one);
-  const Complex axis = 1;
-  std::vector<Complex> parallel = carried({&source, 1}, {&axis, 1});
-  for (Complex& z : parallel) z = unit(z);
+  const heat::Carrier carrier(system, {&source, 1});
+  const heat::Heat& heat = carrier.heat();
+  const std::vector<Complex> parallel = axes(carrier, source);
   std::vector<Complex> x(mesh.vertex_count());
   for (Index h = 0; h < t.tail.size(); ++h) {
     const Index a = t.tail[h], b = t.tail[Mesh::next(h)];
-    const double weight = system.time() * heat::half_cotangent(t, h) * t.length[h];
-    const auto in_frame = [&](Complex z, Index v) {
-      return adaptive && !std::isnan(parallel[v].real()) ? z / parallel[v] : z;
-    };
-    x[a] -= weight * heat[b] * in_frame(heat::direction(t, system.spaces(), h), a);
-    x[b] -= weight * heat[a] * in_frame(heat::direction_back(t, system.spaces(), h), b);
+    if (!(heat.value[a] > 0 && heat.value[b] > 0)) continue;
+    const double weight = system.time_at(a) * system.weights()[h] * t.length[h];
+    const auto in_frame = [&](Complex z, Index v) { return adaptive ? z / parallel[v] : z; };
+    x[a] -= weight * heat.value[b] * heat.unit(b, heat.level[a]) * in_frame(heat::direction(t, system.spaces(), h), a);
+    x[b] -=
+        weight * heat.value[a] * heat.unit(a, heat.level[b]) * in_frame(heat::direction_back(t, system.spaces(), h), b);
   }
   if (adaptive) {
-    std::vector<double> columns(2 * x.size());
-    for (std::size_t v = 0; v < x.size(); ++v) {
-      columns[2 * v] = x[v].real();
-      columns[2 * v + 1] = x[v].imag();
-    }
-    system.scalar_heat().solve(0, 2, columns);
-    for (std::size_t v = 0; v < x.size(); ++v) x[v] = {columns[2 * v], columns[2 * v + 1]};
+    // A complex number is two columns side by side.
+    carrier.carry(2, {reinterpret_cast<double*>(x.data()), 2 * x.size()});
   } else {
-    system.vector_heat().solve(0, 1, x);
+    carrier.carry(x);
   }
   for (std::size_t v = 0; v < x.size(); ++v) {
-    x[v] = heat[v] > 0 ? x[v] / heat[v] / (adaptive ? Complex(1) : parallel[v]) : Complex(kNone, kNone);
+    x[v] = heat.value[v] > 0 ? x[v] / heat.value[v] / (adaptive ? Complex(1) : parallel[v]) : Complex(kNone, kNone);
   }
+  return x;
+}
+
+// The source's first axis, carried to all; where nothing is left of it, any.
+std::vector<Complex> VectorHeatSolver::State::axes(const heat::Carrier& carrier, Index source) const {
+  const Complex axis = 1;
+  std::vector<Complex> x = directions(carrier, {&source, 1}, {&axis, 1});
+  std::replace(x.begin(), x.end(), Complex(), axis);
   return x;
 }
 
 std::vector<Complex> VectorHeatSolver::State::polar(Index source) {
   const heat::Triangulation& t = system.triangulation();
-  const Complex axis = 1;
-  const std::vector<Complex> parallel = carried({&source, 1}, {&axis, 1});
+  const heat::Carrier carrier(system, {&source, 1});
   // Outwards from the source. With these weights, edge vectors around a flat vertex sum to 0: what does not cancel
   // would outlast the rest on its way.
   std::vector<Index> neighbours;
@@ -166,7 +176,7 @@ std::vector<Complex> VectorHeatSolver::State::polar(Index source) {
     outward.push_back(
         -weight * (a == source ? heat::direction_back(t, system.spaces(), h) : heat::direction(t, system.spaces(), h)));
   }
-  const std::vector<Complex> radial = carried(neighbours, outward);
+  const std::vector<Complex> parallel = axes(carrier, source), radial = directions(carrier, neighbours, outward);
   if (!radius) radius.emplace(mesh);
   DistanceOptions how;
   how.method = Method::Heat;
@@ -175,8 +185,9 @@ std::vector<Complex> VectorHeatSolver::State::polar(Index source) {
   const std::vector<double> distance = radius->distance({&from, 1}, how).distance;
   std::vector<Complex> x(mesh.vertex_count());
   for (std::size_t v = 0; v < x.size(); ++v) {
-    x[v] = distance[v] < kInfinity ? distance[v] / mesh.unit() * unit(radial[v] / unit(parallel[v]))
-                                   : Complex(kNone, kNone);
+    // On the other side of the surface all directions may cancel: any of them is as right there.
+    const Complex direction = radial[v] == Complex() ? Complex(1) : radial[v] / parallel[v];
+    x[v] = distance[v] < kInfinity ? distance[v] / mesh.unit() * direction : Complex(kNone, kNone);
   }
   return x;
 }
@@ -187,7 +198,8 @@ std::vector<Complex> VectorHeatSolver::log_map(Index source, LogMapStrategy stra
                                ? state_->polar(source)
                                : state_->affine(source, strategy == LogMapStrategy::AffineAdaptive);
   const Complex origin = strategy == LogMapStrategy::VectorHeat ? Complex() : x[source];
-  for (Complex& z : x) z = (z - origin) * state_->mesh.unit();
+  const double unit = state_->system.is_point(state_->system.components().of_vertex[source]) ? 0 : state_->mesh.unit();
+  for (Complex& z : x) z = (z - origin) * unit;
   x[source] = 0;
   return x;
 }
@@ -216,7 +228,7 @@ VectorHeatSolver::Frames VectorHeatSolver::tangent_frames() const {
 
 VectorHeatSolver::SparseComplex VectorHeatSolver::connection_laplacian() const {
   const heat::Pattern& p = state_->system.operators().pattern;
-  const std::vector<Complex>& lower = state_->system.laplacian_of_vectors();
+  const std::vector<Complex> lower = state_->system.connection_laplacian();
   SparseComplex all;
   const auto add = [&](int row, int column, Complex value) {
     all.row.push_back(static_cast<Index>(row));

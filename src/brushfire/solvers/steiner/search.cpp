@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace brushfire::steiner {
 namespace {
@@ -25,6 +26,19 @@ void resize(LowerTerms& terms, Index room) {
 
 }  // namespace
 
+Front unreached(const WeightedMesh& mesh, const PointLayout& layout) {
+  Front front;
+  front.value.assign(layout.size(), kInfinity);
+  front.parent.assign(layout.size(), kNoIndex);
+  front.vertex_value.assign(mesh.mesh().vertex_count(), kInfinity);
+  front.vertex_parent.assign(mesh.mesh().vertex_count(), kNoIndex);
+  for (Index e = 0; e < mesh.edges().count(); ++e) {  // the room behind the points takes nothing
+    const Index row = layout.row(e);
+    std::fill(front.value.begin() + row + layout.count(e), front.value.begin() + row + layout.room(e), -kInfinity);
+  }
+  return front;
+}
+
 Search::Search(const WeightedMesh& mesh, const PointLayout& layout, Costs costs, bool towards)
     : mesh_(mesh),
       layout_(layout),
@@ -40,22 +54,25 @@ Search::Search(const WeightedMesh& mesh, const PointLayout& layout, Costs costs,
 }
 
 void Search::run(std::span<const detail::LocatedSource> sources, const SearchLimits& limits) {
+  resume(unreached(mesh_, layout_), sources, {}, limits);
+}
+
+void Search::resume(Front front, std::span<const detail::LocatedSource> sources, std::span<const Index> rows,
+                    const SearchLimits& limits) {
   sources_ = sources;
   const Index edges = mesh_.edges().count();
-  front_.value.assign(layout_.size(), kInfinity);
-  front_.parent.assign(layout_.size(), kNoIndex);
-  front_.vertex_value.assign(mesh_.mesh().vertex_count(), kInfinity);
-  front_.vertex_parent.assign(mesh_.mesh().vertex_count(), kNoIndex);
+  front_ = std::move(front);
   front_.horizon = kInfinity;
   front_.rows_sent = 0;
-  for (Index e = 0; e < edges; ++e) {  // the room behind the points takes nothing
-    const Index row = layout_.row(e);
-    std::fill(front_.value.begin() + row + layout_.count(e), front_.value.begin() + row + layout_.room(e), -kInfinity);
-  }
   first_.assign(edges, kNoIndex);
   last_.assign(edges, 0);
   waiting_.assign(edges, BucketQueue::kNever);
   queue_.reset();
+  for (const Index e : rows) {
+    const double* values = front_.value.data() + layout_.row(e);
+    mark(e, 0, *std::min_element(values, values + layout_.count(e)));
+    last_[e] = layout_.count(e) - 1;
+  }
   for (std::size_t i = 0; i < sources.size(); ++i) start(sources[i], static_cast<Index>(i));
 
   Poll poll(64);  // rows, of some microseconds each

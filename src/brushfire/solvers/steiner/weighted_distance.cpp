@@ -11,25 +11,6 @@
 #include <utility>
 
 namespace brushfire {
-namespace steiner {
-
-Index source_behind(const Run& run, Index parent) {
-  while (parent < kFromSource) {
-    const Index edge = run.layout->edge_of(parent), i = parent - run.layout->row(edge);
-    const Index h = run.mesh->edges().halfedge(edge);
-    if (i == 0) {
-      parent = run.front.vertex_parent[run.mesh->mesh().from(h)];
-    } else if (i + 1 == run.layout->count(edge)) {
-      parent = run.front.vertex_parent[run.mesh->mesh().to(h)];
-    } else {
-      parent = run.front.parent[parent];
-    }
-  }
-  return parent == kNoIndex ? kNoIndex : parent - kFromSource;
-}
-
-}  // namespace steiner
-
 namespace {
 
 using namespace steiner;
@@ -37,46 +18,19 @@ using namespace steiner;
 // Sums of up to 2^20 costs, each off by a unit in the last place, stay below what they stand for.
 constexpr double kBelowSums = 1 - 0x1p-32;
 
-// Measured (docs/weights.md): so dense, upper bounds are off by about half of the tolerance on average and by all of it
-// at most, and lower ones by the tolerance on average.
-Density density_for(Costs costs, double tolerance, unsigned doublings) {
-  const double finer = std::ldexp(1.0, -static_cast<int>(doublings)), root = std::sqrt(tolerance) * finer;
-  const auto most = static_cast<Index>(std::min(4096.0, 64 / finer));
-  if (costs == Costs::Real) return {3 * root, std::min(0.25, 8 * tolerance * finer), most};
-  return {2.1 * root / (1 + root), std::min(0.25, 0.7 * tolerance * finer), 4 * most};
-}
-
 // Windows take no less time where they may be farther apart than this.
 constexpr double kWidestWindows = 0.02;
 
+// As many for a vertex as take about as long as the search over points, measured: half a microsecond each, beside 6 +
+// 0.6 / tolerance.
+double windows_worth_it(double tolerance) { return 20 + 0.8 / tolerance; }
+
 void check(const WeightedOptions& options) {
-  if (!(options.tolerance >= kLeastWeightedTolerance && options.tolerance <= kMostWeightedTolerance)) {
-    throw Error(ErrorCode::InvalidArgument, "tolerance " + number_as_text(options.tolerance) + " is not in [" +
-                                                number_as_text(kLeastWeightedTolerance) + ", " +
-                                                number_as_text(kMostWeightedTolerance) + "]: weighted distances are " +
-                                                "computed between bounds");
-  }
+  check_tolerance(options.tolerance);
   if (!(options.max_distance >= 0)) {
     throw Error(ErrorCode::InvalidArgument,
                 "max_distance " + number_as_text(options.max_distance) + " is not a number >= 0");
   }
-}
-
-double least_offset(std::span<const Source> sources) {
-  if (sources.empty()) throw Error(ErrorCode::InvalidArgument, "no source given: a distance needs at least one");
-  double least = kInfinity;
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    if (!std::isfinite(sources[i].offset)) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "offset " + number_as_text(sources[i].offset) + " of source " + std::to_string(i) + " is not finite");
-    }
-    if (sources[i].curve) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "source " + std::to_string(i) + " is a curve: weighted distances start at points");
-    }
-    least = std::min(least, sources[i].offset);
-  }
-  return least;
 }
 
 // A vertex of the caller's reads the least of its copies.
@@ -87,6 +41,11 @@ void bring_back(const WeightedMesh& mesh, std::vector<double>& values) {
 }
 
 }  // namespace
+
+const char* name_of(WeightedEngine engine) noexcept {
+  if (engine == WeightedEngine::Uniform) return "uniform";
+  return engine == WeightedEngine::Windows ? "windows" : "points";
+}
 
 struct WeightedSolver::Workspace {
   Domain domain{Mesh()};
@@ -104,10 +63,8 @@ struct WeightedSolver::Workspace {
   std::shared_ptr<const PointLayout> points_for(Costs costs, const WeightedOptions& options, unsigned doublings);
   WeightedField run_uniform(std::span<const Source> sources, const WeightedOptions& options);
   WeightedField run(std::span<const Source> sources, const WeightedOptions& options, unsigned doublings);
-  void locate(std::span<const Source> sources, const WeightedOptions& options, Run& run) const;
   bool follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field);
   void search(Run& run, const WeightedOptions& options, const PointLayout* below, WeightedField& field) const;
-  void fill_upper(const Run& run, const WeightedOptions& options, WeightedField& field) const;
   void fill_lower(const Search& below, const Run& run, const WeightedOptions& options, WeightedField& field) const;
 };
 
@@ -121,32 +78,6 @@ std::shared_ptr<const PointLayout> WeightedSolver::Workspace::points_for(Costs c
     last.density = wanted;
   }
   return last.points;
-}
-
-void WeightedSolver::Workspace::locate(std::span<const Source> sources, const WeightedOptions& options,
-                                       Run& run) const {
-  run.base = least_offset(sources);
-  run.given.assign(sources.begin(), sources.end());
-  const double unit = mesh->mesh().unit();
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    if (sources[i].curve) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "source " + std::to_string(i) + " is a curve: weighted distances start at points");
-    }
-    const std::vector<SurfacePoint> sides = mesh->on_open(sources[i].point);
-    if (sides.empty()) {
-      throw Error(ErrorCode::InvalidArgument,
-                  "source " + std::to_string(i) + " lies behind a wall: nothing can be reached from there");
-    }
-    for (const SurfacePoint& p : sides) {
-      run.sources.push_back(
-          {brushfire::locate(mesh->mesh(), p), (sources[i].offset - run.base) / unit, static_cast<Index>(i), nullptr});
-    }
-  }
-  for (const SurfacePoint& t : options.targets) {
-    std::vector<PointLocation>& sides = run.targets.emplace_back();
-    for (const SurfacePoint& p : mesh->on_open(t)) sides.push_back(brushfire::locate(mesh->mesh(), p));
-  }
 }
 
 // `below_points`: the points for lower bounds, where they are wanted.
@@ -167,41 +98,12 @@ void WeightedSolver::Workspace::search(Run& run, const WeightedOptions& options,
     }
     run.front = real.take();
   }
-  fill_upper(run, options, field);
+  fill_upper(run, options.max_distance, field);
   if (!below_points) return;
   if (options.progress) limits.progress = [&](double done) { options.progress(share + (1 - share) * done); };
   Search below(*mesh, *below_points, Costs::Below);
   below.run(run.sources, limits);
   fill_lower(below, run, options, field);
-}
-
-void WeightedSolver::Workspace::fill_upper(const Run& run, const WeightedOptions& options, WeightedField& field) const {
-  const double unit = mesh->mesh().unit(), horizon = run.front.horizon;
-  const Index count = domain.mesh().vertex_count();
-  const auto label = [&](Index parent) {
-    const Index s = source_behind(run, parent);
-    return s == kNoIndex ? kNoIndex : run.sources[s].label;
-  };
-  const auto value = [&](double v) { return v <= horizon ? run.base + v * unit : kInfinity; };
-  field.distance.assign(count, kInfinity);
-  field.source.assign(count, kNoIndex);
-  for (Index v = 0; v < run.front.vertex_value.size(); ++v) {
-    const double d = value(run.front.vertex_value[v]);
-    double& least = field.distance[mesh->vertex(v)];
-    if (!(d <= options.max_distance) || d == kInfinity || !(d < least)) continue;
-    least = d;
-    field.source[mesh->vertex(v)] = run.given.size() == 1 ? 0 : label(run.front.vertex_parent[v]);
-  }
-  field.reached = static_cast<Index>(
-      std::count_if(field.distance.begin(), field.distance.end(), [](double d) { return d < kInfinity; }));
-  for (const std::vector<ValueAt>& sides : run.target_values) {
-    ValueAt best;
-    for (const ValueAt& at : sides) best = at.value < best.value ? at : best;
-    const double d = value(best.value);
-    const bool is_reached = d < kInfinity && d <= options.max_distance;
-    field.target_distance.push_back(is_reached ? d : kInfinity);
-    field.target_source.push_back(is_reached ? label(best.parent) : kNoIndex);
-  }
 }
 
 void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, const WeightedOptions& options,
@@ -238,14 +140,15 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
 // Both bounds by windows. False, and the field is empty, where they cannot be followed.
 bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field) {
   if (!medium) medium = std::make_unique<refraction::Medium>(*mesh);
-  if (!medium->is_followable()) return false;
+  if (!medium->is_followable(options.tolerance)) return false;
   std::vector<PointLocation> places;
   for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
   const double unit = mesh->mesh().unit();
   double farthest = (options.max_distance - run.base) / unit;
   if (!options.targets.empty() && places.empty()) farthest = -1;  // all targets are nowhere
   refraction::Run windows(*medium, run.sources,
-                          {std::min(options.tolerance, kWidestWindows), farthest, places, options.progress});
+                          {std::min(options.tolerance, kWidestWindows), farthest, windows_worth_it(options.tolerance),
+                           places, options.progress});
   if (!windows()) return false;
   const double horizon = std::min(farthest, windows.horizon());
   double sum = 0, most = 0;
@@ -280,6 +183,7 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
     give(known[v], options.targets.empty(), field.distance[v], field.lower[v], field.source[v]);
     field.reached += field.distance[v] < kInfinity;
   }
+  fill_sides(run, horizon, [&](Index v) { return windows.at_vertex(v).upper; }, options.max_distance, field);
   std::size_t place = 0;
   for (const auto& sides : run.targets) {
     refraction::Known there;
@@ -289,6 +193,7 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
   }
   field.max_error_bound = most;
   field.mean_error_bound = count > 0 ? sum / static_cast<double>(count) : 0;
+  field.engine = WeightedEngine::Windows;
   return true;
 }
 
@@ -298,12 +203,16 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
   auto run = std::make_shared<Run>();
   run->mesh = mesh;
   run->towards = options.towards;
-  locate(sources, options, *run);
+  const bool from_curves =
+      std::any_of(sources.begin(), sources.end(), [](const Source& s) { return s.curve != nullptr; });
+  const bool lower = options.lower && !from_curves;
+  if (from_curves) run->layout = points_for(Costs::Real, options, doublings);
+  locate(sources, options.targets, *run);
   WeightedField field;
-  if (options.lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
+  if (lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
   run->layout = points_for(Costs::Real, options, doublings);
   std::shared_ptr<const PointLayout> below;
-  if (options.lower && !weights.pace) below = points_for(Costs::Below, options, doublings);
+  if (lower && !weights.pace) below = points_for(Costs::Below, options, doublings);
   search(*run, options, below.get(), field);
   field.points = run->layout->size() + (below ? below->size() : 0);
   field.run = std::move(run);
@@ -314,7 +223,13 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
 WeightedField WeightedSolver::Workspace::run_uniform(std::span<const Source> sources, const WeightedOptions& options) {
   if (!plain) plain = std::make_unique<DistanceSolver>(domain);
   std::vector<Source> scaled(sources.begin(), sources.end());
-  for (Source& s : scaled) s.offset /= uniform;
+  for (Source& s : scaled) {
+    s.offset /= uniform;
+    if (!s.curve || s.curve->offsets.empty()) continue;
+    CurveSource curve = *s.curve;
+    for (double& offset : curve.offsets) offset /= uniform;
+    s.curve = std::make_shared<const CurveSource>(std::move(curve));
+  }
   DistanceOptions how;
   how.tolerance = std::min(options.tolerance, kMaxTolerance);
   how.bound = Bound::Upper;
@@ -323,12 +238,14 @@ WeightedField WeightedSolver::Workspace::run_uniform(std::span<const Source> sou
   how.progress = options.progress;
   const DistanceField found = plain->distance(scaled, how);
   WeightedField field;
+  field.engine = WeightedEngine::Uniform;
   field.distance = found.distance;
   field.source = found.source;
   field.target_distance = found.target_distance;
   field.target_source = found.target_source;
   field.reached = found.reached;
-  for (std::vector<double>* values : {&field.distance, &field.target_distance}) {
+  field.side_distance = found.side_distance;
+  for (std::vector<double>* values : {&field.distance, &field.target_distance, &field.side_distance}) {
     for (double& d : *values) d *= uniform;
   }
   if (!options.lower) return field;
@@ -349,11 +266,33 @@ WeightedSolver::WeightedSolver(Domain domain, Weights weights) : workspace_(std:
   workspace_->weights = std::move(weights);
   workspace_->uniform = workspace_->weights.uniform();
 }
+WeightedSolver::WeightedSolver(std::unique_ptr<Workspace> workspace) : workspace_(std::move(workspace)) {}
 WeightedSolver::~WeightedSolver() = default;
 WeightedSolver::WeightedSolver(WeightedSolver&&) noexcept = default;
 WeightedSolver& WeightedSolver::operator=(WeightedSolver&&) noexcept = default;
 const Domain& WeightedSolver::domain() const noexcept { return workspace_->domain; }
 const Weights& WeightedSolver::weights() const noexcept { return workspace_->weights; }
+
+void WeightedSolver::prepare(double tolerance) {
+  check_tolerance(tolerance);
+  Workspace& w = *workspace_;
+  if (w.uniform > 0) return;
+  if (!w.mesh) w.mesh = std::make_shared<WeightedMesh>(w.domain, w.weights);
+  WeightedOptions options;
+  options.tolerance = tolerance;
+  w.points_for(Costs::Real, options, 0);
+}
+
+WeightedSolver WeightedSolver::twin() const {
+  auto workspace = std::make_unique<Workspace>();
+  workspace->domain = workspace_->domain;
+  workspace->weights = workspace_->weights;
+  workspace->uniform = workspace_->uniform;
+  workspace->mesh = workspace_->mesh;
+  workspace->for_real = workspace_->for_real;
+  workspace->for_below = workspace_->for_below;
+  return WeightedSolver(std::move(workspace));
+}
 
 WeightedField WeightedSolver::distance(std::span<const Source> sources, const WeightedOptions& options) {
   const CancelScope listen(options.cancel);

@@ -49,11 +49,19 @@ struct WeightedOptions {
   const CancelToken* cancel = nullptr;  // null: what the thread listens to
 };
 
-// Costs are those of the cheapest paths, plus the sources' offsets. [vertex_count] unless said otherwise.
+// What answered: Method::Windows, since the weight is one and the same everywhere; windows that refract; or a search
+// over points on edges, for fences, slopes and paths, and where windows would take longer.
+enum class WeightedEngine { Uniform, Windows, Points };
+const char* name_of(WeightedEngine engine) noexcept;  // uniform, windows, points
+
+// Costs are those of the cheapest paths, plus the sources' offsets. [vertex_count] unless said otherwise. From curves
+// there are upper bounds only, from points along them that lie as dense as those on edges.
 struct WeightedField {
   std::vector<double> distance;  // an upper bound, which a real path has; +inf: unreachable or beyond max_distance
-  // A lower bound, proven (docs/weights.md); empty where none was asked for, and where slopes count.
+  // A lower bound, proven (docs/weights.md); empty where none was asked for, where slopes count, and from curves.
   std::vector<double> lower;
+  // In a domain with walls only: [domain.open().vertex_count()] the upper bound on every side of them.
+  std::vector<double> side_distance;
   std::vector<Index> source;                          // whose path it is: position in the caller's list; kNoIndex: none
   std::vector<double> target_distance, target_lower;  // [targets]
   std::vector<Index> target_source;                   // [targets]
@@ -62,6 +70,7 @@ struct WeightedField {
   double max_error_bound = kInfinity;
   double mean_error_bound = kInfinity;
   Index reached = 0;
+  WeightedEngine engine = WeightedEngine::Points;
   std::uint64_t points = 0;                 // on edges, the vertices' copies among them; 0 where none were searched
   unsigned refinements = 0;                 // done
   std::shared_ptr<const steiner::Run> run;  // for weighted_path(); null where no points on edges were searched
@@ -80,6 +89,12 @@ class WeightedSolver {
   const Domain& domain() const noexcept;
   const Weights& weights() const noexcept;
 
+  // Lays out the points for runs of this tolerance ahead of them. Throws Error(InvalidArgument) where it is out of
+  // range, and Error(TooLarge). O(points on edges).
+  void prepare(double tolerance);
+  // Another one, for another thread: what both only read is shared. O(1) after prepare().
+  WeightedSolver twin() const;
+
   // Throws Error(InvalidArgument) for no sources, an offset that is not finite, a tolerance that is out of range, a
   // negative max_distance and a source behind a wall; Error(TooLarge) where the points need more memory than there is;
   // Error(Cancelled). About 0.5 to 2 microseconds for every point on an edge.
@@ -87,6 +102,7 @@ class WeightedSolver {
 
  private:
   struct Workspace;
+  explicit WeightedSolver(std::unique_ptr<Workspace> workspace);
   std::unique_ptr<Workspace> workspace_;
 };
 

@@ -49,7 +49,7 @@ std::vector<double> on_open(const Domain& domain, const std::vector<double>& wei
 
 Weights opened(const Domain& domain, const Weights& weights) {
   check(domain.mesh(), weights);
-  return {on_open(domain, weights.face), on_open(domain, merged(weights.edges)), weights.pace};
+  return weights_on_open(domain, weights);
 }
 
 Barriers barriers_of(const Mesh& mesh, const Weights& weights) {
@@ -63,20 +63,38 @@ Barriers barriers_of(const Mesh& mesh, const Weights& weights) {
   return barriers;
 }
 
-Domain fenced(const Mesh& mesh, const Weights& weights) {
-  const Barriers barriers = barriers_of(mesh, weights);
+Domain fenced(const Mesh& mesh, const Barriers& barriers) {
   if (barriers.edges.empty() && barriers.faces.empty()) return Domain(mesh);
   return Domain(mesh, barriers);
 }
 
 }  // namespace
 
+Weights weights_on_open(const Domain& domain, const Weights& weights) {
+  return {on_open(domain, weights.face), on_open(domain, merged(weights.edges)), weights.pace};
+}
+
 WeightedMesh::WeightedMesh(const Domain& domain, const Weights& weights)
     : WeightedMesh(domain, Opened{opened(domain, weights)}) {}
 
 WeightedMesh::WeightedMesh(const Domain& domain, const Opened& given)
-    : domain_(domain), fenced_(fenced(domain.open(), given.weights)), edges_(fenced_.open()) {
-  const Weights& opened = given.weights;
+    : domain_(domain),
+      barriers_(barriers_of(domain.open(), given.weights)),
+      fenced_(fenced(domain.open(), barriers_)),
+      edges_(fenced_.open()) {
+  set_weights(given.weights);
+}
+
+std::shared_ptr<const WeightedMesh> WeightedMesh::reweighted(const Weights& weights) const {
+  const Weights open = opened(domain_, weights);
+  const Barriers barriers = barriers_of(domain_.open(), open);
+  if (barriers.faces != barriers_.faces || barriers.edges != barriers_.edges) return nullptr;
+  auto result = std::make_shared<WeightedMesh>(*this);
+  result->set_weights(open);
+  return result;
+}
+
+void WeightedMesh::set_weights(const Weights& opened) {
   pace_ = opened.pace;
   const Mesh& open = mesh();
   face_weight_.resize(open.face_count());
@@ -85,6 +103,7 @@ WeightedMesh::WeightedMesh(const Domain& domain, const Opened& given)
     face_weight_[f] = opened.face[fenced_.face(f)];
     sum += 1 / face_weight_[f];
   }
+  mean_weight_ = 1;
   if (sum > 0) mean_weight_ = open.face_count() / sum * (pace_ ? pace_->least() : 1);
   edge_weight_.assign(edges_.count(), kInfinity);
   for (Index h = 0; h < open.halfedge_count(); ++h) {
@@ -97,6 +116,7 @@ WeightedMesh::WeightedMesh(const Domain& domain, const Opened& given)
       w = std::min(w, e.along);
     }
   }
+  bridges_.clear();
   find_bridges(opened.edges);
 }
 

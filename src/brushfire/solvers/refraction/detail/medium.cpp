@@ -1,7 +1,9 @@
 // Weights by inner numbers.
 #include <brushfire/solvers/refraction/detail/medium.h>
+#include <brushfire/solvers/refraction/detail/refract.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace brushfire::refraction {
 namespace {
@@ -9,6 +11,8 @@ namespace {
 constexpr unsigned kOnePart = 31;
 // Where lengths are known worse than this, as a share of the shortest edge, doubles do not do.
 constexpr double kDoubtAllowed = 1e-6;
+// What refractions along a path may add up to: roundings of either sign grow with the root of their number.
+constexpr double kRefractions = 64;
 
 }  // namespace
 
@@ -18,18 +22,12 @@ Medium::Medium(const steiner::WeightedMesh& weighted) : structure(weighted.mesh(
   along.resize(std::size_t{3} * faces);
   is_border.assign(std::size_t{3} * faces, 0);
   is_pivot.assign(structure.vertex_count(), 0);
-  std::vector<double> weight_at(structure.vertex_count(), 0);
   double least = kInfinity, most = 0;
   for (Index f = 0; f < faces; ++f) {
     const Index outer = structure.outer_face(f);
     weight[f] = weighted.face_weight(outer);
     least = std::min(least, weight[f]);
     most = std::max(most, weight[f]);
-    for (const Index v : structure.faces[f].vertex) {
-      double& seen = weight_at[v];
-      if (seen != 0 && seen != weight[f]) is_pivot[v] = 1;
-      seen = weight[f];
-    }
     for (Index k = 0; k < 3; ++k) along[3 * f + k] = weighted.edge_weight(weighted.edges().edge(3 * outer + k));
   }
   for (Index h = 0; h < 3 * faces; ++h) {
@@ -42,10 +40,12 @@ Medium::Medium(const steiner::WeightedMesh& weighted) : structure(weighted.mesh(
     if (border) is_pivot[f.vertex[h % 3]] = is_pivot[f.vertex[windows::next3(h % 3)]] = 1;
   }
   bucket_width = structure.bucket_width * weighted.mean_weight();
-  const windows::Rounding known = windows::rounding_of(structure.unevenness);
-  rounding = known.absolute * most;
-  followable = faces > 0 && weighted.all_bridges().empty() && weighted.pace() == nullptr &&
-               most <= kMostContrast * least && known.doubt <= kDoubtAllowed;
+  rounding = windows::rounding_of(structure.unevenness);
+  rounding.absolute *= most;
+  rounding.relative +=
+      kRefractions * std::numeric_limits<double>::epsilon() * farthest_source(most > 0 ? least / most : 1);
+  followable = faces > 0 && weighted.all_bridges().empty() && weighted.pace() == nullptr && most < kInfinity &&
+               rounding.doubt <= kDoubtAllowed;
 }
 
 }  // namespace brushfire::refraction

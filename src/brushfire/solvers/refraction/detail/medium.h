@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/solvers/steiner/detail/weighted_mesh.h>
+#include <brushfire/solvers/windows/propagation/rounding.h>
 #include <brushfire/solvers/windows/propagation/structure.h>
 
 #include <memory>
@@ -9,25 +10,27 @@
 
 namespace brushfire::refraction {
 
+// What rounding may do to costs, as a share of how far apart their bounds may be.
+inline constexpr double kRoundingOfTolerance = 1e-2;
+
 // By the inner numbers of `structure`, which is of the mesh with its walls cut open, in one part. O(vertices + faces).
 struct Medium {
   explicit Medium(const steiner::WeightedMesh& weighted);
 
-  // Light may be followed here: no fences and no slopes, weights no more than kMostContrast apart, and lengths that
-  // doubles can tell apart.
-  bool is_followable() const { return followable; }
+  // Light may be followed here, and told to well below `tolerance`: no fences and no slopes, weights that are not too
+  // far apart, and lengths that doubles can tell apart.
+  bool is_followable(double tolerance) const {
+    return followable && rounding.relative <= kRoundingOfTolerance * tolerance;
+  }
 
   windows::WindowStructure structure;
   std::vector<double> weight;           // [faces]
   std::vector<double> along;            // [halfedges] of the edge, no more than in its faces
   std::vector<std::uint8_t> is_border;  // [halfedges] another weight beyond, or the edge is cheaper than its face
-  std::vector<std::uint8_t> is_pivot;   // [vertices] paths may bend there in any direction: not all is one weight
+  std::vector<std::uint8_t> is_pivot;   // [vertices] paths may bend there in any direction: a border ends there
   double bucket_width = 1;              // of the queue, in costs
-  double rounding = 0;                  // absolute, of costs
+  windows::Rounding rounding;           // of costs
   bool followable = true;
 };
-
-// Beyond this windows are cut into ever more pieces, and rounding in a dear face is much in a cheap one.
-inline constexpr double kMostContrast = 1e4;
 
 }  // namespace brushfire::refraction

@@ -1,10 +1,9 @@
 // The flattest circular front below a refracted one, in closed form, and what it loses at most.
 #include <brushfire/solvers/refraction/detail/refract.h>
 
-#include <brushfire/core/detail/planar.h>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace brushfire::refraction {
 namespace {
@@ -15,8 +14,14 @@ using windows::WindowKind;
 // A window that would lose too much is halved this many times at most: one of third order in its length is then lost
 // 30,000 times less.
 constexpr int kHalvings = 12;
-// What is not worth halving a window for, as a share of all that may be spent.
-constexpr double kLittle = 1e-2;
+// What a piece may always lose, as a share of what a path of its length earns: its light goes about as far until it
+// refracts again, so that slack stays a share of the path even where none is left. A share of the whole path instead
+// would let light that winds round a vertex become cheaper with every turn.
+constexpr double kEarned = 0.5;
+// What rounding makes of values anyway, as a share of them.
+constexpr double kStraight = 4 * std::numeric_limits<double>::epsilon();
+// As far as this many values, sources are known to epsilons that are no more than the sums of a path are off by anyway.
+constexpr double kFar = 1e5;
 
 // A point source below the edge whose light costs `speed` for a unit of length.
 struct Front {
@@ -37,18 +42,20 @@ struct Piece {
   double x0, x1, f0, f1;
 };
 
-// How far below `front` the window is, at most. Both are smooth: between two places the difference is above its chord
-// by no more than its least second derivative makes it.
+// How far below `front` the window is, at most. Between two places the difference is above its chord by no more than
+// its least second derivative makes it. It is also no more than the front less the two lines that meet at the foot of
+// the window's source, which is convex on either side of that; the window is over these lines most at the place that is
+// nearest to the foot.
 double loss_of(const Front& front, const Front& below, const Piece& p) {
-  if (below.source.y == 0) return std::max(0.0, front.value(below.source.x) - below.sigma);  // convex on both sides
   constexpr int kSteps = 4;
-  const double step = (p.x1 - p.x0) / kSteps;
-  double loss = 0, before = 0;
+  const double foot = below.source.x, step = (p.x1 - p.x0) / kSteps;
+  double loss = p.x0 < foot && foot < p.x1 ? std::max(0.0, front.value(foot) - below.value(foot)) : 0, before = 0;
   for (int i = 1; i <= kSteps; ++i) {
-    const double a = p.x0 + (i - 1) * step, b = i == kSteps ? p.x1 : p.x0 + i * step;
+    const double a = p.x0 + (i - 1) * step, b = i == kSteps ? p.x1 : p.x0 + i * step, near = std::clamp(foot, a, b);
     const double here = i == kSteps ? 0 : front.value(b) - below.value(b);
+    const double over_lines = below.radius(near) - std::abs(near - foot);
     const double arch = std::max(0.0, below.most_bend(a, b) - front.least_bend(a, b)) * step * step / 8;
-    loss = std::max(loss, std::max(before, here) + arch);
+    loss = std::max(loss, std::max(before, here) + std::min(arch, over_lines));
     before = here;
   }
   return loss;
@@ -71,17 +78,37 @@ Front below(const Front& front, const Piece& p) {
           std::clamp(front.source.x + front.source.y * slope / std::sqrt((1 - slope) * (1 + slope)), p.x0, p.x1);
       most = 0.5 * (p.f0 + rise * ((x - p.x0) / length) + front.value(x));
     }
-    sigma = std::min(cap, nu * front.sigma + (1 - nu) * most);
+    const double least = front.value(std::clamp(front.source.x, p.x0, p.x1));
+    sigma = std::min(cap, std::max(nu * front.sigma + (1 - nu) * most, least * (1 - farthest_source(n))));
   }
-  const double r0 = p.f0 - sigma, r1 = p.f1 - sigma, q = sigma < cap ? heron(length, r0, r1) : 0;
-  if (!(q > 0)) return {{p.x0 + (p.f0 - cap), 0}, cap, 1};
-  return {{p.x0 + 0.5 * (length + (r0 - r1) * (r0 + r1) / length), -0.5 * std::sqrt(q) / length}, sigma, 1};
+  const double r0 = p.f0 - sigma, r1 = p.f1 - sigma, apart = sigma < cap ? (r0 + r1 - length) * (r0 + r1 + length) : 0;
+  if (!(apart > 0)) return {{p.x0 + (p.f0 - cap), 0}, cap, 1};
+  // r1 - r0 is the rise; of far sources it would lose all its digits.
+  return {{p.x0 + 0.5 * (length - rise * (r0 + r1) / length), -0.5 * std::sqrt(apart * steep) / length}, sigma, 1};
+}
+
+// Seen from far away, or along the edge, a front is straight to rounding, and its light parallel.
+bool is_straight(const Front& front, const Piece& p) {
+  const double length = p.x1 - p.x0;
+  return front.most_bend(p.x0, p.x1) * length * length / 8 <= kStraight * std::min(p.f0, p.f1);
+}
+
+Window straight(Window w, const Piece& p, double slack) {
+  const double slope = (p.f1 - p.f0) / (p.x1 - p.x0);
+  w.kind = WindowKind::Linear;
+  w.b0 = p.x0, w.b1 = p.x1;
+  w.d0 = p.f0, w.d1 = p.f1;
+  w.source = {-slope, -std::sqrt((1 - slope) * (1 + slope))};
+  w.sigma = p.f0 - slope * p.x0;
+  w.slack = slack;
+  return w;
 }
 
 void refract_piece(const Window& w, const Front& front, const Piece& p, const RefractionBudget& budget, int halvings,
                    std::vector<Window>& out) {
   const double length = p.x1 - p.x0;
   if (!(length > std::abs(p.f1 - p.f0))) return;  // grazes the edge: its light runs along it
+  if (is_straight(front, p)) return out.push_back(straight(w, p, front.speed * w.slack));
   const Front found = below(front, p);
   Window g = w;
   g.b0 = p.x0, g.b1 = p.x1;
@@ -90,7 +117,7 @@ void refract_piece(const Window& w, const Front& front, const Piece& p, const Re
   g.sigma = found.sigma;
   const double loss = loss_of(front, found, p), slack = front.speed * w.slack;
   const double all = budget.share * (minimum_of(g) - budget.start);
-  const double allowed = std::max(budget.pace * (all - slack), kLittle * all);
+  const double allowed = std::max(budget.pace * (all - slack), kEarned * budget.share * length);
   const double middle = 0.5 * (p.x0 + p.x1);
   if (loss > allowed && halvings > 0 && middle > p.x0 && middle < p.x1) {
     const double f = front.value(middle);
@@ -122,6 +149,8 @@ void refract_on_edge(const Window& w, double n, std::vector<Window>& out) {
 }
 
 }  // namespace
+
+double farthest_source(double n) { return std::max(kFar, 4 / (n * n)); }
 
 void refract(const Window& w, double n, const RefractionBudget& budget, std::vector<Window>& out) {
   if (w.kind == WindowKind::Linear) return refract_parallel(w, n, out);

@@ -21,6 +21,10 @@ struct RefractionBudget {
   double start = 0;    // the value at the source
 };
 
+// How many times the values of a window its source may be away: the flattest fronts behind the edge are some 1 / n^2 of
+// them from theirs. Values are off by an epsilon or two of that.
+double farthest_source(double n);
+
 // Appends what lights the next face; nothing where all is reflected. Places on the edge stay what they are. The windows
 // tile the part of the interval that is not reflected. `n` > 0, not 1.
 void refract(const Window& w, double n, const RefractionBudget& budget, std::vector<Window>& out);

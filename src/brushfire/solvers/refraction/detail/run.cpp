@@ -17,14 +17,13 @@ namespace {
 
 // A vertex this little (relative) off a window's limit ray counts as seen, as in solvers/windows/.
 constexpr double kSeen = 1e-10;
+// A place this little (of what it is computed from) beyond the end of an interval counts as in it: where windows meet,
+// rounding must not leave the light of the critical angle to neither. The way by the end itself is a real one.
+constexpr double kTouching = 1e-10;
 // The part of what is left that one merge may spend (MergeBudget::pace).
 constexpr double kMergePace = 0.06;
-// Surfaces take some three windows a face, needles with weights of their own twenty. On large meshes with a weight of
-// its own for every face it may be any number (docs/decisions/weights.md).
-constexpr std::uint64_t kMostPerFace = 60, kMostAnyway = 200000;
-// Sums and roots along a path, and the solutions of refract(): far more than the 1e-12 that windows need without
-// weights, and next to nothing beside what they are cut for.
-constexpr double kAlong = 1e-9;
+// So many windows, a twentieth of a second's, are no reason to give up.
+constexpr std::uint64_t kMostAnyway = 100000;
 
 }  // namespace
 
@@ -34,7 +33,6 @@ Run::Run(Medium& medium, std::span<const detail::LocatedSource> sources, const R
   vertices_.resize(medium.structure.vertex_count());
   targets_.place(limits.targets, medium.structure);
   queue_.reset(medium.bucket_width, 0);
-  most_ = kMostPerFace * medium.structure.faces.size() + kMostAnyway;
 }
 
 bool Run::operator()() {
@@ -42,17 +40,24 @@ bool Run::operator()() {
   windows::EventQueue::Event event{};
   while (queue_.pop(windows::EventQueue::kLastBucket, event)) {
     poll_();
-    if (passed_ >= next_look_) look_up();
-    if (passed_ > most_) return false;
+    if (windows_ >= next_look_) {
+      look_up();
+      if (is_too_dear()) return false;
+    }
     event.is_list ? pass_halfedge(event.index) : leave_vertex(event.index);
   }
   finish_targets();
   return is_complete();
 }
 
+// By what has been reached so far, so that it is known early.
+bool Run::is_too_dear() const {
+  return static_cast<double>(windows_) > kMostAnyway + limits_.most_per_vertex * static_cast<double>(seen_);
+}
+
 // Progress, and how far light is still wanted.
 void Run::look_up() {
-  next_look_ = passed_ + 4096 + limits_.targets.size();
+  next_look_ = windows_ + 4096 + limits_.targets.size();
   narrow();
   if (limits_.progress) limits_.progress(static_cast<double>(seen_) / static_cast<double>(vertices_.size() + 1));
 }
@@ -66,7 +71,7 @@ void Run::narrow() {
     farthest =
         std::max(farthest, vertex ? vertices_[medium_.structure.inner_vertex(at.vertex)].upper : targets_[i].upper);
   }
-  radius_ = std::min(radius_, farthest * (1 + kAlong));
+  radius_ = std::min(radius_, farthest + medium_.rounding.of(farthest));
 }
 
 // ---- what is seen
@@ -149,8 +154,8 @@ void Run::run_from_critical(Index h, const Window& w) {
   const double reach = depth > 0 ? depth * ratio / std::sqrt((1 - ratio) * (1 + ratio)) : 0;
   const double length = face(h).length[h % 3];
   for (const double side : {-1.0, 1.0}) {
-    const double x = w.source.x + side * reach;
-    if (x < w.b0 || x > w.b1) continue;
+    const double meets = w.source.x + side * reach, x = std::clamp(meets, w.b0, w.b1);
+    if (std::abs(meets - x) > kTouching * (std::abs(w.source.x) + reach)) continue;
     // In the frame of h places count from its start.
     run_along({from * value_at(w, x), from * w.slack, w.pseudo_source}, h, length - x, side < 0);
   }
@@ -169,6 +174,7 @@ void Run::enter(Index h, const Window& w) {
   const Index apex = f.vertex[previous3(k)];
   reach(apex, weight * (at.value + w.slack), w.pseudo_source);
   if (weight * at.value > radius_ && weight * minimum_of(w) > radius_) return;
+  ++windows_;
   const std::int64_t bucket = queue_.bucket_of(weight * at.value);
   if (waiting_.push(f.waiting, h, w, bucket)) queue_.push_list_into(bucket, h);
 }
@@ -239,7 +245,6 @@ void Run::pass_face(Index h, const windows::Frame& frame, const Window& w) {
   const WindowFace& f = face(h);
   const Index apex = f.vertex[previous3(h % 3)];
   const double weight = medium_.weight[h / 3];
-  ++passed_;
   const windows::Arrival at = arrival(w, frame.apex);
   if (at.detour <= kSeen * at.value) {
     reach(apex, weight * (at.value + w.slack), w.pseudo_source);
@@ -278,13 +283,11 @@ void Run::pass_along(Index h, const windows::Frame& frame, const Window& w) {
 
 // ---- results
 
-double Run::rounding_of(double cost) const { return kAlong * cost + medium_.rounding; }
-
 Known Run::at_vertex(Index outer) const {
   const Vertex& v = vertices_[medium_.structure.inner_vertex(outer)];
   if (v.upper == kInfinity) return {};
   if (v.upper == start_of(v.source)) return {v.upper, v.upper, v.source};  // a source itself
-  return {std::max(0.0, v.lower - rounding_of(v.lower)), v.upper + rounding_of(v.upper), v.source};
+  return {std::max(0.0, v.lower - medium_.rounding.of(v.lower)), v.upper + medium_.rounding.of(v.upper), v.source};
 }
 
 Known Run::at_target(std::size_t target) const {
@@ -292,7 +295,8 @@ Known Run::at_target(std::size_t target) const {
   if (at.on == PointLocation::On::Vertex) return at_vertex(at.vertex);
   const windows::TargetState& t = targets_[static_cast<Index>(target)];
   if (t.upper == kInfinity) return {};
-  return {std::max(0.0, t.lower - rounding_of(t.lower)), t.upper + rounding_of(t.upper), t.ray.pseudo_source};
+  return {std::max(0.0, t.lower - medium_.rounding.of(t.lower)), t.upper + medium_.rounding.of(t.upper),
+          t.ray.pseudo_source};
 }
 
 }  // namespace brushfire::refraction

@@ -33,8 +33,9 @@ struct Known {
 };
 
 struct RunLimits {
-  double share = 0.01;           // (upper - lower) of the length of a path, as far as windows can be cut for it
-  double max_value = kInfinity;  // what costs more is not wanted
+  double share = 0.01;                 // (upper - lower) of the length of a path, as far as windows can be cut for it
+  double max_value = kInfinity;        // what costs more is not wanted
+  double most_per_vertex = kInfinity;  // windows for each vertex reached; where it takes more, the run gives up
   std::span<const PointLocation> targets{};
   Progress progress{};
 };
@@ -47,14 +48,14 @@ class Run {
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
-  // False where it takes far more windows than surfaces do, or rounding lost some light: nothing is known then. Polls
+  // False where it takes more windows than the limits allow, or rounding lost some light: nothing is known then. Polls
   // what the thread listens to.
   bool operator()();
   // With rounding taken off and added. Vertices by the numbers of the medium's mesh.
   Known at_vertex(Index v) const;
   Known at_target(std::size_t target) const;
-  std::uint64_t windows() const { return passed_; }
-  double horizon() const { return radius_; }  // values up to this are final
+  std::uint64_t windows() const { return windows_; }  // that came to wait somewhere
+  double horizon() const { return radius_; }          // values up to this are final
 
  private:
   struct Vertex {
@@ -82,6 +83,7 @@ class Run {
   void run_into(const Origin& origin, Index halfedge, double place, bool forwards);
   void finish_targets();
   bool is_complete() const;
+  bool is_too_dear() const;
 
   // ---- run.cpp: windows on their way
   void leave_face(Index h, const Window& w);
@@ -103,7 +105,6 @@ class Run {
   Origin origin_at(Index v) const;
   windows::WindowFace& face(Index h) { return medium_.structure.faces[h / 3]; }
   windows::EdgeBounds bounds(const windows::WindowFace& f, Index k, double inverse_weight) const;
-  double rounding_of(double cost) const;
 
   Medium& medium_;
   std::span<const detail::LocatedSource> sources_;
@@ -117,7 +118,7 @@ class Run {
   windows::LinkShadow link_;
   std::vector<Window> taken_, on_edge_, refracted_;
   std::vector<Index> corners_;
-  std::uint64_t passed_ = 0, most_ = 0, next_look_ = 0;
+  std::uint64_t windows_ = 0, next_look_ = 0;
   Index seen_ = 0;
   Poll poll_{256};
 };

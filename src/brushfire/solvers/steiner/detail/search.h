@@ -22,6 +22,9 @@ struct SearchLimits {
   Progress progress{};                       // called with shares of this search
 };
 
+// A front that has reached nothing.
+Front unreached(const WeightedMesh& mesh, const PointLayout& layout);
+
 class Search {
  public:
   // `towards`: sources are where one goes to, which tells a difference where slopes count. Those are for real costs
@@ -30,6 +33,9 @@ class Search {
 
   // Polls what the thread listens to. The sources' offsets are >= 0.
   void run(std::span<const detail::LocatedSource> sources, const SearchLimits& limits);
+  // Goes on from a front whose values are those of real paths: these rows are sent again, whole, and the sources start.
+  void resume(Front front, std::span<const detail::LocatedSource> sources, std::span<const Index> rows,
+              const SearchLimits& limits);
   // After a run: at any place. O(points on the rows of its faces).
   ValueAt at(const PointLocation& place) const { return places_.value(front_, sources_, place); }
   const Front& front() const { return front_; }

@@ -5,6 +5,7 @@
 #include <brushfire/solvers/steiner/detail/edge_table.h>
 #include <brushfire/solvers/steiner/weights.h>
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,10 +18,17 @@ struct Bridge {
   double cost = 0;                       // of crossing, in mesh().unit()
 };
 
+// Weights in the numbers of domain.open(), all of it without walls of cost +inf. O(faces).
+Weights weights_on_open(const Domain& domain, const Weights& weights);
+
 class WeightedMesh {
  public:
   // Throws as check() does. O(vertices + faces + edges that are special).
   WeightedMesh(const Domain& domain, const Weights& weights);
+
+  // The same mesh, in the same numbers, with other weights; null where walls or fences are others. Throws as check()
+  // does. O(faces + edges that are special).
+  std::shared_ptr<const WeightedMesh> reweighted(const Weights& weights) const;
 
   const Domain& domain() const { return domain_; }
   const Mesh& mesh() const { return fenced_.open(); }
@@ -37,6 +45,8 @@ class WeightedMesh {
 
   // Points and vertices of the caller's mesh there and back, as those of Domain.
   std::vector<SurfacePoint> on_open(const SurfacePoint& point) const;
+  Index open_vertex(Index v) const { return fenced_.vertex(v); }  // of domain().open()
+  Index face(Index f) const { return domain_.face(fenced_.face(f)); }
   Index vertex(Index v) const { return domain_.vertex(fenced_.vertex(v)); }
   void to_caller(std::span<SurfacePoint> points) const;
 
@@ -45,11 +55,13 @@ class WeightedMesh {
     Weights weights;
   };
   WeightedMesh(const Domain& domain, const Opened& given);
+  void set_weights(const Weights& opened);
   void find_bridges(const std::vector<EdgeCost>& fences);
   std::vector<Index> open_halfedges(Index a, Index b) const;
 
   Domain domain_;
-  Domain fenced_;  // of domain_.open()
+  Barriers barriers_;  // walls and fences of domain_.open()
+  Domain fenced_;      // that with these cut open
   EdgeTable edges_;
   std::vector<double> face_weight_, edge_weight_;
   std::vector<Bridge> bridges_;  // by `from`

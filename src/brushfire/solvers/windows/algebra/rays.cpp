@@ -8,6 +8,11 @@ Vec2 in_frame(const Frame& frame, Index k, const std::array<Real, 3>& weights) {
   return {along * frame.length + up * frame.apex.x, up * frame.apex.y};
 }
 
+Vec2 from_beyond(const Frame& frame, Index k, const std::array<Real, 3>& weights) {
+  const Real along = weights[k], up = weights[previous3(k)];
+  return {along * frame.length + up * frame.rest, -(up * frame.apex.y)};
+}
+
 SurfacePoint surface_point(const FaceWeights& at) {
   return {at.face,
           {static_cast<double>(at.weights[0]), static_cast<double>(at.weights[1]), static_cast<double>(at.weights[2])}};

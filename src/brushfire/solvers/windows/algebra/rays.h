@@ -27,6 +27,9 @@ struct KeptWindow {
 
 // A point of a face in the frame of the face's halfedge k; weights by corner.
 Vec2 in_frame(const Frame& frame, Index k, const std::array<Real, 3>& weights);
+// The same as the neighbour across the halfedge has it, which counts from the halfedge's end: a point near to that end
+// keeps its digits.
+Vec2 from_beyond(const Frame& frame, Index k, const std::array<Real, 3>& weights);
 
 // All descriptions of a point by faces that contain it: itself, and for a point on an edge, the edge's other faces.
 struct FaceWeights {

@@ -1,9 +1,12 @@
 // Bounds into values, inner numbers into the mesh's own, and what is known of a vertex in several parts into one.
 #include <brushfire/solvers/windows/paths/results.h>
 
+#include <brushfire/core/detail/double_double.h>
+
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <utility>
 
@@ -133,9 +136,9 @@ Results::Tally Results::write_vertices(const Part& part) {
     }
     const Index label = label_of(v);
     Rounding rounding = run_.rounding;
-    if (is_chord(outer, s)) {
+    if (const std::optional<Real> chord = chord_to(outer, s, label)) {
       rounding.absolute = 0;
-      s.upper = s.estimate = s.lower;  // a window that comes to less is rounded
+      s.upper = s.estimate = s.lower = run_.start_of(label) + *chord;  // a window that comes to less is rounded
     }
     const CertifiedValue r = read(s.lower, s.upper, s.estimate, label, rounding, outer);
     field_.distance[outer] = to_double(r.value - run_.shift);
@@ -223,25 +226,42 @@ void Results::write_targets() {
   }
 }
 
+namespace {
+
+// To some thirty digits: of those of coordinates nothing may be left beside the opposite edge of a needle.
+Real chord_between(const Mesh& mesh, const PointLocation& at, Index v) {
+  using detail::DoubleDouble;
+  const double scale = 1 / mesh.unit();  // a power of two; first, as squares of coordinates may have no number
+  const auto p = mesh.positions();
+  const Face& t = mesh.faces()[at.face];
+  BasicVec3<DoubleDouble> chord;
+  DoubleDouble sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const DoubleDouble weight = at.weights[k];
+    const auto along = [&](double to, double from) { return weight * (DoubleDouble(scale * to) - scale * from); };
+    chord =
+        chord + BasicVec3<DoubleDouble>{along(p[t[k]].x, p[v].x), along(p[t[k]].y, p[v].y), along(p[t[k]].z, p[v].z)};
+    sum += weight;
+  }
+  return static_cast<Real>(norm(chord) / sum);
+}
+
+}  // namespace
+
 // A vertex that a source sees within its own face is as far as that straight line is long, which is the chord in space:
-// no frame had a part in it, however near the source is.
-bool Results::is_chord(Index outer, const VertexValues& values) const {
+// no frame had a part in it, however near the source is. Nothing where that is not so.
+std::optional<Real> Results::chord_to(Index outer, const VertexValues& values, Index label) const {
   constexpr std::size_t kFewSources = 64;  // each of the others is looked at
   const std::span<const detail::LocatedSource> sources = run_.problem->sources;
   const Mesh& mesh = run_.structure.mesh;
   if (!values.direct || !mesh.has_positions() || sources.size() > kFewSources || detail::any_curve(sources))
-    return false;
-  if (sources.size() == 1) return true;
-  const double scale = 1 / mesh.unit();  // first, as squares of coordinates may have no number
+    return std::nullopt;
   // None is nearer, or not surely farther: then windows decided.
-  return std::none_of(sources.begin(), sources.end(), [&](const detail::LocatedSource& s) {
-    const Face& t = mesh.faces()[s.at.face];
-    brushfire::Vec3 chord;
-    for (std::size_t k = 0; k < 3; ++k) {
-      chord = chord + s.at.weights[k] * (scale * (mesh.positions()[t[k]] - mesh.positions()[outer]));
-    }
-    return run_.start_of(s.label) + norm(chord) < values.lower * (1 - 1e-12);
-  });
+  const bool another = sources.size() > 1 && std::any_of(sources.begin(), sources.end(), [&](const auto& s) {
+                         return run_.start_of(s.label) + chord_between(mesh, s.at, outer) < values.lower * (1 - 1e-12);
+                       });
+  if (another) return std::nullopt;
+  return chord_between(mesh, sources[label].at, outer);
 }
 
 bool Results::is_place(Index outer, Index label) const {

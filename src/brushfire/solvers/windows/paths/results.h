@@ -7,6 +7,7 @@
 #include <brushfire/solvers/windows/propagation/run_state.h>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,7 +27,7 @@ class Results {
   Index label_of(Index pseudo_source) const;
   VertexValues with_ghosts(Index v) const;
   bool is_owner(Index v) const;
-  bool is_chord(Index outer, const VertexValues& values) const;
+  std::optional<Real> chord_to(Index outer, const VertexValues& values, Index label) const;
   bool is_place(Index outer, Index label) const;
   CertifiedValue read(Real lower, Real upper, Real estimate, Index label, const Rounding& rounding,
                       Index outer = kNoIndex) const;

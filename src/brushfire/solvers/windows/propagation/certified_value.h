@@ -16,7 +16,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 // on even meshes, and what more it does on this one, to the nearest of vertices.
 inline constexpr double kReserve = 4e-12;
 inline double reserve_of(const Rounding& rounding) {
-  return std::max(kReserve, 2 * (rounding.relative + rounding.doubt));
+  return std::max(kReserve, 2 * (rounding.relative + rounding.doubt + rounding.each_face * rounding.faces));
 }
 // What adding the source's offset rounds away.
 inline constexpr double kOffsetRounding = 8 * std::numeric_limits<double>::epsilon();

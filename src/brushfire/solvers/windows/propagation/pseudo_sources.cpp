@@ -10,9 +10,22 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
-// A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
-// directions: limit rays through the corner are known to epsilon / share only.
+// A source nearer to a vertex than this share of the longest edge of a face there makes the vertex send light in all
+// directions: limit rays past the vertex are known to epsilon / share only, in the frames of that face.
 constexpr double kNear = 1e-3 * kFiner;
+
+Real longest_edge(const WindowFace& f) { return std::max({f.length[0], f.length[1], f.length[2]}); }
+
+// Of a source in a face at v: every face there counts, since light that passes v goes on through them.
+bool is_near(const PartState& part, Index v, Index face, Real distance) {
+  const WindowStructure& structure = part.run->structure;
+  const auto is_short = [&](Real edge) { return distance < kNear * edge; };
+  if (is_short(longest_edge(structure.faces[face]))) return true;
+  if (!is_short(structure.unevenness.longest())) return false;  // which is so nearly always
+  const std::span<const Index> corners = structure.corners_of(v, part.bench->corners);
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](Index h) { return is_short(longest_edge(structure.faces[h / 3])); });
+}
 
 // A path from v along an edge to w.
 void reach_along(PartState& part, Index v, Index w, Real length, const Ray& ray) {
@@ -144,7 +157,6 @@ void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pse
                    std::span<const SegmentEnd> ends) {
   const WindowFace& f = part.run->structure.faces[at.face];
   const std::array<Real, 3> distance = corner_distances_of(part.run->structure, at);
-  const Real longest = std::max({f.length[0], f.length[1], f.length[2]});
   for (Index k = 0; k < 3; ++k) {
     const Index h = 3 * at.face + next3(k);  // opposite of corner k
     Ray ray{{}, kNoIndex, pseudo_source, WindowKind::Circular};
@@ -155,12 +167,13 @@ void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pse
     const Real value = sigma + distance[k];
     part.vertices.reach(f.vertex[k], value);
     part.vertices.expect(f.vertex[k], value, 0);
-    see_vertex(part, f.vertex[k], value, ray, ray.halfedge == kNoIndex || distance[k] < kNear * longest);
+    see_vertex(part, f.vertex[k], value, ray,
+               ray.halfedge == kNoIndex || is_near(part, f.vertex[k], at.face, distance[k]));
     if (part.vertices[f.vertex[k]].lower == value) part.vertices.mark_direct(f.vertex[k]);
     if (ray.halfedge == kNoIndex) continue;
     Window w;
     w.b1 = f.length[next3(k)];
-    w.source = {w.b1 - ray.source.x, -ray.source.y};
+    w.source = from_beyond(frame_of(f, next3(k)), next3(k), at.weights);
     w.sigma = sigma;
     w.d0 = sigma + distance[previous3(k)];
     w.d1 = sigma + distance[next3(k)];
@@ -177,7 +190,6 @@ void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pse
 void start_along(PartState& part, const SegmentInFace& s, Index pseudo_source) {
   const WindowFace& f = part.run->structure.faces[s.face];
   if (!f.usable) return;
-  const Real longest = std::max({f.length[0], f.length[1], f.length[2]});
   for (Index k = 0; k < 3; ++k) {
     const Index edge = next3(k), h = 3 * s.face + edge;  // opposite of corner k
     if (!(f.length[edge] > 0)) continue;
@@ -189,7 +201,7 @@ void start_along(PartState& part, const SegmentInFace& s, Index pseudo_source) {
     part.vertices.reach(f.vertex[k], sight.value);
     part.vertices.expect(f.vertex[k], sight.value, 0);
     see_vertex(part, f.vertex[k], sight.value, {sight.source, h, pseudo_source, sight.kind},
-               length_of(way.x, way.y) < kNear * longest);
+               is_near(part, f.vertex[k], s.face, length_of(way.x, way.y)));
     // A segment on the edge of a face with an area lights nothing through that edge: the faces beyond start it, too.
     if (s.from[k] == 0 && s.to[k] == 0 && f.double_area > 0) continue;
     for (const int side : {1, -1}) {

@@ -296,7 +296,8 @@ WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
     face.has_target = false;
     face.usable = mesh.is_face_usable(order.faces[f]);
     const Real base = std::max({shape.length[0], shape.length[1], shape.length[2]});
-    unevenness.add(to_double(shape.length[0]), to_double(shape.length[1]), to_double(shape.length[2]));
+    unevenness.add(to_double(shape.length[0]), to_double(shape.length[1]), to_double(shape.length[2]),
+                   to_double(shape.double_area));
     face.thin = face.double_area <= kThin * base * base;
     for (Index k = 0; k < 3; ++k) {
       face.length[k] = shape.length[k];

@@ -32,11 +32,12 @@ WindowBlock BlockPool::allocate(Index windows) {
 }
 
 void BlockPool::clear() {
+  // First, and in a pool without chunks, too: it may have been given blocks of another one's.
+  for (std::vector<std::byte*>& free : free_) free.clear();
   if (chunks_.empty()) return;
   chunks_.resize(1);
   unused_ = chunks_.front().data();
   left_ = chunks_.front().size();
-  for (std::vector<std::byte*>& free : free_) free.clear();
 }
 
 Index ExactLists::allocate_link() {

@@ -1,0 +1,100 @@
+"""./run release [PART...]: what a version is handed out as, in dist/; of one commit the same bytes each time.
+
+Without a word: sources, wheel, bill, sums. The others take long, or root and a network:
+
+  sources  source tarball, sdist, npm tarball (where ./run web has built the WebAssembly)
+  wheel    the wheel of this machine's Python, audited, and used where there is no compiler
+  cross    wheels for other machines, by zig: cross manylinux-x86_64 musllinux-aarch64 ...; all of them without a name
+  debs     Debian packages from clean machines of bookworm and trixie, lintian's words, symbols and ABI: debs trixie
+  again    sources and wheel once more: the same bytes?
+  recipes  the recipes in packaging/ against what they speak of
+  bill     SBOM (CycloneDX) and a list of licences of what the wheel has in it
+  sums     SHA256SUMS of all of it
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import bill
+import native
+import sources
+from common import DIST, SCRATCH, commit_date, run, version
+
+PARTS = ("sources", "wheel", "cross", "debs", "again", "recipes", "bill", "sums")
+
+
+def wheel() -> None:
+    shutil.rmtree(SCRATCH / "native", ignore_errors=True)
+    made, libraries = native.wheel(sources.sdist())
+    (SCRATCH / "libraries.txt").write_text("\n".join(map(str, libraries)))
+    native.try_out(made)
+
+
+def libraries() -> list[Path]:
+    file = SCRATCH / "libraries.txt"
+    if not file.exists():
+        raise SystemExit("the bill is that of the wheel: ./run release wheel first")
+    return [Path(line) for line in file.read_text().split("\n") if line]
+
+
+def sums() -> None:
+    files = sorted(file for file in DIST.rglob("*") if file.is_file() and file.name != "SHA256SUMS")
+    lines = [f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {file.relative_to(DIST)}\n" for file in files]
+    (DIST / "SHA256SUMS").write_text("".join(lines))
+    for file in files:
+        print(f"{file.stat().st_size / 1e6:8.2f} MB  dist/{file.relative_to(DIST)}")
+
+
+def do(part: str, names: list[str]) -> None:
+    if part == "sources":
+        sources.all_of_them()
+    elif part == "wheel":
+        wheel()
+    elif part == "cross":
+        import wheels
+
+        for name in names or wheels.TARGETS:
+            print(*wheels.build(wheels.TARGETS[name]), sep="\n")
+    elif part == "debs":
+        import debs
+
+        for release in names or debs.PROFILES:
+            print(*debs.build(release), sep="\n")
+    elif part == "again":
+        sources.again()
+    elif part == "recipes":
+        import recipes
+
+        recipes.check()
+    elif part == "bill":
+        bill.write(libraries())
+    else:
+        sums()
+
+
+def main() -> None:
+    words = sys.argv[1:]
+    for word in words[:1]:
+        if word not in PARTS:
+            raise SystemExit(__doc__)
+    print("brushfire", version())
+    DIST.mkdir(exist_ok=True)
+    os.environ["SOURCE_DATE_EPOCH"] = commit_date()
+    if run("git", "status", "--porcelain"):
+        print("(the tree is not clean: the source tarball is that of the last commit, the packages are not)")
+    if not words:
+        shutil.rmtree(DIST)
+        DIST.mkdir()
+        for part in ("sources", "wheel", "bill", "sums"):
+            do(part, [])
+        return
+    do(words[0], words[1:])
+
+
+if __name__ == "__main__":
+    main()

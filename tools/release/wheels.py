@@ -1,0 +1,148 @@
+"""Wheels for machines that are not this one: the sdist compiled by zig, its libraries inside of the module.
+
+A wheel is what scikit-build-core would make of the same sources: its metadata is asked of it. On Linux auditwheel says
+whether the platform tag is kept. What a target cannot run here is named in dist/BUILT.txt.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+import time
+import zipfile
+from pathlib import Path
+
+import third_party
+from common import DIST, ROOT, SCRATCH, commit_date, run, say, version
+from zig import TARGETS, Target, cmake
+
+HEADERS = ("boost", "fast_float", "nlohmann", "stb", "eigen3")
+# The interpreter whose headers a build takes, and what its wheels are called. 3.12's stable ABI is that of all later ones.
+PYTHONS = {"cp311": ("3.11", "cp311-cp311"), "abi3": ("3.12", "cp312-abi3")}
+
+
+def interpreter(minor: str) -> Path | None:
+    """A Python of that version with numpy-less headers; the ones that are on the way come first."""
+    found = [shutil.which(f"python{minor}"), *Path("/root/.pyenv/versions").glob(f"{minor}.*/bin/python{minor}")]
+    for python in filter(None, found):
+        done = subprocess.run([python, "-c", "import sysconfig, pathlib; p = sysconfig.get_path('include'); "
+                               "assert (pathlib.Path(p) / 'Python.h').exists(); print(p)"],
+                              capture_output=True, text=True, check=False)  # fmt: skip
+        if done.returncode == 0:
+            return Path(python)
+    return None
+
+
+def unpacked_sdist() -> Path:
+    """So that what the sdist lacks is missed."""
+    folder = SCRATCH / f"brushfire-{version()}"
+    with tarfile.open(DIST / f"brushfire-{version()}.tar.gz") as archive:
+        for member in archive.getmembers():  # what has not changed keeps its date: nothing is compiled twice
+            file = SCRATCH / member.name
+            if member.isfile() and not (file.exists() and file.read_bytes() == archive.extractfile(member).read()):
+                archive.extract(member, SCRATCH, filter="data")
+    return folder
+
+
+def link_headers(prefix: Path) -> None:
+    """Of this machine's headers those that compile anywhere: its include folder as a whole would bring its C library along."""
+    for name in HEADERS:
+        link = prefix / "include" / name
+        if not link.is_symlink():
+            link.symlink_to(Path("/usr/include") / name)
+
+
+def module_name(target: Target, abi: str) -> str:
+    if target.system == "Windows":
+        return "_core.pyd" if abi == "abi3" else "_core.cp311-win_amd64.pyd"
+    if abi == "abi3":
+        return "_core.abi3.so"
+    libc = "musl" if "musl" in target.triple else "gnu"
+    return "_core.cpython-311-darwin.so" if target.system == "Darwin" else f"_core.cpython-311-{target.processor}-linux-{libc}.so"
+
+
+def module(target: Target, abi: str, sources: Path) -> Path:
+    """The compiled module. Both ABIs are built in one folder: the library is compiled once."""
+    python = interpreter(PYTHONS[abi][0])
+    if python is None:
+        raise SystemExit(f"{target.name}: no Python {PYTHONS[abi][0]} with headers here")
+    include = run(python, "-c", "import sysconfig; print(sysconfig.get_path('include'))")
+    nanobind = run(sys.executable, "-c", "import nanobind; print(nanobind.cmake_dir())")
+    build = SCRATCH / target.name / "build"
+    options = [f"-DPython_EXECUTABLE={python}", f"-DPython_INCLUDE_DIR={include}", f"-Dnanobind_DIR={nanobind}",
+               f"-Dnanobind_ROOT={nanobind}", "-DCMAKE_SHARED_LINKER_FLAGS=-s", "-DCMAKE_MODULE_LINKER_FLAGS=-s"]  # fmt: skip
+    defines = re.search(r"\[tool.scikit-build.cmake.define\]\n(.*?)\n\n", (ROOT / "pyproject.toml").read_text(), re.DOTALL)[1]
+    options += [f"-D{name}={value}" for name, value in re.findall(r'^(\w+) = "(\w+)"', defines, re.MULTILINE)]
+    cmake(target, sources, build, "-UPython*", "-U_Python*", "-UNB_*", *options, targets=("_core",))
+    made = [file for file in build.rglob("_core*") if file.suffix in (".so", ".pyd", ".dylib", ".dll")]
+    return max(made, key=lambda file: file.stat().st_mtime)
+
+
+def metadata(sources: Path) -> dict[str, bytes]:
+    """The files of dist-info but WHEEL and RECORD, as scikit-build-core writes them."""
+    folder = SCRATCH / "metadata"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    run(sys.executable, "-c", "import sys; from scikit_build_core.build import prepare_metadata_for_build_wheel as p; "
+        "p(sys.argv[1])", folder, cwd=sources)  # fmt: skip
+    info = next(folder.iterdir())
+    files = {f"{info.name}/{file.relative_to(info).as_posix()}": file.read_bytes() for file in sorted(info.rglob("*")) if file.is_file()}
+    for library in third_party.all_libraries():
+        copyright = third_party.sources(library)[0] / "debian/copyright"
+        files[f"{info.name}/licenses/linked/{library.source}.txt"] = copyright.read_bytes()
+    return {name: data for name, data in files.items() if Path(name).name not in ("WHEEL", "RECORD")}
+
+
+def pack(target: Target, abi: str, compiled: Path, sources: Path) -> Path:
+    """The wheel, with the commit's date in all of it."""
+    tag = PYTHONS[abi][1]
+    files = {f"brushfire/{file.relative_to(sources / 'python/brushfire').as_posix()}": file.read_bytes()
+             for file in sorted((sources / "python/brushfire").rglob("*"))
+             if file.is_file() and "__pycache__" not in file.parts}  # fmt: skip
+    page = ROOT / "web/dist-single/index.html"
+    if page.exists():
+        files["brushfire/viewer.html"] = page.read_bytes()
+    files[f"brushfire/{module_name(target, abi)}"] = compiled.read_bytes()
+    files |= metadata(sources)
+    info = f"brushfire-{version()}.dist-info"
+    tags = "".join(f"Tag: {tag}-{platform}\n" for platform in target.wheel.split("."))
+    files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: brushfire tools/release\nRoot-Is-Purelib: false\n{tags}".encode()
+    rows = [f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}"
+            for name, data in files.items()]  # fmt: skip
+    files[f"{info}/RECORD"] = ("\n".join([*rows, f"{info}/RECORD,,"]) + "\n").encode()
+    date = time.gmtime(int(commit_date()))[:6]
+    wheel = DIST / f"brushfire-{version()}-{tag}-{target.wheel}.whl"
+    with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, data in files.items():
+            entry = zipfile.ZipInfo(name, date)
+            entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o100644 << 16
+            archive.writestr(entry, data)
+    return wheel
+
+
+def build(target: Target, abis: tuple[str, ...] = tuple(PYTHONS)) -> list[Path]:
+    sources = unpacked_sdist()
+    link_headers(third_party.build(target))
+    wheels = []
+    for abi in abis:
+        say(f"{target.name}: {abi}")
+        wheels.append(pack(target, abi, module(target, abi, sources), sources))
+        if target.system == "Linux" and "gnu" in target.triple:
+            audit(wheels[-1])
+    return wheels
+
+
+def audit(wheel: Path) -> None:
+    said = run(sys.executable, "-m", "auditwheel", "show", wheel)
+    if "manylinux_2_17" not in said.replace("\n", " "):
+        raise SystemExit(said)
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:] or TARGETS:
+        print(*build(TARGETS[name]), sep="\n")

@@ -1,0 +1,5 @@
+"""A cortex in FreeSurfer's and GIFTI's files."""
+
+from files.cortex import write_cortex
+
+write_cortex()
