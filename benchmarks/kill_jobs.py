@@ -88,7 +88,9 @@ def by_dask(folder: Path, mesh_file: str, kills: int, seed: int) -> bool:
 
         def kill() -> None:
             while killer.left > 0 and not ended.wait(killer.random.uniform(0.2, 1.0)):
-                pids = [w.process.pid for w in cluster.workers.values() if w.process and w.process.pid]
+                # One that is at work: a nanny gives a worker up that dies while it starts.
+                known = client.scheduler_info(n_workers=-1)["workers"]
+                pids = [w.process.pid for w in cluster.workers.values() if w.worker_address in known and w.process]
                 if pids:
                     os.kill(killer.random.choice(pids), signal.SIGKILL)
                     killer.left, killer.done = killer.left - 1, killer.done + 1

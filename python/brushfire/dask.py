@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import os
 import threading
+import time
 from typing import Any
 
 import numpy as np
@@ -35,6 +36,7 @@ __all__ = ["distance_matrix"]
 _BLOCKS_PER_THREAD = 16
 # Of one block, and of its scattered mesh when all workers that had it are gone.
 _TRIES = 5
+_PAUSE = 1.0  # seconds between two of them
 
 
 def distance_matrix(
@@ -81,14 +83,23 @@ def distance_matrix(
     with shown(progress, "matrix") as report:
         left = set(range(count))
         for attempt in range(_TRIES):
-            # Scattered again where every worker that had it is gone.
-            part = where.scatter(_Part(mesh, arguments), broadcast=True, hash=False)
+            part = _scattered(where, _Part(mesh, arguments))  # again where every worker that had it is gone
             tasks = {where.submit(_run_block, part, k, count, pure=False, retries=_TRIES): k for k in sorted(left)}
             _collect(tasks, left, count, report, last=attempt + 1 == _TRIES)
             if not left:
                 where.submit(_finish, part, pure=False, retries=_TRIES).result()
                 return path_text(store)
     raise AssertionError("the last try raises")
+
+
+def _scattered(client: Client, part: _Part) -> Any:
+    """On all workers; those that die meanwhile are waited for."""
+    for _ in range(_TRIES - 1):
+        try:
+            return client.scatter(part, broadcast=True, hash=False)
+        except (OSError, TimeoutError):
+            time.sleep(_PAUSE)
+    return client.scatter(part, broadcast=True, hash=False)
 
 
 def _collect(tasks: dict[Any, int], left: set[int], count: int, report: Any, *, last: bool) -> None:

@@ -26,15 +26,13 @@
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/heat_options.h>
-#include <brushfire/solvers/window_field.h>
-#include <brushfire/version.h>
-#if BRUSHFIRE_WEIGHTS
 #include <brushfire/solvers/steiner/replanner.h>
 #include <brushfire/solvers/steiner/slope_pace.h>
 #include <brushfire/solvers/steiner/weighted_distance.h>
 #include <brushfire/solvers/steiner/weighting.h>
 #include <brushfire/solvers/steiner/weights.h>
-#endif
+#include <brushfire/solvers/window_field.h>
+#include <brushfire/version.h>
 #if BRUSHFIRE_HEAT
 #include <brushfire/solvers/heat.h>
 #include <brushfire/solvers/laplacian.h>

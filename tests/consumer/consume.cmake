@@ -112,7 +112,7 @@ if(WAY STREQUAL "find_package")
 elseif(WAY STREQUAL "core")
   # As it is for somebody who does that for the first time: no compiler cache.
   set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} "")
-  configure(core -DBRUSHFIRE_SOURCE=${SOURCE} -DBRUSHFIRE_WEIGHTS=OFF -DBRUSHFIRE_HEAT=OFF
+  configure(core -DBRUSHFIRE_SOURCE=${SOURCE} -DBRUSHFIRE_HEAT=OFF
     -DBRUSHFIRE_QUERIES=OFF -DBRUSHFIRE_IO=OFF -DBRUSHFIRE_FIGURE=OFF)
   build_telling_time(core)
   run(${SCRATCH}/core/core_consumer)

@@ -322,6 +322,17 @@ static Real lever_rounding(const Mesh& mesh) {
   return kEpsilon * lever * mesh.unit();
 }
 
+// Of the longest and the shortest edge of a face, the largest.
+static Real ratio_of(const Mesh& mesh) {
+  Real ratio = 1;
+  for (Index h = 0; h < mesh.halfedge_count(); h += 3) {
+    const auto l = mesh.lengths().subspan(h, 3);
+    const auto [shortest, longest] = std::minmax_element(l.begin(), l.end());
+    if (*shortest > 0) ratio = std::max(ratio, Real{*longest} / *shortest);
+  }
+  return ratio;
+}
+
 static Real shortest_edge(const Mesh& mesh) {
   double shortest = kInfinity;
   for (const double l : mesh.lengths()) {
@@ -394,7 +405,9 @@ Outcome Examination::windows(const Task& task) {
       // vertex is known no better than what rounding may do.
       const bool is_beside = curves_ && value.length < shortest_edge(case_.mesh);
       const Real beside = is_beside ? (1 + task.tolerance) * 32 * lever_rounding(case_.mesh) : 0;
-      hold_bound(value, blind ? kInfinity : task.tolerance, offsets, beside, vertex_text(v), out);
+      // Nor is any in wide numbers where lengths differ by 1e20: "Rounding" of docs/tolerance.md.
+      const Real turned = 32 * 0x1p-103L * ratio_of(case_.mesh) * value.length;
+      hold_bound(value, blind ? kInfinity : task.tolerance, offsets, beside + turned, vertex_text(v), out);
     } else {
       hold_side(value, task.kind == Task::Kind::Lower, vertex_text(v), out);
     }
@@ -461,17 +474,22 @@ void Examination::hold_path(const WindowField& field, const SurfacePoint& to, Re
   }
   if (path.length == kInfinity) return;
   const Real length = path.length;
-  const Source& source = case_.starts[start_][value.source];
   Real room = std::max(Real{kPathPromise} * length, Real{bound}) + rounding_of(case_.mesh, path);
-  const auto begin =
-      offset_at(case_.mesh, source, path.points.front(), static_cast<double>(room), value.distance - path.length);
+  // At the source that the field names, or at one that ties with it to rounding.
+  const auto begins_at = [&](const Source& from) {
+    return offset_at(case_.mesh, from, path.points.front(), static_cast<double>(room), value.distance - path.length);
+  };
+  const std::vector<Source>& sources = case_.starts[start_];
+  std::optional<double> begin = begins_at(sources[value.source]);
+  for (std::size_t s = 0; s < sources.size() && !begin; ++s) begin = begins_at(sources[s]);
   if (!begin) {
     ++out.lost;
     return out.complain(where + ": begins beside the curve, at " + place_text(path.points.front()));
   }
   const Real offset = *begin;
-  // Of adding the offset; where it changes along the curve, places that values do not tell apart are one.
-  const Real same = sloped_ ? 1024 : 2;
+  // Of adding the offset. Where it changes along the curve, a leg may miss the value by 8 epsilons of what both count
+  // from the least of them (WindowFieldData::room_for()), which is no more than twice these numbers together.
+  const Real same = sloped_ ? 16 : 2;
   room += same * kEpsilon * (std::abs(truth) + std::abs(offset)) + kLeastStep;
   const Real off_field = std::abs(length + offset - value.distance), off_truth = std::abs(length + offset - truth);
   if (length > 0) out.worst = std::max(out.worst, static_cast<double>(off_field / length));

@@ -32,6 +32,8 @@ constexpr Once kWrongOnce[] = {
     {"curves-zoo", 7, 11, "paths", "a curve with several values at a vertex, from which a path began with any"},
     {"curves-far-point", 7, 31, "paths", "a place near the end of a segment 1e16 long, by a share of one double"},
     {"curves-fans", 7, 25, "paths", "a search that trusted shares of a spoke 1e14 times as long as the leg"},
+    {"curves-repeated", 8, 56, "radius", "light along a face without area that was left at its far corner"},
+    {"curves-tiny-clusters", 8, 63, "paths", "a leg that explained a value to a share of the offsets along a curve"},
     {"curves-collinear", 7, 41, "exact", "parallel light of less than nothing at a place of the curve"},
 };
 

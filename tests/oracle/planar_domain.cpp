@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -73,6 +74,14 @@ struct Walls {
     for (const auto& [a, b] : closed_edges(domain)) edges.push_back({domain.points[a], domain.points[b]});
   }
 
+  Walls finer(std::int64_t scale) const {
+    Walls scaled = *this;
+    const auto grow = [&](LatticePoint& p) { p = {scale * p.x, scale * p.y}; };
+    for (auto& t : scaled.triangles) std::for_each(t.begin(), t.end(), grow);
+    for (auto& e : scaled.edges) std::for_each(e.begin(), e.end(), grow);
+    return scaled;
+  }
+
   bool block(LatticePoint p, LatticePoint q) const {
     return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) { return enters(p, q, t); }) ||
            std::any_of(edges.begin(), edges.end(), [&](const auto& e) { return overlaps(p, q, e[0], e[1]); });
@@ -129,7 +138,10 @@ PlanarDomain random_domain(std::mt19937& random, int cells, int holes, bool regu
 }
 
 DomainPoint random_point(const PlanarDomain& domain, std::mt19937& random) {
-  const auto f = static_cast<Index>(random() % domain.faces.size());
+  return random_point(domain, static_cast<Index>(random() % domain.faces.size()), random);
+}
+
+DomainPoint random_point(const PlanarDomain& domain, Index f, std::mt19937& random) {
   const Face& t = domain.faces[f];
   const LatticePoint a = domain.points[t[0]], b = domain.points[t[1]], c = domain.points[t[2]];
   switch (below(random, 3)) {
@@ -145,6 +157,10 @@ DomainPoint random_point(const PlanarDomain& domain, std::mt19937& random) {
 bool visible(const PlanarDomain& domain, LatticePoint p, LatticePoint q) { return !Walls(domain).block(p, q); }
 
 std::vector<long double> visibility_distances(const PlanarDomain& domain, LatticePoint source) {
+  return visibility_distances(domain, std::span(&source, 1));
+}
+
+std::vector<long double> visibility_distances(const PlanarDomain& domain, std::span<const LatticePoint> curve) {
   constexpr long double kNever = std::numeric_limits<long double>::infinity();
   const Walls walls(domain);
   const std::size_t count = domain.points.size();
@@ -160,7 +176,20 @@ std::vector<long double> visibility_distances(const PlanarDomain& domain, Lattic
       if (through < distance[v] && !walls.block(p, domain.points[v])) distance[v] = through;
     }
   };
-  relax_from(source, 0);
+  for (const LatticePoint p : curve) relax_from(p, 0);
+  for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+    for (std::size_t v = 0; v < count; ++v) {
+      if (!used[v]) continue;
+      const LatticePoint p = domain.points[v], step = curve[i + 1] - curve[i];
+      const std::int64_t ahead = dot(p - curve[i], step), all = dot(step, step);
+      if (ahead <= 0 || ahead >= all) continue;
+      // The foot is a place of a lattice that is finer by the share's denominator.
+      const std::int64_t common = std::gcd(ahead, all), share = ahead / common, finer = all / common;
+      const LatticePoint foot{finer * curve[i].x + share * step.x, finer * curve[i].y + share * step.y};
+      const long double way = std::abs(static_cast<long double>(cross(step, p - curve[i]))) / length(step);
+      if (way < distance[v] && !walls.finer(finer).block(foot, {finer * p.x, finer * p.y})) distance[v] = way;
+    }
+  }
   while (true) {
     std::size_t nearest = count;
     for (std::size_t v = 0; v < count; ++v) {

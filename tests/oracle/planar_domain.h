@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace brushfire::oracle {
@@ -35,6 +36,7 @@ struct DomainPoint {
   SurfacePoint on;
 };
 DomainPoint random_point(const PlanarDomain& domain, std::mt19937& random);
+DomainPoint random_point(const PlanarDomain& domain, Index face, std::mt19937& random);
 
 // Whether the open segment pq avoids the holes. Touching their corners and running along their edges is allowed,
 // running along an edge that lies between two holes is not.
@@ -43,5 +45,8 @@ bool visible(const PlanarDomain& domain, LatticePoint p, LatticePoint q);
 // Length of the shortest path inside the domain from the source to every vertex; infinity where there is none.
 // O(vertices^2 * removed).
 std::vector<long double> visibility_distances(const PlanarDomain& domain, LatticePoint source);
+// The same from a polyline, each segment of which lies in a face: from its places and the feet on its segments that are
+// seen. (What sees a segment but not its foot is reached around the corner that hides the foot.)
+std::vector<long double> visibility_distances(const PlanarDomain& domain, std::span<const LatticePoint> curve);
 
 }  // namespace brushfire::oracle

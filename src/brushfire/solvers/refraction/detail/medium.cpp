@@ -42,6 +42,7 @@ Medium::Medium(const steiner::WeightedMesh& weighted) : structure(weighted.mesh(
   bucket_width = structure.bucket_width * weighted.mean_weight();
   rounding = windows::rounding_of(structure.unevenness);
   rounding.absolute *= most;
+  if (least > 0) rounding.density /= least;  // faces by cost: where the cheapest is paid, a path is the longest
   rounding.relative +=
       kRefractions * std::numeric_limits<double>::epsilon() * farthest_source(most > 0 ? least / most : 1);
   followable = faces > 0 && weighted.all_bridges().empty() && weighted.pace() == nullptr && most < kInfinity &&

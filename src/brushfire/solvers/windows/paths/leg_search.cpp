@@ -54,7 +54,7 @@ class LegSearch {
       look(pass);
       if (best_.total < total) leg = leg_to(best_);
       total = std::min(total, best_.total);
-      if (total <= value_ + room_) break;
+      if (is_explained()) break;
     }
     return leg;
   }
@@ -97,7 +97,11 @@ class LegSearch {
     return looked_at >= most || on_hint_ >= std::max(most, faces);
   }
   bool by_length() const { return pass_ == Pass::ByLength; }
-  bool is_explained() const { return best_.total <= value_ + room_; }
+  bool is_explained() const { return best_.total <= value_ + room_of(best_); }
+  double room_of(const LegGoal& goal) const {
+    if (goal.source == kNoIndex) return room_;
+    return std::min(room_, kAgreement * (goal.length + origins_[goal.origin].before) + ask_.rounding);
+  }
 
   void start_from(Index origin) {
     const PointLocation& at = origins_[origin].at;
@@ -321,7 +325,7 @@ class LegSearch {
     goal.total = start + goal.length + origins_[goal.origin].before;
     const bool named =
         ask_.pseudo_source == (goal.source != kNoIndex ? goal.source + mesh_.vertex_count() : goal.vertex);
-    if (!by_length() && named && goal.total <= value_ + room_) {
+    if (!by_length() && named && goal.total <= value_ + room_of(goal)) {
       done_ = true;
     } else if (!(goal.total < best_.total)) {
       return;

@@ -23,6 +23,8 @@ struct LegQuestion {
   PointLocation at;
   double value = 0;
   double room = 0;  // by which the leg and the value where it starts may miss that
+  // The same for a leg of a length from a source, which is the whole path: kAgreement of the length and this.
+  double rounding = 0;
   // Where the value seems to have come from. It is looked at first, and no more than that.
   Index pseudo_source = kNoIndex;  // vertex, or vertex count + position of the source
   Index halfedge =
@@ -35,6 +37,9 @@ struct LegQuestion {
 // length, in numbers of 106 bits. Where nothing explains the value (to `room`), the shortest that was found. No
 // points where there is none. Its length is in mesh.unit().
 WindowField::Leg find_leg(const LegQuestion& question);
+
+// By what share of its length a path may miss the value at its end.
+inline constexpr double kAgreement = 1e-12;
 
 // A leg that passes a vertex at this share of the way to the nearer of its ends goes through it: the bend that this
 // makes cannot be told from straight.

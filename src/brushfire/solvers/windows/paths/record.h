@@ -5,6 +5,7 @@
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/windows/algebra/rays.h>
+#include <brushfire/solvers/windows/paths/leg_search.h>
 #include <brushfire/solvers/windows/paths/point_values.h>
 
 #include <cstddef>
@@ -69,9 +70,11 @@ struct WindowFieldData {
 
   // What a leg and the value where it starts may miss the value at its end by: a share of the whole path, and what
   // values are rounded by, which offsets make larger.
-  Real room_for(const PointRecord& record) const {
-    constexpr double kAgreement = 1e-12, kRounding = 8 * std::numeric_limits<double>::epsilon();
-    return kAgreement * length_of(record) + kRounding * record.value;
+  Real room_for(const PointRecord& record) const { return room_for(record.value, length_of(record)); }
+  // The same where the whole path is known to be so long. (Where offsets change along a curve, a value does not tell.)
+  static Real room_for(Real value, Real length) {
+    constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+    return kAgreement * length + kRounding * value;
   }
   // By how much more a leg and the value where it starts may come to at most, if the values at both of its ends are as
   // far off as they may be.

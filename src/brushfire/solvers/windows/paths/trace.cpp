@@ -70,7 +70,8 @@ class Tracer {
   // A real path of this length is there; is it the one that the value means?
   bool is_explained() const {
     const Real start = leg_.vertex != kNoIndex ? value_of(leg_.vertex) : start_of_source_;
-    return abs(start + leg_.length - value_) <= room_ && (!ends_on_curve_ || is_straight());
+    const Real room = ends_on_curve_ ? room_at_source() : room_;
+    return abs(start + leg_.length - value_) <= room && (!ends_on_curve_ || is_straight());
   }
 
   // A ray that ends at a point has met it; one that ends somewhere on a curve may have been led astray by frames, which
@@ -83,8 +84,10 @@ class Tracer {
       length += distance_within(mesh_, leg_.points[i].face, here, next);
       here = next;
     }
-    return abs(length - leg_.length) <= room_;
+    return abs(length - leg_.length) <= room_at_source();
   }
+
+  Real room_at_source() const { return std::min(room_, WindowFieldData::room_for(value_, leg_.length)); }
 
   // Over the position's edge into the face beyond, or to a vertex in the way.
   Step over_edge(Position& at) {

@@ -157,8 +157,8 @@ WindowField::Leg last_leg_of(const windows::WindowFieldData& data, const Found& 
     const std::function<double(Index)> vertex_value = [&](Index v) { return data.vertices[v].value; };
     const PointLocation at = locate(data.mesh, {found.at.face, found.at.weights});
     leg = windows::find_leg({data.mesh, data.sources, data.curves, data.shift, vertex_value, at, found.record.value,
-                             data.room_for(found.record), ray.pseudo_source, ray.halfedge, ray.source,
-                             ray.kind == windows::WindowKind::Linear});
+                             data.room_for(found.record), windows::WindowFieldData::room_for(found.record.value, 0),
+                             ray.pseudo_source, ray.halfedge, ray.source, ray.kind == windows::WindowKind::Linear});
     if (!leg.points.empty()) hold_to_value(data, found, leg);
   }
   leg.length *= data.mesh.unit();

@@ -1,0 +1,91 @@
+// What a change of one per cent of a terrain's weights takes, against a run from nothing; by where it changes.
+//
+//     time_replan [VERTICES]
+#include <brushfire/solvers/steiner/replanner.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace brushfire;
+
+Mesh hills(Index n) {
+  std::vector<Vec3> positions;
+  std::vector<Face> faces;
+  for (Index y = 0; y <= n; ++y) {
+    for (Index x = 0; x <= n; ++x) {
+      positions.push_back(
+          {double(x), double(y), 6 * std::sin(0.05 * x) * std::cos(0.07 * y) + std::sin(0.31 * x + 0.2 * y)});
+    }
+  }
+  for (Index y = 0; y < n; ++y) {
+    for (Index x = 0; x < n; ++x) {
+      const Index v = y * (n + 1) + x;
+      faces.push_back({v, v + 1, v + n + 2});
+      faces.push_back({v, v + n + 2, v + n + 1});
+    }
+  }
+  return Mesh(positions, faces);
+}
+
+// Of one thread, on a machine that others use, too.
+template <class Work>
+double seconds(Work work) {
+  const std::clock_t start = std::clock();
+  work();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+// A square of one per cent of the faces around the middle (x, y), shares of the side.
+void scale(std::vector<double>& weights, Index n, double x, double y, double factor) {
+  const Index side = n / 10, left = static_cast<Index>(x * n) - side / 2, low = static_cast<Index>(y * n) - side / 2;
+  for (Index j = low; j < low + side; ++j) {
+    for (Index i = left; i < left + side; ++i) {
+      for (Index k = 0; k < 2; ++k) weights[2 * (j * n + i) + k] *= factor;
+    }
+  }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const auto n = static_cast<Index>(std::sqrt(count > 1 ? std::atof(arguments[1]) : 140000.0)) - 1;
+  const Mesh mesh = hills(n);
+  std::mt19937 random(1);
+  Weights weights;
+  for (Index f = 0; f < mesh.face_count(); ++f)
+    weights.face.push_back(std::uniform_real_distribution(1.0, 4.0)(random));
+  const std::vector<Source> sources{{vertex_point(mesh, 0)}};
+  const double fresh = seconds([&] { Replanner(mesh, weights, sources); });
+  Replanner planner(mesh, weights, sources);
+  std::printf("%u vertices, a run from nothing: %.2f s\n", mesh.vertex_count(), fresh);
+  std::printf("%-34s %-8s %10s %10s %12s\n", "one per cent changes", "to", "time", "of a run", "points anew");
+  const auto row = [&](const char* where, const char* how) {
+    const double time = seconds([&] { planner.change(weights); });
+    std::printf("%-34s %-8s %8.3f s %8.1f %% %10.1f %%\n", where, how, time, 100 * time / fresh,
+                100 * planner.renewed());
+  };
+  const struct {
+    const char* name;
+    double x, y;
+  } places[] = {{"far from the source", 0.9, 0.9},
+                {"at the side", 0.9, 0.3},
+                {"in the middle", 0.5, 0.5},
+                {"a quarter of the way", 0.25, 0.25}};
+  for (const auto& p : places) {
+    scale(weights.face, n, p.x, p.y, 2);
+    row(p.name, "x 2");
+    scale(weights.face, n, p.x, p.y, 0.5);
+    row(p.name, "x 1/2");
+    const std::vector<double> before = weights.face;
+    scale(weights.face, n, p.x, p.y, kInfinity);
+    row(p.name, "a wall");
+    weights.face = before;
+    row(p.name, "and back");
+  }
+}
