@@ -22,7 +22,9 @@ std::span<Window> set_apart(std::span<Window> windows, std::vector<Window>& on_e
   for (auto w = windows.begin(); w != others; ++w) {
     const Real x = w->source.x;
     const bool beaten = std::any_of(windows.begin(), windows.end(), [&](const Window& o) {
-      return o.b0 <= x && x <= o.b1 && value_at(o, x) - w->source.y < w->sigma - tie(w->sigma) - moved(o);
+      return o.b0 <= x && x <= o.b1 &&
+             value_at(o, x) - w->source.y <
+                 w->sigma - tie(w->sigma) - (o.kind == WindowKind::Linear ? moved(o) : Real{0});
     });
     if (!beaten) on_edge.push_back(*w);
   }
