@@ -173,6 +173,7 @@ TEST(Crowds, ALegFromTheHubIsFoundByLength) {
                                                   locate(mesh, vertex_point(mesh, 0)),
                                                   straight * (1 - 1e-3),
                                                   0,
+                                                  0,
                                                   kNoIndex,
                                                   kNoIndex,
                                                   {}});
