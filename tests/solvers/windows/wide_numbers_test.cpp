@@ -95,6 +95,24 @@ TEST(WideNumbers, AreWithinTheBoundsOfDoublesOnUnevenMeshes) {
   }
 }
 
+// Two triangles with a face between them that has two vertices at one place: its edges are the same segment.
+TEST(WideNumbers, LightCrossesAFaceWithAnEdgeOfNoLength) {
+  const std::vector<Vec3> p{{0, 0, 2}, {0, 0, 0}, {0, 0, 0}, {-1, 0, 1}, {1, 0, 1}};
+  const std::vector<Face> faces{{0, 1, 3}, {0, 2, 1}, {0, 4, 2}};
+  const Mesh mesh(p, faces);
+  const auto narrow = windows::in_doubles::make_engine(mesh, kOnePart, windows::Merging::Always);
+  const auto wide = windows::in_double_doubles::make_engine(mesh, kOnePart, windows::Merging::Always);
+  for (const SurfacePoint& at : {SurfacePoint{1, {0.25, 0.75, 0}}, SurfacePoint{1, {0.25, 0, 0.75}},
+                                 SurfacePoint{1, {0.25, 0.25, 0.5}}, SurfacePoint{0, {0.25, 0.75, 0}}}) {
+    for (const auto* engine : {&narrow, &wide}) {
+      DistanceOptions options;
+      options.method = Method::Exact;
+      const DistanceField field = test::run(**engine, mesh, {Source{at}}, options);
+      for (const Index v : {3u, 4u}) EXPECT_NEAR(mesh.unit() * field.distance[v], std::hypot(1, 0.5), 1e-14) << v;
+    }
+  }
+}
+
 TEST(WideNumbers, PathsAreAsLongAsTheirField) {
   const Mesh mesh = ball(1e7);
   DistanceOptions options;

@@ -28,7 +28,10 @@ Vec3 scaled(const brushfire::Vec3& p, double scale) {
   const auto longest =
       static_cast<std::size_t>(std::max_element(shape.length.begin(), shape.length.end()) - shape.length.begin());
   shape.double_area = norm(cross(edge[(longest + 1) % 3], edge[(longest + 2) % 3]));
-  for (std::size_t k = 0; k < 3; ++k) shape.set_foot(k, -dot(edge[k], edge[(k + 2) % 3]) / shape.length[k]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    // On an edge without length: nowhere else.
+    shape.set_foot(k, shape.length[k] > 0 ? -dot(edge[k], edge[(k + 2) % 3]) / shape.length[k] : Real{0});
+  }
   return shape;
 }
 
@@ -41,7 +44,8 @@ Vec3 scaled(const brushfire::Vec3& p, double scale) {
   if (q > 0) shape.double_area = 0.5 * sqrt(q);
   for (std::size_t k = 0; k < 3; ++k) {
     const Real left = shape.length[(k + 2) % 3], right = shape.length[(k + 1) % 3];
-    shape.set_foot(k, 0.5 * (shape.length[k] + (left - right) * ((left + right) / shape.length[k])));
+    const Real length = shape.length[k];
+    shape.set_foot(k, length > 0 ? 0.5 * (length + (left - right) * ((left + right) / length)) : Real{0});
   }
   return shape;
 }
