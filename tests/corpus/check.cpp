@@ -357,8 +357,9 @@ Outcome Examination::targets() {
     const Real room =
         std::max(Real{largest_bound(field)}, beside) + rounding_of(case_.mesh, case_.targets[i]) + kLeastStep;
     const Real length = std::abs(truth - offset);
-    const bool wrong = same_reach({field.target_distance[i], truth, length, kInfinity}, "", out) &&
-                       std::abs(field.target_distance[i] - truth) > room + Real{kExactPromise} * length;
+    const bool wrong =
+        same_reach({field.target_distance[i], truth, length, kInfinity}, target_text(case_.targets[i]), out) &&
+        std::abs(field.target_distance[i] - truth) > room + Real{kExactPromise} * length;
     if (wrong) hold_exact({field.target_distance[i], truth, length, kInfinity}, target_text(case_.targets[i]), out);
   }
   return out;

@@ -34,6 +34,10 @@ constexpr Once kWrongOnce[] = {
     {"curves-fans", 7, 25, "paths", "a search that trusted shares of a spoke 1e14 times as long as the leg"},
     {"curves-repeated", 8, 56, "radius", "light along a face without area that was left at its far corner"},
     {"curves-tiny-clusters", 8, 63, "paths", "a leg that explained a value to a share of the offsets along a curve"},
+    {"curves-zoo", 9, 99, "exact",
+     "wider numbers in a face with an edge without length, where it is entered from beyond"},
+    {"curves-bipyramids", 9, 74, "targets", "a run that ended by a path shorter by rounding than its target's light"},
+    {"curves-mutilated", 9, 4, "targets", "the same, on lengths of 1e11"},
     {"curves-collinear", 7, 41, "exact", "parallel light of less than nothing at a place of the curve"},
 };
 

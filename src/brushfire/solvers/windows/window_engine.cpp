@@ -209,7 +209,8 @@ class WindowEngine final : public NumberedEngine {
     return static_cast<double>(touched) / run_.structure.vertex_count();
   }
 
-  // Nothing beyond the farthest target matters once all have been reached.
+  // Nothing beyond the farthest target matters once all have been reached. Some path may come to less than the light that
+  // a target is read from, by rounding.
   void narrow_radius() {
     next_target_check_ = updates_ + run_.targets.size() + 256;
     Real farthest = 0;
@@ -219,7 +220,7 @@ class WindowEngine final : public NumberedEngine {
       farthest = std::max(farthest,
                           vertex ? run_.values[run_.structure.inner_vertex(at.vertex)].upper : run_.targets[i].upper);
     }
-    run_.radius = std::min(run_.radius, farthest / kDominated);
+    run_.radius = std::min(run_.radius, farthest / kDominated + run_.rounding.of(to_double(farthest)));
   }
 
   // ---- messages
