@@ -250,7 +250,7 @@ VoronoiDiagram voronoi(const Domain& domain, std::span<const Source> sources, co
   run.targets.clear();
   // All of it on the open mesh, where what lies at walls is there once for every side.
   const Mesh& mesh = domain.open();
-  if (run.weighting && domain.has_walls()) run.weighting = std::make_shared<const Weighting>(run.weighting->on_open());
+  if (run.weighting && domain.has_walls()) run.weighting = run.weighting->on_open();
   const detail::WalledRun walled(domain, sources, run);
   DistanceField field = distance(mesh, walled.sources(), run);
   VoronoiDiagram diagram;

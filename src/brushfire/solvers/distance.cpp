@@ -5,13 +5,14 @@
 #include <brushfire/core/detail/prefault.h>
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
+#include <brushfire/solvers/detail/cost_runs.h>
 #include <brushfire/solvers/detail/curve_feet.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/detail/finish.h>
 #include <brushfire/solvers/detail/methods.h>
 #include <brushfire/solvers/detail/offsets.h>
 #include <brushfire/solvers/detail/walls.h>
-#include <brushfire/solvers/steiner/detail/as_distance.h>
+#include <brushfire/solvers/steiner/weighting.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,20 @@ void assign(std::vector<T>& array, std::size_t size, T value) {
     prefault(array.data(), size * sizeof(T));
   }
   array.assign(size, value);
+}
+
+// The reached vertices of it alone.
+SparseField reached_of(DistanceField field) {
+  SparseField result;
+  for (Index v = 0; v < field.distance.size(); ++v) {
+    if (field.distance[v] == kInfinity) continue;
+    result.vertex.push_back(v);
+    result.distance.push_back(field.distance[v]);
+    result.source.push_back(field.source[v]);
+  }
+  result.target_distance = std::move(field.target_distance);
+  result.target_source = std::move(field.target_source);
+  return result;
 }
 
 using detail::engine_of, detail::Offsets;
@@ -109,8 +124,8 @@ struct DistanceSolver::Workspace {
   std::vector<detail::LocatedSource> points;  // in place of these, where there are curves that the method does not take
   detail::Offsets offsets;                    // of these
   std::vector<PointLocation> targets;         // those that are somewhere
-  std::shared_ptr<const Weighting> weighting;  // of the last run that had one, and its solver
-  std::optional<WeightedSolver> weighted;
+  std::shared_ptr<const Weighting> weighting;  // of the last run that had one
+  std::unique_ptr<detail::CostRuns> costs;     // its
 
   detail::Engine& engine(Method method);
   DistanceField run_weighted(std::span<const Source> from, const DistanceOptions& options);
@@ -141,10 +156,10 @@ detail::Engine& DistanceSolver::Workspace::engine(Method method) {
 
 DistanceField DistanceSolver::Workspace::run_weighted(std::span<const Source> from, const DistanceOptions& options) {
   if (weighting != options.weighting) {
-    weighted.emplace(options.weighting->solver());
+    costs = options.weighting->runs();
     weighting = options.weighting;
   }
-  return steiner::run_as_distance(*weighted, domain, from, options);
+  return (*costs)(domain, from, options);
 }
 
 void DistanceSolver::Workspace::locate_all(std::span<const Source> from, const DistanceOptions& options) {
@@ -242,7 +257,7 @@ void DistanceSolver::Workspace::run(std::span<const Source> from, const Distance
 void DistanceSolver::distance_sparse(std::span<const Source> sources, const DistanceOptions& options,
                                      SparseField& field) {
   if (options.weighting) {
-    field = steiner::reached_of(workspace_->run_weighted(sources, options));
+    field = reached_of(workspace_->run_weighted(sources, options));
     return;
   }
   if (!workspace_->domain.has_walls()) return workspace_->run_sparse(sources, options, field);

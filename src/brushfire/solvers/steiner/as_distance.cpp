@@ -1,11 +1,13 @@
 // From WeightedField to DistanceField.
-#include <brushfire/solvers/steiner/detail/as_distance.h>
+#include <brushfire/solvers/detail/cost_runs.h>
+#include <brushfire/solvers/steiner/weighting.h>
 
 #include <brushfire/core/error.h>
 
 #include <utility>
 
-namespace brushfire::steiner {
+namespace brushfire {
+namespace steiner {
 namespace {
 
 void check(const Domain& domain, const DistanceOptions& options) {
@@ -26,8 +28,6 @@ void check(const Domain& domain, const DistanceOptions& options) {
     throw Error(ErrorCode::InvalidArgument, "lower bounds: where slopes count there are upper ones only");
   }
 }
-
-}  // namespace
 
 DistanceField run_as_distance(WeightedSolver& solver, const Domain& domain, std::span<const Source> sources,
                               const DistanceOptions& options) {
@@ -68,17 +68,22 @@ DistanceField run_as_distance(WeightedSolver& solver, const Domain& domain, std:
   return field;
 }
 
-SparseField reached_of(DistanceField field) {
-  SparseField result;
-  for (Index v = 0; v < field.distance.size(); ++v) {
-    if (field.distance[v] == kInfinity) continue;
-    result.vertex.push_back(v);
-    result.distance.push_back(field.distance[v]);
-    result.source.push_back(field.source[v]);
-  }
-  result.target_distance = std::move(field.target_distance);
-  result.target_source = std::move(field.target_source);
-  return result;
-}
+class Runs : public detail::CostRuns {
+ public:
+  explicit Runs(WeightedSolver solver) : solver_(std::move(solver)) {}
 
-}  // namespace brushfire::steiner
+  DistanceField operator()(const Domain& domain, std::span<const Source> sources,
+                           const DistanceOptions& options) override {
+    return run_as_distance(solver_, domain, sources, options);
+  }
+
+ private:
+  WeightedSolver solver_;
+};
+
+}  // namespace
+}  // namespace steiner
+
+std::unique_ptr<detail::CostRuns> Weighting::runs() const { return std::make_unique<steiner::Runs>(solver()); }
+
+}  // namespace brushfire

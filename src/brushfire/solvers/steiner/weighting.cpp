@@ -75,8 +75,8 @@ Weighting::Weighting(const Domain& domain, Weights weights, const WeightingOptio
   prototype_.prepare(options.tolerance);
 }
 
-Weighting Weighting::on_open() const {
-  return Weighting(domain_.open(), steiner::weights_on_open(domain_, weights_), options_);
+std::shared_ptr<const Weighting> Weighting::on_open() const {
+  return std::make_shared<const Weighting>(domain_.open(), steiner::weights_on_open(domain_, weights_), options_);
 }
 
 double Weighting::along(Index face, Index from, Index to) const {

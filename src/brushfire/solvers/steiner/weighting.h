@@ -16,6 +16,10 @@
 
 namespace brushfire {
 
+namespace detail {
+class CostRuns;
+}
+
 struct WeightingOptions {
   double tolerance = 0.01;  // as WeightedOptions::tolerance
   bool towards = false;     // as WeightedOptions::towards
@@ -34,6 +38,9 @@ class Weighting {
   // Throws as check(mesh, weights) does, for a tolerance that is out of range, and Error(TooLarge) where the points
   // need more memory than there is. O(points on edges).
   Weighting(const Domain& domain, Weights weights, const WeightingOptions& options = {});
+  Weighting(const Weighting&) = default;
+  Weighting& operator=(const Weighting&) = default;
+  virtual ~Weighting() = default;
 
   const Domain& domain() const { return domain_; }
   const Weights& weights() const { return weights_; }
@@ -41,10 +48,15 @@ class Weighting {
 
   // A solver of its own for a thread: O(1), what was prepared is shared.
   WeightedSolver solver() const { return prototype_.twin(); }
-  // The same for domain().open() as a mesh without walls, in its numbers. O(points).
-  Weighting on_open() const;
+
+  // What queries ask of it, who link what computes costs only where there is a Weighting: hence virtual.
+
+  // The same solver, which answers as distance() does.
+  virtual std::unique_ptr<detail::CostRuns> runs() const;
+  // The same costs for domain().open() as a mesh without walls, in its numbers. O(points).
+  virtual std::shared_ptr<const Weighting> on_open() const;
   // What it costs to go along an edge within a face of domain().mesh(), between two of its corners (0, 1, 2).
-  double along(Index face, Index from, Index to) const;
+  virtual double along(Index face, Index from, Index to) const;
 
  private:
   Domain domain_;

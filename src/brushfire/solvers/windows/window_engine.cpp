@@ -209,8 +209,8 @@ class WindowEngine final : public NumberedEngine {
     return static_cast<double>(touched) / run_.structure.vertex_count();
   }
 
-  // Nothing beyond the farthest target matters once all have been reached. Some path may come to less than the light that
-  // a target is read from, by rounding.
+  // Nothing beyond the farthest target matters once all have been reached. Some path may come to less than the light
+  // that a target is read from, by rounding.
   void narrow_radius() {
     next_target_check_ = updates_ + run_.targets.size() + 256;
     Real farthest = 0;
