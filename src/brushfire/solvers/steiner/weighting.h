@@ -38,8 +38,6 @@ class Weighting {
   // Throws as check(mesh, weights) does, for a tolerance that is out of range, and Error(TooLarge) where the points
   // need more memory than there is. O(points on edges).
   Weighting(const Domain& domain, Weights weights, const WeightingOptions& options = {});
-  Weighting(const Weighting&) = default;
-  Weighting& operator=(const Weighting&) = default;
   virtual ~Weighting() = default;
 
   const Domain& domain() const { return domain_; }
