@@ -13,22 +13,12 @@
 #include <string>
 #include <vector>
 
+#include "support/sheets.h"
+
 namespace brushfire {
 namespace {
 
-// [0, width] x [0, height] in cells of a quarter, shaken but for what lies on the sides and on whole numbers of x or y.
-Mesh sheet(double width, double height, std::uint64_t seed) {
-  const auto columns = static_cast<Index>(4 * width), rows = static_cast<Index>(4 * height);
-  Shape shape = shapes::plane(columns, rows, width, height);
-  Random random(seed);
-  for (Vec3& p : shape.positions) {
-    const double dx = random.uniform(-0.07, 0.07), dy = random.uniform(-0.07, 0.07);
-    const bool on_x = p.x == std::floor(p.x), on_y = p.y == std::floor(p.y);
-    if (!on_x) p.x += dx;
-    if (!on_y) p.y += dy;
-  }
-  return shape.mesh();
-}
+using test::shaken_sheet;
 
 std::vector<double> weights_by_place(const Mesh& mesh, const std::function<double(Vec3)>& weight) {
   std::vector<double> weights;
@@ -110,7 +100,7 @@ constexpr double kClosedForm = 1e-9;
 TEST(WeightedPath, RefractsAtTheBorderOfTwoHalfPlanesAsSnellSays) {
   for (const double ratio : {2.0, 0.5, 10.0, 1e9}) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      const Mesh mesh = sheet(2, 3, seed);
+      const Mesh mesh = shaken_sheet(2, 3, seed);
       const Weights weights{.face = weights_by_place(mesh, [&](Vec3 p) { return p.x < 1 ? 1 : ratio; })};
       const Index a = vertex_near(mesh, 0, 0.5), b = vertex_near(mesh, 2, 2.5);
       const Vec3 p = mesh.positions()[a], q = mesh.positions()[b];
@@ -124,7 +114,7 @@ TEST(WeightedPath, RefractsAtTheBorderOfTwoHalfPlanesAsSnellSays) {
 TEST(WeightedPath, RefractsAtEveryOneOfFourLayers) {
   const std::vector<double> layers{1, 3, 2, 5};
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Mesh mesh = sheet(4, 3, seed);
+    const Mesh mesh = shaken_sheet(4, 3, seed);
     const Weights weights{.face =
                               weights_by_place(mesh, [&](Vec3 p) { return layers[static_cast<std::size_t>(p.x)]; })};
     const Index a = vertex_near(mesh, 0, 0.25), b = vertex_near(mesh, 4, 2.75);
@@ -145,7 +135,7 @@ TEST(WeightedPath, RefractsAtEveryOneOfFourLayers) {
 
 TEST(WeightedPath, EntersAndLeavesAFasterHalfPlaneAtTheCriticalAngle) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Mesh mesh = sheet(5, 2, seed);
+    const Mesh mesh = shaken_sheet(5, 2, seed);
     const Weights weights{.face = weights_by_place(mesh, [&](Vec3 p) { return p.y > 1 ? 3 : 1; })};
     const Index a = vertex_near(mesh, 0, 1.5), b = vertex_near(mesh, 5, 1.5);
     const double ha = mesh.positions()[a].y - 1, hb = mesh.positions()[b].y - 1;
@@ -155,7 +145,7 @@ TEST(WeightedPath, EntersAndLeavesAFasterHalfPlaneAtTheCriticalAngle) {
 
 TEST(WeightedPath, TakesACheapRoadAtTheCriticalAngle) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Mesh mesh = sheet(5, 2, seed);
+    const Mesh mesh = shaken_sheet(5, 2, seed);
     const Weights weights{.edges = edges_where(mesh, [](Vec3 p) { return p.y == 1; }, 0.25, 0)};
     const Index a = vertex_near(mesh, 0, 1.5), b = vertex_near(mesh, 5, 0.5);
     const double ha = mesh.positions()[a].y - 1, hb = 1 - mesh.positions()[b].y;
@@ -166,7 +156,7 @@ TEST(WeightedPath, TakesACheapRoadAtTheCriticalAngle) {
 
 TEST(WeightedPath, PaysForTheFenceOrGoesRoundIt) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Mesh mesh = sheet(2, 3, seed);
+    const Mesh mesh = shaken_sheet(2, 3, seed);
     const Index a = vertex_near(mesh, 0, 2), b = vertex_near(mesh, 2, 2);
     const auto whole = [](Vec3 p) { return p.x == 1; };
     const auto half = [](Vec3 p) { return p.x == 1 && p.y >= 1; };
@@ -181,7 +171,7 @@ TEST(WeightedPath, PaysForTheFenceOrGoesRoundIt) {
 }
 
 TEST(WeightedPath, GoesThroughAWallOnARoad) {
-  const Mesh mesh = sheet(3, 2, 1);
+  const Mesh mesh = shaken_sheet(3, 2, 1);
   const auto is_wall = [](Vec3 p) { return p.x > 1 && p.x < 2; };
   Weights weights{.face = weights_by_place(mesh, [&](Vec3 p) { return is_wall(p) ? kInfinity : 1; })};
   const Index a = vertex_near(mesh, 0, 1), b = vertex_near(mesh, 3, 1);

@@ -11,23 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "support/sheets.h"
+
 namespace brushfire {
 namespace {
 
-constexpr double kKeptBack = 1e-10;  // at least, for rounding
+using test::shaken_sheet;
 
-// [0, width] x [0, height] in cells of a quarter, shaken but for what lies on the sides and on whole numbers of x or y.
-Mesh shaken_sheet(double width, double height, std::uint64_t seed) {
-  Shape shape = shapes::plane(static_cast<Index>(4 * width), static_cast<Index>(4 * height), width, height);
-  Random random(seed);
-  for (Vec3& p : shape.positions) {
-    const double dx = random.uniform(-0.07, 0.07), dy = random.uniform(-0.07, 0.07);
-    const bool on_x = p.x == std::floor(p.x), on_y = p.y == std::floor(p.y);
-    if (!on_x) p.x += dx;
-    if (!on_y) p.y += dy;
-  }
-  return shape.mesh();
-}
+constexpr double kKeptBack = 1e-10;  // at least, for rounding
 
 Vec3 middle_of(const Mesh& mesh, Index f) {
   const Face& t = mesh.faces()[f];

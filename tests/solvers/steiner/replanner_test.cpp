@@ -10,27 +10,16 @@
 #include <cmath>
 #include <random>
 
+#include "support/sheets.h"
+
 namespace brushfire {
 namespace {
 
-// [0, n] x [0, n], rough, in squares of two faces each; vertex y * (n + 1) + x, faces 2 (y n + x) and the next one.
+using test::sources_at;
+
 Mesh terrain(Index n, double roughness) {
   std::mt19937 random(3);
-  std::vector<Vec3> positions;
-  std::vector<Face> faces;
-  for (Index y = 0; y <= n; ++y) {
-    for (Index x = 0; x <= n; ++x) {
-      positions.push_back({double(x), double(y), std::uniform_real_distribution(0.0, roughness)(random)});
-    }
-  }
-  for (Index y = 0; y < n; ++y) {
-    for (Index x = 0; x < n; ++x) {
-      const Index v = y * (n + 1) + x;
-      faces.push_back({v, v + 1, v + n + 2});
-      faces.push_back({v, v + n + 2, v + n + 1});
-    }
-  }
-  return Mesh(positions, faces);
+  return test::squares(n, [&](Index, Index) { return std::uniform_real_distribution(0.0, roughness)(random); });
 }
 
 Weights random_weights(const Mesh& mesh, unsigned seed) {
@@ -40,12 +29,6 @@ Weights random_weights(const Mesh& mesh, unsigned seed) {
     weights.face.push_back(std::uniform_real_distribution(1.0, 5.0)(random));
   }
   return weights;
-}
-
-std::vector<Source> at(const Mesh& mesh, const std::vector<Index>& vertices) {
-  std::vector<Source> sources;
-  for (const Index v : vertices) sources.push_back({vertex_point(mesh, v)});
-  return sources;
 }
 
 // Costs and sources; and paths of that cost.
@@ -76,7 +59,7 @@ void expect_as_fresh(const Replanner& planner, const std::vector<Source>& source
 TEST(Replanner, FollowsWeightsThatRiseAndFall) {
   const Mesh mesh = terrain(14, 0.7);
   Weights weights = random_weights(mesh, 1);
-  const std::vector<Source> sources = at(mesh, {0, 130});
+  const std::vector<Source> sources = sources_at(mesh, {0, 130});
   Replanner planner(mesh, weights, sources);
   EXPECT_EQ(planner.renewed(), 1);
   expect_as_fresh(planner, sources);
@@ -97,7 +80,7 @@ TEST(Replanner, FollowsWallsThatComeAndGo) {
   const Index n = 14;
   const Mesh mesh = terrain(n, 0.4);
   Weights weights = random_weights(mesh, 2);
-  const std::vector<Source> sources = at(mesh, {0});
+  const std::vector<Source> sources = sources_at(mesh, {0});
   Replanner planner(mesh, weights, sources);
   const std::vector<double> before = planner.field().distance;
   std::vector<double> old;
@@ -126,7 +109,7 @@ TEST(Replanner, FollowsFencesAndRoads) {
   const Index n = 12;
   const Mesh mesh = terrain(n, 0.4);
   Weights weights = random_weights(mesh, 3);
-  const std::vector<Source> sources = at(mesh, {0, 80});
+  const std::vector<Source> sources = sources_at(mesh, {0, 80});
   Replanner planner(mesh, weights, sources);
   const auto edge = [&](Index x, Index y, double along, double crossing) {
     weights.edges.push_back({{y * (n + 1) + x, (y + 1) * (n + 1) + x}, along, crossing});
@@ -155,8 +138,8 @@ TEST(Replanner, FollowsFencesAndRoads) {
 TEST(Replanner, FollowsSources) {
   const Mesh mesh = terrain(12, 0.6);
   const Weights weights = random_weights(mesh, 4);
-  Replanner planner(mesh, weights, at(mesh, {0, 90}));
-  std::vector<Source> sources = at(mesh, {0, 91});
+  Replanner planner(mesh, weights, sources_at(mesh, {0, 90}));
+  std::vector<Source> sources = sources_at(mesh, {0, 91});
   planner.move(sources);
   expect_as_fresh(planner, sources);
   EXPECT_LT(planner.renewed(), 0.9);
@@ -178,7 +161,7 @@ TEST(Replanner, FollowsWhereSlopesCountAndInWalledDomains) {
   const Mesh mesh = terrain(10, 0.5);
   const Domain domain(mesh, {.edges = {{60, 71}, {71, 82}}});
   Weights weights = random_weights(mesh, 6);
-  const std::vector<Source> sources = at(mesh, {5});
+  const std::vector<Source> sources = sources_at(mesh, {5});
   for (const bool slopes : {false, true}) {
     if (slopes) weights.pace = SlopePace::tobler();
     const ReplannerOptions options{.tolerance = 0.02, .towards = slopes};
@@ -197,7 +180,7 @@ TEST(Replanner, FollowsWhereSlopesCountAndInWalledDomains) {
 TEST(Replanner, WhatIsRefusedLeavesAllAsItWas) {
   const Mesh mesh = terrain(6, 0.3);
   Weights weights = random_weights(mesh, 7);
-  const std::vector<Source> sources = at(mesh, {0});
+  const std::vector<Source> sources = sources_at(mesh, {0});
   Replanner planner(mesh, weights, sources);
   const std::vector<double> before = planner.field().distance;
   Weights bad = weights;
@@ -217,7 +200,7 @@ TEST(Replanner, WhatIsRefusedLeavesAllAsItWas) {
 TEST(Replanner, AfterCancellingTheNextCallStartsAnew) {
   const Mesh mesh = terrain(40, 0.3);
   Weights weights = random_weights(mesh, 8);
-  const std::vector<Source> sources = at(mesh, {0});
+  const std::vector<Source> sources = sources_at(mesh, {0});
   CancelToken token;
   Replanner planner(mesh, weights, sources, {.cancel = &token});
   token.cancel();
@@ -233,7 +216,7 @@ TEST(Replanner, AfterCancellingTheNextCallStartsAnew) {
 TEST(Replanner, AFieldThatIsKeptKeepsItsPaths) {
   const Mesh mesh = terrain(8, 0.3);
   Weights weights = random_weights(mesh, 9);
-  Replanner planner(mesh, weights, at(mesh, {0}));
+  Replanner planner(mesh, weights, sources_at(mesh, {0}));
   const WeightedField kept = planner.field();
   const SurfacePoint end = vertex_point(mesh, 80);
   const double cost = weighted_paths(kept, {&end, 1}).front().cost;

@@ -15,24 +15,15 @@
 #include <functional>
 #include <random>
 
+#include "support/sheets.h"
+
 namespace brushfire {
 namespace {
 
-// [0, n] x [0, n] in unit squares of two faces each; vertex y * (n + 1) + x, faces 2 (y n + x) and the next one.
+using test::sources_at;
+
 Mesh squares(Index n) {
-  std::vector<Vec3> positions;
-  std::vector<Face> faces;
-  for (Index y = 0; y <= n; ++y) {
-    for (Index x = 0; x <= n; ++x) positions.push_back({double(x), double(y), 0});
-  }
-  for (Index y = 0; y < n; ++y) {
-    for (Index x = 0; x < n; ++x) {
-      const Index v = y * (n + 1) + x;
-      faces.push_back({v, v + 1, v + n + 2});
-      faces.push_back({v, v + n + 2, v + n + 1});
-    }
-  }
-  return Mesh(positions, faces);
+  return test::squares(n, [](Index, Index) { return 0.0; });
 }
 
 Weights by_place(const Mesh& mesh, const std::function<double(Vec3)>& cost) {
@@ -52,12 +43,6 @@ Weights random_weights(const Mesh& mesh) {
   return weights;
 }
 
-std::vector<Source> vertices(const Mesh& mesh, const std::vector<Index>& list) {
-  std::vector<Source> sources;
-  for (const Index v : list) sources.push_back({vertex_point(mesh, v)});
-  return sources;
-}
-
 DistanceOptions costs(const Domain& domain, const Weights& weights) {
   DistanceOptions options;
   options.weighting = std::make_shared<const Weighting>(domain, weights);
@@ -67,7 +52,7 @@ DistanceOptions costs(const Domain& domain, const Weights& weights) {
 TEST(Weighting, AFieldIsThatOfTheWeightedSolver) {
   const Mesh mesh = squares(8);
   const Weights weights = random_weights(mesh);
-  const std::vector<Source> sources = vertices(mesh, {0, 44});
+  const std::vector<Source> sources = sources_at(mesh, {0, 44});
   DistanceOptions options = costs(mesh, weights);
   options.targets = {{7, {0.2, 0.3, 0.5}}};
   const WeightedField truth = weighted_distance(mesh, weights, sources, {.lower = false, .targets = options.targets});
@@ -95,7 +80,7 @@ TEST(Weighting, RowsOfAMatrixAreFieldsForAnyNumberOfThreads) {
   const std::vector<double> one = distance_matrix<double>(mesh, Places(rows), std::nullopt, options);
   options.threads = 3;
   EXPECT_EQ(distance_matrix<double>(mesh, Places(rows), std::nullopt, options), one);
-  const std::vector<double> last = weighted_distance(mesh, weights, vertices(mesh, {48}), {.lower = false}).distance;
+  const std::vector<double> last = weighted_distance(mesh, weights, sources_at(mesh, {48}), {.lower = false}).distance;
   EXPECT_TRUE(std::equal(last.begin(), last.end(), one.end() - mesh.vertex_count()));
   const SparseMatrix<double> near = distances_within<double>(mesh, 4.0, Places(rows), options);
   const auto within = std::count_if(one.begin(), one.end(), [](double d) { return d <= 4; });
@@ -124,7 +109,7 @@ TEST(Weighting, FarthestPointsAreFarthestByCost) {
   const Mesh mesh = squares(10);
   const Weights weights = by_place(mesh, [](Vec3 p) { return p.x < 8 ? 1.0 : 9.0; });
   const Samples samples = farthest_points(mesh, 2, std::vector<Index>{0}, costs(mesh, weights));
-  const std::vector<double> truth = weighted_distance(mesh, weights, vertices(mesh, {0}), {.lower = false}).distance;
+  const std::vector<double> truth = weighted_distance(mesh, weights, sources_at(mesh, {0}), {.lower = false}).distance;
   EXPECT_EQ(samples.vertices[1], std::max_element(truth.begin(), truth.end()) - truth.begin());
   EXPECT_EQ(samples.separation[1], *std::max_element(truth.begin(), truth.end()));
 }
@@ -139,7 +124,7 @@ TEST(Weighting, FacesAndCrossingsThatCostInfinityAreWalls) {
   const Weighting weighting(mesh, weights);
   EXPECT_EQ(weighting.domain().open().vertex_count(), domain.open().vertex_count());
   EXPECT_EQ(weighting.domain().open().face_count(), domain.open().face_count());
-  const std::vector<Source> sources = vertices(mesh, {0, 120});
+  const std::vector<Source> sources = sources_at(mesh, {0, 120});
   const DistanceOptions options = costs(mesh, weights);
   const VoronoiDiagram by_cost = voronoi(options.weighting->domain(), sources, options);
   const VoronoiDiagram by_length = voronoi(domain, sources, {.method = Method::Exact});
@@ -157,7 +142,7 @@ TEST(Weighting, WallsAddToTheWallsOfADomain) {
   const Domain first(mesh, {.faces = {3}, .edges = {{8, 15}, {15, 22}}});
   const Domain both = with_walls(first, {.faces = {20}, .edges = {{24, 31}}});
   const Domain truth(mesh, {.faces = {3, 20}, .edges = {{8, 15}, {15, 22}, {24, 31}}});
-  const std::vector<Source> sources = vertices(mesh, {0});
+  const std::vector<Source> sources = sources_at(mesh, {0});
   const DistanceOptions exact{.method = Method::Exact};
   EXPECT_EQ(distance(both, sources, exact).distance, distance(truth, sources, exact).distance);
   EXPECT_NE(distance(both, sources, exact).distance, distance(first, sources, exact).distance);
@@ -167,14 +152,14 @@ TEST(Weighting, WhatReadsWindowsIsRefused) {
   const Mesh mesh = squares(3);
   const Weights weights = random_weights(mesh);
   DistanceOptions options = costs(mesh, weights);
-  const std::vector<Source> sources = vertices(mesh, {0});
+  const std::vector<Source> sources = sources_at(mesh, {0});
   const std::vector<SurfacePoint> targets{vertex_point(mesh, 5)};
   DistanceSolver solver(mesh);
   EXPECT_THROW(paths_to(solver, sources, targets, options), Error);
   options.keep_paths = true;
   EXPECT_THROW(distance(mesh, sources, options), Error);
   options.keep_paths = false;
-  EXPECT_THROW(distance(squares(4), vertices(squares(4), {0}), options), Error);
+  EXPECT_THROW(distance(squares(4), sources_at(squares(4), {0}), options), Error);
   EXPECT_THROW(distance(Domain(mesh, {.faces = {2}}), sources, options), Error);
 }
 

@@ -2,8 +2,8 @@
 #include <brushfire/solvers/refraction/detail/run.h>
 
 #include <brushfire/solvers/windows/algebra/dominance.h>
+#include <brushfire/solvers/windows/algebra/merge_all.h>
 #include <brushfire/solvers/windows/algebra/propagate.h>
-#include <brushfire/solvers/windows/algebra/sweep.h>
 #include <brushfire/solvers/windows/store/prefetch.h>
 
 #include <algorithm>
@@ -201,7 +201,6 @@ void Run::pass_halfedge(Index h) {
 // Trimmed and merged (L2, L5, L8); what comes from a point of the edge goes on whole unless another path is shorter
 // there.
 std::span<Window> Run::what_is_left(std::span<Window> windows, const WindowFace& face, double weight) {
-  constexpr std::size_t kFew = 8;  // more are sorted by the envelope
   if (windows.size() == 1) return windows;
   if (std::any_of(windows.begin(), windows.end(), windows::is_on_edge)) {
     const auto others = std::stable_partition(windows.begin(), windows.end(), windows::is_on_edge);
@@ -219,26 +218,7 @@ std::span<Window> Run::what_is_left(std::span<Window> windows, const WindowFace&
   const auto merge = [&](const Window& a, Window& b, const windows::Joint& joint) {
     return a.pseudo_source == b.pseudo_source && merge_into(a, b, joint, start_of(a.pseudo_source) / weight, budget);
   };
-  if (windows.size() <= kFew) {
-    for (std::size_t i = 1; i < windows.size(); ++i) {
-      for (std::size_t j = i; j > 0 && windows[j].b0 < windows[j - 1].b0; --j) std::swap(windows[j], windows[j - 1]);
-    }
-    windows::Sweep sweep(windows, merge);
-    const bool done = sweep();
-    windows = windows.first(sweep.count());
-    if (done) return windows;
-  }
-  windows = envelope_(windows);
-  std::size_t last = 0;
-  for (std::size_t i = 1; i < windows.size(); ++i) {
-    windows[++last] = windows[i];
-    while (last > 0 && windows[last].b0 - windows[last - 1].b1 <= 2 * windows::kSliver * sliver_scale(windows[last]) &&
-           merge(windows[last - 1], windows[last], {windows[last - 1].b1, windows[last - 1].d1, windows[last].d0})) {
-      windows[last - 1] = windows[last];
-      --last;
-    }
-  }
-  return windows.first(windows.empty() ? 0 : last + 1);
+  return windows::merge_all(windows, envelope_, merge);
 }
 
 void Run::pass_face(Index h, const windows::Frame& frame, const Window& w) {
@@ -264,21 +244,11 @@ void Run::pass_face(Index h, const windows::Frame& frame, const Window& w) {
       [&](const Window& right) { leave_face(3 * (h / 3) + next3(h % 3), right); });
 }
 
-// Light from a point on the edge of a face without area: the point lies on another edge as well.
 void Run::pass_along(Index h, const windows::Frame& frame, const Window& w) {
   const Index first = 3 * (h / 3), k = h % 3;
-  const double apex = frame.apex.x, x = w.source.x;
-  Window out = w;
-  out.b0 = 0;
-  const auto leave = [&](Index edge, double length, double from_start) {
-    out.source = {from_start, 0};
-    out.b1 = length;
-    out.d0 = value_at(out, 0);
-    out.d1 = value_at(out, length);
-    if (is_visible(out)) leave_face(first + edge, out);
-  };
-  leave(previous3(k), frame.left, apex > 0 ? x : -x);
-  leave(next3(k), frame.right, apex < frame.length ? x - apex : apex - x);
+  propagate_along(
+      w, frame, [&](const Window& left) { leave_face(first + previous3(k), left); },
+      [&](const Window& right) { leave_face(first + next3(k), right); });
 }
 
 // ---- results

@@ -110,4 +110,22 @@ inline bool ends_in_face(const Window& w, const Frame& frame, Real radius) {
   return !leaves_left && !leaves_right;
 }
 
+// Light from a point on the edge of a face without area: the point lies on another edge as well. Calls left and right
+// as propagate() does.
+template <class Left, class Right>
+inline void propagate_along(const Window& w, const Frame& frame, Left&& left, Right&& right) {
+  const Real apex = frame.apex.x, x = w.source.x;
+  Window out = w;
+  out.b0 = 0;
+  const auto leave = [&](Real length, Real from_start, auto& to) {
+    out.source = {from_start, 0};
+    out.b1 = length;
+    out.d0 = value_at(out, 0);
+    out.d1 = value_at(out, length);
+    if (is_visible(out)) to(out);
+  };
+  leave(frame.left, apex > 0 ? x : -x, left);
+  leave(frame.right, apex < frame.length ? x - apex : apex - x, right);
+}
+
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,8 +1,8 @@
 // Trimming and merging of what waits at a halfedge, and its way through the face.
 #include <brushfire/solvers/windows/propagation/single_windows.h>
 
+#include <brushfire/solvers/windows/algebra/merge_all.h>
 #include <brushfire/solvers/windows/algebra/propagate.h>
-#include <brushfire/solvers/windows/algebra/sweep.h>
 #include <brushfire/solvers/windows/algebra/tie_point.h>
 #include <brushfire/solvers/windows/propagation/arrivals.h>
 #include <brushfire/solvers/windows/propagation/sink.h>
@@ -39,52 +39,17 @@ bool merge_pair(const PartState& part, const Window& a, Window& b, const Joint& 
   return label == part.vertices.label_of(b.pseudo_source) && merge_into(a, b, joint, run.start_of(label), run.budget);
 }
 
-// L2, L8. From left to right, each with the one before it as long as that works. Returns how many are left.
-std::size_t merge_neighbours(const PartState& part, std::span<Window> w) {
-  std::size_t last = 0;
-  for (std::size_t i = 1; i < w.size(); ++i) {
-    w[++last] = w[i];
-    while (last > 0 && w[last].b0 - w[last - 1].b1 <= 2 * kSliver * sliver_scale(w[last]) &&
-           merge_pair(part, w[last - 1], w[last], {w[last - 1].b1, w[last - 1].d1, w[last].d0})) {
-      w[last - 1] = w[last];
-      --last;
-    }
-  }
-  return w.empty() ? 0 : last + 1;
-}
-
-// L2, L5, L8: what is left of the windows of an edge.
+// What is left of the windows of an edge.
 std::span<Window> merged(PartState& part, std::span<Window> windows) {
-  constexpr std::size_t kFew = 8;  // more are sorted by the envelope
-  if (windows.size() <= kFew) {
-    for (std::size_t i = 1; i < windows.size(); ++i) {
-      for (std::size_t j = i; j > 0 && windows[j].b0 < windows[j - 1].b0; --j) std::swap(windows[j], windows[j - 1]);
-    }
-    Sweep sweep(windows,
-                [&part](const Window& a, Window& b, const Joint& joint) { return merge_pair(part, a, b, joint); });
-    const bool done = sweep();
-    windows = windows.first(sweep.count());
-    if (done) return windows;
-  }
-  windows = part.bench->envelope(windows);
-  return windows.first(merge_neighbours(part, windows));
+  return merge_all(windows, part.bench->envelope,
+                   [&part](const Window& a, Window& b, const Joint& joint) { return merge_pair(part, a, b, joint); });
 }
 
-// Light from a point on the edge of a face without area: the point lies on another edge as well.
 void pass_along(PartState& part, Index h, const Frame& frame, const Window& w) {
   const Index face = 3 * (h / 3), k = h % 3;
-  const Real apex = frame.apex.x, x = w.source.x;
-  Window out = w;
-  out.b0 = 0;
-  const auto leave = [&](Index edge, Real length, Real from_start) {
-    out.source = {from_start, 0};
-    out.b1 = length;
-    out.d0 = value_at(out, 0);
-    out.d1 = value_at(out, length);
-    if (is_visible(out)) leave_face(part, face + edge, out, Origin::Anywhere);
-  };
-  leave(previous3(k), frame.left, apex > 0 ? x : -x);
-  leave(next3(k), frame.right, apex < frame.length ? x - apex : apex - x);
+  propagate_along(
+      w, frame, [&](const Window& left) { leave_face(part, face + previous3(k), left, Origin::Anywhere); },
+      [&](const Window& right) { leave_face(part, face + next3(k), right, Origin::Anywhere); });
 }
 
 // Compiled once for each kind: what is written in terms of kinds costs nothing then.
