@@ -6,7 +6,7 @@
 #include <brushfire/mesh/terrain.h>
 #include <brushfire/queries/isochrones.h>
 #include <brushfire/queries/weighted_path.h>
-#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/weighted/weighting.h>
 
 #include <memory>
 #include <mutex>
