@@ -96,6 +96,19 @@ class WeightedSolver:
         max_distance: float,
     ) -> tuple[_Signed, list[tuple[PathArrays, float, float, _Signed, _Floats, _Floats, _Floats, _Signed]]]: ...
 
+class Replanner:
+    distance: _Floats
+    source: _Signed
+    renewed: float
+    def __init__(
+        self, weighted: WeightedSolver, sources: Sources, tolerance: float, towards: bool, progress: _Progress
+    ) -> None: ...
+    def change(self, weighted: WeightedSolver, progress: _Progress) -> None: ...
+    def move(self, sources: Sources, progress: _Progress) -> None: ...
+    def paths(
+        self, target_index: _Ints, target_weights: _Floats | None
+    ) -> tuple[_Signed, list[tuple[PathArrays, float, float, _Signed, _Floats, _Floats, _Floats, _Signed]]]: ...
+
 def laplacian(mesh: Mesh, delaunay: bool) -> tuple[_Signed, _Signed, _Floats, _Floats]: ...
 
 class _Heat:

@@ -1,21 +1,16 @@
 // _core.WeightedSolver: costs and cheapest paths where not all places are equally easy to cross.
-#include "bind.h"
+#include "weighted.h"
+
 #include "interrupt.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/terrain.h>
 #include <brushfire/queries/isochrones.h>
-#include <brushfire/queries/weighted_path.h>
-#include <brushfire/solvers/weighted/weighting.h>
 
-#include <memory>
-#include <mutex>
 #include <new>
 
 namespace brushfire::python {
 namespace {
-
-using OptionalWeights = std::optional<Triples<double>>;
 
 // A name, or slopes and the paces there; up to the steepest.
 std::optional<SlopePace> pace_from(const std::string& name, const std::optional<Vector<double>>& slopes,
@@ -37,9 +32,9 @@ std::optional<SlopePace> pace_from(const std::string& name, const std::optional<
   return pace;
 }
 
-Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& face,
-                     const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
-                     const Vector<double>& crossing) {
+Weights faces_and_edges(const Domain& domain, const std::optional<Vector<double>>& face,
+                        const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
+                        const Vector<double>& crossing) {
   Weights weights;
   if (face) weights.face.assign(face->data(), face->data() + face->shape(0));
   const std::int64_t count = domain.mesh().vertex_count();
@@ -60,43 +55,36 @@ Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& 
   return weights;
 }
 
-// Calls from several threads wait for each other.
-class Weighted {
- public:
-  Weighted(const Domain& domain, const std::optional<Vector<double>>& face, const Vector<std::int64_t>& edge_vertices,
-           const Vector<double>& along, const Vector<double>& crossing, const std::string& slope,
-           const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces, double steepest)
-      : solver_(domain, with_pace(weights_from(domain, face, edge_vertices, along, crossing),
-                                  pace_from(slope, slopes, paces, steepest))) {}
+}  // namespace
 
-  const Mesh& mesh() const { return solver_.domain().mesh(); }
+Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& face,
+                     const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
+                     const Vector<double>& crossing, const std::string& slope,
+                     const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces,
+                     double steepest) {
+  Weights weights = faces_and_edges(domain, face, edge_vertices, along, crossing);
+  weights.pace = pace_from(slope, slopes, paces, steepest);
+  return weights;
+}
 
-  // The last one is kept.
-  std::shared_ptr<const Weighting> weighting(const WeightingOptions& options) {
-    const std::lock_guard lock(mutex_);
-    if (!weighting_ || weighting_->options().tolerance != options.tolerance ||
-        weighting_->options().towards != options.towards) {
-      weighting_ = std::make_shared<const Weighting>(solver_.domain(), solver_.weights(), options);
-    }
-    return weighting_;
+nb::tuple path_arrays(const WeightedPath& path) {
+  std::vector<Index> face, along;
+  std::vector<double> length, weight, toll;
+  for (const WeightedLeg& leg : path.legs) {
+    face.push_back(leg.face);
+    along.insert(along.end(), leg.along.begin(), leg.along.end());
+    length.push_back(leg.length);
+    weight.push_back(leg.weight);
+    toll.push_back(leg.toll);
   }
+  return nb::make_tuple(path_to_numpy(path), path.cost, path.lower, to_numpy_signed(std::move(face)),
+                        to_numpy(std::move(length)), to_numpy(std::move(weight)), to_numpy(std::move(toll)),
+                        to_numpy_signed(std::move(along)));
+}
 
-  template <class Use>
-  auto with(Use&& use) {
-    const std::lock_guard lock(mutex_);
-    return use(solver_);
-  }
+namespace {
 
- private:
-  static Weights with_pace(Weights weights, std::optional<SlopePace> pace) {
-    weights.pace = std::move(pace);
-    return weights;
-  }
-
-  WeightedSolver solver_;
-  std::shared_ptr<const Weighting> weighting_;
-  std::mutex mutex_;
-};
+using OptionalWeights = std::optional<Triples<double>>;
 
 SharedWeighting weighting_of(Weighted& weighted, double tolerance, bool towards) {
   const nb::gil_scoped_release release;
@@ -128,22 +116,6 @@ nb::tuple solve(Weighted& weighted, const Sources& sources, const std::optional<
   return nb::make_tuple(to_numpy(std::move(values)),
                         to_numpy_signed(std::move(target_index ? field.target_source : field.source)), lower_bounds,
                         field.max_error_bound, field.mean_error_bound, name_of(field.engine));
-}
-
-// (path, cost, lower, legs: face, length, weight, toll, edge [legs, 2]).
-nb::tuple path_arrays(const WeightedPath& path) {
-  std::vector<Index> face, along;
-  std::vector<double> length, weight, toll;
-  for (const WeightedLeg& leg : path.legs) {
-    face.push_back(leg.face);
-    along.insert(along.end(), leg.along.begin(), leg.along.end());
-    length.push_back(leg.length);
-    weight.push_back(leg.weight);
-    toll.push_back(leg.toll);
-  }
-  return nb::make_tuple(path_to_numpy(path), path.cost, path.lower, to_numpy_signed(std::move(face)),
-                        to_numpy(std::move(length)), to_numpy(std::move(weight)), to_numpy(std::move(toll)),
-                        to_numpy_signed(std::move(along)));
 }
 
 nb::tuple paths(Weighted& weighted, const Sources& sources, const Vector<std::int64_t>& target_index,
