@@ -52,12 +52,12 @@ class Replanner:
     @property
     def distance(self) -> Floats:
         """What the cheapest path costs: upper bounds, +inf where there is none, float64 (vertex_count,)."""
-        return self._core.distance
+        return self._core.distance()
 
     @property
     def source(self) -> Labels:
         """The position in ``sources`` of where that path begins, -1 where there is none, (vertex_count,)."""
-        return self._core.source
+        return self._core.source()
 
     @property
     def renewed(self) -> float:
@@ -74,7 +74,7 @@ class Replanner:
         >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
         >>> planner = mesh.weighted([2, 2]).replanner(0)
         >>> planner.change(edge_weights=[[0, 2, 1]])  # a road
-        >>> planner.distance[2], planner.renewed < 1
+        >>> float(planner.distance[2]), planner.renewed < 1
         (5.0, True)
         """
         faces, edges, slope, steepest = self._weighted._given

@@ -11,6 +11,13 @@ namespace {
 
 // Calls from several threads wait for each other.
 class Planner {
+  template <class Get>
+  auto read(Get&& get) {
+    const nb::gil_scoped_release release;
+    const std::lock_guard lock(mutex_);
+    return get();
+  }
+
  public:
   Planner(Weighted& weighted, const Sources& sources, double tolerance, bool towards, nb::object progress) {
     ReplannerOptions options;
@@ -37,7 +44,9 @@ class Planner {
   double renewed() {
     return read([&] { return planner_->renewed(); });
   }
-  auto distance() { return to_numpy(read([&] { return planner_->field().distance; })); }
+  auto distance() {
+    return to_numpy(read([&] { return planner_->field().distance; }));
+  }
   auto source() {
     return to_numpy_signed(read([&] { return planner_->field().source; }));
   }
@@ -57,13 +66,6 @@ class Planner {
   }
 
  private:
-  template <class Get>
-  auto read(Get&& get) {
-    const nb::gil_scoped_release release;
-    const std::lock_guard lock(mutex_);
-    return get();
-  }
-
   template <class Use>
   void compute(nb::object progress, Use&& use) {
     Computation computation(std::move(progress));
@@ -90,8 +92,8 @@ void bind_replanner(nb::module_& m) {
       .def("change", &Planner::change, nb::arg("weighted"), nb::arg("progress").none())
       .def("move", &Planner::move, nb::arg("sources"), nb::arg("progress").none())
       .def("paths", &Planner::paths, nb::arg("target_index").noconvert(), nb::arg("target_weights").noconvert().none())
-      .def_prop_ro("distance", &Planner::distance)
-      .def_prop_ro("source", &Planner::source)
+      .def("distance", &Planner::distance)
+      .def("source", &Planner::source)
       .def_prop_ro("renewed", &Planner::renewed);
 }
 
