@@ -4,9 +4,11 @@
 #include "interrupt.h"
 
 #include <brushfire/core/error.h>
+#include <brushfire/io/write_grid.h>
 #include <brushfire/mesh/terrain.h>
 #include <brushfire/queries/isochrones.h>
 
+#include <array>
 #include <new>
 
 namespace brushfire::python {
@@ -154,6 +156,33 @@ nb::tuple below(const Terrain& terrain, const Vector<double>& xy) {
   return points_to_numpy(points);
 }
 
+// origin, to the right, down.
+std::array<double, 6> numbers_of(const GridPlacement& p) {
+  return {p.origin[0], p.origin[1], p.right[0], p.right[1], p.down[0], p.down[1]};
+}
+
+// (heights, columns, rows, placement, reference).
+nb::tuple grid_from_file(const std::string& path) {
+  Grid grid = listening(false, [&] { return read_grid(path); });
+  const std::array<double, 6> placed = numbers_of(grid.placement);
+  return nb::make_tuple(to_numpy(std::move(grid.heights)), grid.columns, grid.rows,
+                        to_numpy(std::vector<double>(placed.begin(), placed.end())), grid.reference);
+}
+
+void grid_to_file(const std::string& path, const Vector<double>& values, Index columns, Index rows,
+                  const Vector<double>& placement, const std::string& reference) {
+  const double* p = placement.data();
+  const Grid grid{{values.data(), values.data() + values.shape(0)},
+                  columns,
+                  rows,
+                  {{p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}},
+                  reference};
+  listening(false, [&] {
+    write_grid(path, grid);
+    return true;
+  });
+}
+
 std::string isochrones(const Mesh& mesh, const Vector<double>& values, const Vector<double>& levels) {
   const nb::gil_scoped_release release;
   return isochrones_as_geojson(mesh, {values.data(), values.shape(0)}, {levels.data(), levels.shape(0)});
@@ -180,6 +209,9 @@ void bind_weighted(nb::module_& m) {
            nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("towards"),
            nb::arg("max_distance"));
   m.def("isochrones", isochrones, nb::arg("mesh"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());
+  m.def("read_grid", grid_from_file, nb::arg("path"));
+  m.def("write_grid", grid_to_file, nb::arg("path"), nb::arg("values").noconvert(), nb::arg("columns"), nb::arg("rows"),
+        nb::arg("placement").noconvert(), nb::arg("reference"));
   nb::class_<Terrain>(m, "Terrain")
       .def("__init__", make_terrain, nb::arg("heights").noconvert(), nb::arg("columns"), nb::arg("rows"),
            nb::arg("placement").noconvert(), nb::arg("no_data"))

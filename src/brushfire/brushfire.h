@@ -81,6 +81,7 @@
 #include <brushfire/io/write_bytes.h>
 #include <brushfire/io/write_columns.h>
 #include <brushfire/io/write_field.h>
+#include <brushfire/io/write_grid.h>
 #include <brushfire/io/write_lines.h>
 #include <brushfire/io/write_mesh.h>
 #endif
