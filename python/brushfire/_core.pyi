@@ -73,7 +73,7 @@ class WeightedSolver:
         paces: _Floats | None,
         steepest: float,
     ) -> None: ...
-    def weighting(self, tolerance: float, towards: bool) -> Weighting: ...
+    def weighting(self, tolerance: float, towards: bool, method: str) -> Weighting: ...
     def solve(
         self,
         sources: Sources,
@@ -84,6 +84,7 @@ class WeightedSolver:
         lower: bool,
         towards: bool,
         max_distance: float,
+        method: str,
         progress: _Progress,
     ) -> tuple[_Floats, _Signed, _Floats | None, float, float, str]: ...
     def paths(

@@ -32,7 +32,7 @@ class Weighted {
   std::shared_ptr<const Weighting> weighting(const WeightingOptions& options) {
     const std::lock_guard lock(mutex_);
     if (!weighting_ || weighting_->options().tolerance != options.tolerance ||
-        weighting_->options().towards != options.towards) {
+        weighting_->options().towards != options.towards || weighting_->options().marching != options.marching) {
       weighting_ = std::make_shared<const Weighting>(solver_.domain(), solver_.weights(), options);
     }
     return weighting_;

@@ -61,6 +61,24 @@ TEST_F(WeightFiles, AreArraysToo) {
   EXPECT_NEAR(read_npy(path("d.npy")).values[7], 1, 2e-9);  // rounding of windows
 }
 
+TEST_F(WeightFiles, AreMarchedOverWhereAMethodSaysSo) {
+  const std::vector<std::string> how{"distance", path("m.off"), "-s",          "5",        "-t",
+                                     "9",        "--weights",   path("w.txt"), "--method", "novotni-klein"};
+  EXPECT_NEAR(number(run_program(how)), 8, 0.1);
+  std::vector<std::string> told = how;
+  told.push_back("--json");
+  const auto json = nlohmann::json::parse(run_program(told).out);
+  EXPECT_EQ(json.at("method"), "novotni-klein");
+  EXPECT_EQ(json.at("engine"), "marching");
+  EXPECT_TRUE(json.at("max_error_bound").is_null());
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--bound", "lower"}, {"--edge-weights", path("fence.txt")}}) {
+    std::vector<std::string> words = how;
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run_program(words).code, 2) << more[0];
+  }
+}
+
 TEST_F(WeightFiles, JsonTellsEveryLeg) {
   const Ended ended = run_program({"path", path("m.off"), "--from", "5", "--to", "9", "--weights", path("w.txt"),
                                    "--edge-weights", path("fence.txt"), "--json"});
@@ -184,7 +202,7 @@ TEST_F(WeightFiles, ThatDoNotFitAreRefusedWithTheReason) {
   write("far.txt", "0 99 1\n");
   EXPECT_NE(refused({"--edge-weights", path("far.txt")}).find("there is no vertex 99"), std::string::npos);
   EXPECT_NE(refused({"--weights", path("w.txt"), "--via", "3"}).find("without weights"), std::string::npos);
-  EXPECT_NE(refused({"--weights", path("w.txt"), "--method", "exact"}).find("there is one method"), std::string::npos);
+  EXPECT_NE(refused({"--weights", path("w.txt"), "--method", "exact"}).find("points on edges"), std::string::npos);
 }
 
 TEST_F(WeightFiles, WallsOfWeightsAreNotPassed) {

@@ -181,9 +181,7 @@ Weights weights_of(const SharedArguments& a, const Surface& surface) {
 }
 
 WeightedOptions weighted_computation(const SharedArguments& a) {
-  if (const char* name = given(a, {Shared::Method, Shared::Precision})) {
-    refuse(std::string(name) + ": with --weights there is one method, points on edges");
-  }
+  if (given(a, {Shared::Precision})) refuse("--precision: with --weights it is not to be chosen");
   if (!a.slope.empty() && a.bound == "lower") refuse("--bound lower: with --slope there are upper bounds only");
   DistanceOptions plain = computation(a);
   WeightedOptions options;
@@ -192,14 +190,28 @@ WeightedOptions weighted_computation(const SharedArguments& a) {
   options.lower = plain.bound != Bound::Upper;
   options.max_distance = plain.max_distance;
   options.cancel = plain.cancel;
+  if (given(a, {Shared::Method})) {
+    if (plain.method != Method::NovotniKlein && plain.method != Method::KimmelSethian) {
+      refuse(
+          "--method " + a.methods.front() +
+          ": with --weights there are points on edges, which is what is taken without --method, and novotni-klein and "
+          "kimmel-sethian");
+    }
+    if (a.bound == "lower") refuse("--bound lower: marching has no bounds");
+    options.marching = plain.method;
+  }
   return options;
+}
+
+std::string method_of(const Weighting& weighting) {
+  return weighting.options().marching ? std::string(name_of(*weighting.options().marching)) : "steiner";
 }
 
 void weigh(DistanceOptions& options, const SharedArguments& a, const Surface& surface) {
   if (surface.weights() == nullptr) return;
   const WeightedOptions how = weighted_computation(a);
   options.weighting = std::make_shared<const Weighting>(surface.domain(), *surface.weights(),
-                                                        WeightingOptions{how.tolerance, how.towards});
+                                                        WeightingOptions{how.tolerance, how.towards, how.marching});
 }
 
 }  // namespace brushfire::tool

@@ -28,6 +28,7 @@ void Fingerprint::add(const Places& places) {
 void Fingerprint::add(const Weighting& weighting) {
   add(weighting.options().tolerance);
   add(std::uint64_t{weighting.options().towards});
+  if (weighting.options().marching) add(static_cast<std::uint64_t>(*weighting.options().marching));
   const Weights& weights = weighting.weights();
   add(weights.face.data(), weights.face.size() * sizeof(double));
   for (const EdgeCost& e : weights.edges) {

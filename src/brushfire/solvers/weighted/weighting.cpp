@@ -72,7 +72,7 @@ Weighting::Weighting(const Domain& domain, Weights weights, const WeightingOptio
       weights_(std::move(weights)),
       options_(options),
       prototype_(domain_, weights_) {
-  prototype_.prepare(options.tolerance);
+  if (!options.marching) prototype_.prepare(options.tolerance);
 }
 
 std::shared_ptr<const Weighting> Weighting::on_open() const {
