@@ -3,6 +3,7 @@
 
 #include "corpus/check.h"
 #include "corpus/dice.h"
+#include "corpus/promises.h"
 #include "oracle/deviation.h"
 
 #include <brushfire/core/error.h>
