@@ -1,5 +1,5 @@
-# cmake -D SOURCE=... -P lengths.cmake: no source file has more than 400 lines, apart from those that are named here, each
-# with the reason why it is better whole.
+# cmake -D SOURCE=... -P files.cmake: no source file has more than 400 lines, apart from those that are named here, each
+# with the reason why it is better whole; and every C++ file begins with a line that says what it does.
 cmake_minimum_required(VERSION 3.22)
 set(most 400)
 set(whole
@@ -23,15 +23,18 @@ foreach(file ${files})
   string(REGEX REPLACE "[^\n]" "" ends "${text}")
   string(LENGTH "${ends}" lines)
   math(EXPR looked_at "${looked_at} + 1")
+  if(file MATCHES "\\.(h|cpp)$" AND NOT text MATCHES "^// ")
+    message(SEND_ERROR "${file}: its first line does not say what it does")
+  endif()
   if(lines GREATER most AND NOT file IN_LIST whole)
     message(SEND_ERROR "${file}: ${lines} lines; ${most} is the most: which of its ideas could have a file of its own?")
   elseif(NOT lines GREATER most AND file IN_LIST whole)
-    message(SEND_ERROR "${file}: ${lines} lines, and still named as longer than ${most} in tests/tree/lengths.cmake")
+    message(SEND_ERROR "${file}: ${lines} lines, and still named as longer than ${most} in tests/tree/files.cmake")
   endif()
 endforeach()
 foreach(file ${whole})
   if(NOT file IN_LIST files)
-    message(SEND_ERROR "${file}: named in tests/tree/lengths.cmake, and not there")
+    message(SEND_ERROR "${file}: named in tests/tree/files.cmake, and not there")
   endif()
 endforeach()
 if(looked_at LESS 600)
