@@ -81,7 +81,7 @@ def page(kept):
             "",
             "Microseconds per row; in brackets how many times faster than `gdist.local_gdist_matrix`, which looks at all",
             "vertices for every row. That part of its cost grows with the mesh, ours with what the radius reaches: a factor",
-            "of a hundred is had where a row reaches a small part of the mesh, and not at large radii.",
+            "of a hundred comes where a row reaches a small part of the mesh, and not at large radii.",
             "",
         ]
         rows = []

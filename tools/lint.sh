@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # clang-tidy 19 over the library and the program, and what public headers include, or over what a change touches.
 #
-#   lint.sh                    everything: an hour of one core
+#   lint.sh                    everything: half an hour of one core
 #   lint.sh --changed [BASE]   sources that differ from BASE and those of headers that do, within LINT_SECONDS (60): what
 #                              is left then is named. BASE: where this branch left main; on main, the commit before.
 #                              Exit 77 where git has no history that tells.
