@@ -19,8 +19,8 @@ struct Grid {
 
 // .asc: an ESRI ASCII grid, whose header places it (the northernmost row comes first). .npy: an array of rows x
 // columns, placed at the origin in steps of 1, rows running down; NaN is no height. By extension. Throws
-// Error(FileNotReadable), Error(FileMalformed), Error(UnknownFormat) for other files: `gdal_translate -of AAIGrid`
-// makes one of these of them.
+// Error(FileNotReadable), Error(FileMalformed), Error(UnknownFormat) for other files, which `gdal_translate -of
+// AAIGrid` turns into the first of these.
 Grid read_grid(const std::string& path);
 
 }  // namespace brushfire
