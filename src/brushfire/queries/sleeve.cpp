@@ -294,24 +294,26 @@ std::array<double, 3> weights_on(Index h, const Crossing& at) {
 
 }  // namespace
 
+std::array<double, 3> point_after_begin(const Mesh& mesh, const StraightPiece& straight) {
+  if (straight.sleeve.steps.empty()) return *weights_in(mesh, straight.sleeve.end, straight.sleeve.first_face);
+  return weights_on(straight.sleeve.steps.front().out, straight.crossing.front());
+}
+
+std::array<double, 3> point_before_end(const Mesh& mesh, const StraightPiece& straight) {
+  if (straight.sleeve.steps.empty()) return *weights_in(mesh, straight.sleeve.begin, straight.sleeve.first_face);
+  const Step& last = straight.sleeve.steps.back();
+  const Crossing& at = straight.crossing.back();
+  return weights_on(last.in, mesh.from(last.in) == mesh.from(last.out) ? at : Crossing{at.to, at.from});
+}
+
 Direction direction_at_begin(const Mesh& mesh, const StraightPiece& straight) {
-  const Index f = straight.sleeve.first_face;
-  const auto ahead = straight.sleeve.steps.empty()
-                         ? *weights_in(mesh, straight.sleeve.end, f)
-                         : weights_on(straight.sleeve.steps.front().out, straight.crossing.front());
-  return direction_towards(mesh, straight.sleeve.begin.vertex, f, ahead);
+  return direction_towards(mesh, straight.sleeve.begin.vertex, straight.sleeve.first_face,
+                           point_after_begin(mesh, straight));
 }
 
 Direction direction_at_end(const Mesh& mesh, const StraightPiece& straight) {
-  const Index f = straight.sleeve.last_face();
-  if (straight.sleeve.steps.empty()) {
-    return direction_towards(mesh, straight.sleeve.end.vertex, f, *weights_in(mesh, straight.sleeve.begin, f));
-  }
-  const Step& last = straight.sleeve.steps.back();
-  const bool same_start = mesh.from(last.in) == mesh.from(last.out);
-  const Crossing& at = straight.crossing.back();
-  return direction_towards(mesh, straight.sleeve.end.vertex, f,
-                           weights_on(last.in, same_start ? at : Crossing{at.to, at.from}));
+  return direction_towards(mesh, straight.sleeve.end.vertex, straight.sleeve.last_face(),
+                           point_before_end(mesh, straight));
 }
 
 // Dijkstra on the link: its nodes are the edges at the vertex (by their other end), its arcs the corners.

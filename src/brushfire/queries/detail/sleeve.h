@@ -51,6 +51,10 @@ inline constexpr double kTouch = 1e-9;  // the bend; its cost is the square of t
 // The points of a straight piece from begin to end, begin left out where it repeats `points.back()`.
 void append_points(const Mesh& mesh, const StraightPiece& straight, std::vector<SurfacePoint>& points);
 
+// Where a straight piece leaves its first face, by the weights there, and enters its last face.
+std::array<double, 3> point_after_begin(const Mesh& mesh, const StraightPiece& straight);
+std::array<double, 3> point_before_end(const Mesh& mesh, const StraightPiece& straight);
+
 // A direction at a vertex: within the corner that halfedge `corner` names, `angle` from that halfedge.
 struct Direction {
   Index corner = kNoIndex;
