@@ -64,9 +64,9 @@ double cosine(const Mesh& mesh, Index h, Index f, const std::array<double, 3>& f
 
 // How fast the shortest way through the ring that is cut at `t` of edge h becomes longer with t, in units of the edge:
 // what its end gains less what its beginning does.
-double slope(const Mesh& mesh, const std::vector<Step>& ring, double t) {
+double slope(const Mesh& mesh, const std::vector<Step>& ring, FrameCache& frames, double t) {
   const Index h = ring.front().out;
-  const std::vector<StraightPiece> way = shortest_in_sleeve(mesh, cut_open(mesh, ring, t));
+  const std::vector<StraightPiece> way = shortest_in_sleeve(mesh, cut_open(mesh, ring, t), frames);
   const StraightPiece &first = way.front(), &last = way.back();
   const Index into = first.sleeve.first_face, out = last.sleeve.last_face();
   const auto begin = *weights_in(mesh, first.sleeve.begin, into), end = *weights_in(mesh, last.sleeve.end, out);
@@ -76,12 +76,12 @@ double slope(const Mesh& mesh, const std::vector<Step>& ring, double t) {
 
 // Where to cut the ring's first edge. The length is convex and has no corners within the edge, so this is where its
 // slope vanishes, to the rounding of cosines, or an end of the edge.
-double best_cut(const Mesh& mesh, const std::vector<Step>& ring) {
+double best_cut(const Mesh& mesh, const std::vector<Step>& ring, FrameCache& frames) {
   constexpr double kEnd = 1e-9;  // what the length gains between here and the end of the edge is the square of that
   constexpr double kLevel = 8 * std::numeric_limits<double>::epsilon();
-  double low = kEnd, high = 1 - kEnd, at_low = slope(mesh, ring, low), at_high = 0;
+  double low = kEnd, high = 1 - kEnd, at_low = slope(mesh, ring, frames, low), at_high = 0;
   if (at_low >= 0) return 0;
-  if ((at_high = slope(mesh, ring, high)) <= 0) return 1;
+  if ((at_high = slope(mesh, ring, frames, high)) <= 0) return 1;
   // False position; the end that stays is halved in weight (Dowell and Jarratt 1971, "Illinois"), and every fourth time
   // the bracket itself, for slopes that change in a small part of it.
   double weight_low = at_low, weight_high = at_high, t = 0.5;
@@ -89,7 +89,7 @@ double best_cut(const Mesh& mesh, const std::vector<Step>& ring) {
     t = i % 4 == 0 ? 0.5 * (low + high) : low + (high - low) * (weight_low / (weight_low - weight_high));
     if (!(t > low && t < high)) t = 0.5 * (low + high);
     stop_if_cancelled();
-    const double here = slope(mesh, ring, t);
+    const double here = slope(mesh, ring, frames, t);
     if (std::abs(here) <= kLevel) break;
     if (here < 0) {
       low = t;
@@ -123,7 +123,7 @@ Sleeve joined(const Sleeve& a, const std::vector<Step>& between, const Sleeve& b
   return sleeve;
 }
 
-std::vector<StraightPiece> without_free_end(const Mesh& mesh, std::vector<StraightPiece> pieces) {
+std::vector<StraightPiece> without_free_end(const Mesh& mesh, std::vector<StraightPiece> pieces, FrameCache& frames) {
   if (pieces.empty() || pieces.front().sleeve.begin.on == On::Vertex) return pieces;
   Sleeve &first = pieces.front().sleeve, &last = pieces.back().sleeve;
   // From the last face into the first, which hold the same point: nothing, or over the edge it lies on.
@@ -134,22 +134,23 @@ std::vector<StraightPiece> without_free_end(const Mesh& mesh, std::vector<Straig
   }
   if (pieces.size() == 1) {
     bridge.insert(bridge.begin(), first.steps.begin(), first.steps.end());
-    return shortest_in_ring(mesh, std::move(bridge));
+    return shortest_in_ring(mesh, std::move(bridge), frames);
   }
   // Some piece ends at a vertex: the list begins there.
-  std::vector<StraightPiece> seam = shortest_in_sleeve(mesh, joined(last, bridge, first));
+  std::vector<StraightPiece> seam = shortest_in_sleeve(mesh, joined(last, bridge, first), frames);
   std::vector<StraightPiece> held(std::make_move_iterator(pieces.begin() + 1),
                                   std::make_move_iterator(pieces.end() - 1));
   held.insert(held.end(), std::make_move_iterator(seam.begin()), std::make_move_iterator(seam.end()));
   return held;
 }
 
-std::vector<StraightPiece> shortest_in_ring(const Mesh& mesh, std::vector<Step> ring) {
+std::vector<StraightPiece> shortest_in_ring(const Mesh& mesh, std::vector<Step> ring, FrameCache& frames) {
   stop_if_cancelled();
   reduce(ring);
   if (ring.empty()) return {};
-  std::vector<StraightPiece> pieces = shortest_in_sleeve(mesh, cut_open(mesh, ring, best_cut(mesh, ring)));
-  return pieces.size() == 1 ? pieces : without_free_end(mesh, std::move(pieces));
+  std::vector<StraightPiece> pieces =
+      shortest_in_sleeve(mesh, cut_open(mesh, ring, best_cut(mesh, ring, frames)), frames);
+  return pieces.size() == 1 ? pieces : without_free_end(mesh, std::move(pieces), frames);
 }
 
 }  // namespace brushfire::detail

@@ -5,6 +5,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/closed_sleeve.h>
+#include <brushfire/queries/detail/way_around.h>
 
 #include <algorithm>
 #include <limits>
@@ -18,6 +19,7 @@ namespace brushfire {
 namespace {
 
 using detail::DoubleDouble;
+using detail::FrameCache;
 using detail::Sleeve;
 using detail::Step;
 using detail::StraightPiece;
@@ -82,14 +84,14 @@ DoubleDouble total_length(const std::vector<StraightPiece>& pieces) {
 // of the smallest angles first.
 class Shortener {
  public:
-  Shortener(const Mesh& mesh, bool closed) : mesh_(mesh), closed_(closed) {}
+  Shortener(const Mesh& mesh, FrameCache& frames, bool closed) : mesh_(mesh), frames_(frames), closed_(closed) {}
 
   std::vector<StraightPiece> run(const std::vector<Sleeve>& sleeves) {
     std::vector<StraightPiece> pieces;
     for (const Sleeve& sleeve : sleeves) {
       for (StraightPiece& p : straight(sleeve)) pieces.push_back(std::move(p));
     }
-    if (closed_) pieces = detail::without_free_end(mesh_, std::move(pieces));
+    if (closed_) pieces = detail::without_free_end(mesh_, std::move(pieces), frames_);
     insert(kNone, std::move(pieces), kNone);
     while (!corners_.empty()) {
       stop_if_cancelled();
@@ -116,9 +118,9 @@ class Shortener {
     }
   };
 
-  std::vector<StraightPiece> straight(const Sleeve& sleeve) const {
+  std::vector<StraightPiece> straight(const Sleeve& sleeve) {
     stop_if_cancelled();
-    std::vector<StraightPiece> pieces = detail::shortest_in_sleeve(mesh_, sleeve);
+    std::vector<StraightPiece> pieces = detail::shortest_in_sleeve(mesh_, sleeve, frames_);
     // From a vertex to itself without leaving its faces: nothing.
     std::erase_if(pieces, [](const StraightPiece& p) {
       return p.length.high == 0 && p.sleeve.steps.empty() && same_vertex(p.sleeve.begin, p.sleeve.end);
@@ -143,10 +145,10 @@ class Shortener {
     insert(from, std::move(pieces), to);
   }
 
-  std::vector<StraightPiece> free_ring(const Sleeve& sleeve, const std::vector<Step>& way) const {
+  std::vector<StraightPiece> free_ring(const Sleeve& sleeve, const std::vector<Step>& way) {
     std::vector<Step> ring = sleeve.steps;
     ring.insert(ring.end(), way.begin(), way.end());
-    return detail::shortest_in_ring(mesh_, std::move(ring));
+    return detail::shortest_in_ring(mesh_, std::move(ring), frames_);
   }
 
   // Links pieces in between two others; where there are none (kNone), they are the whole path.
@@ -200,6 +202,7 @@ class Shortener {
   }
 
   const Mesh& mesh_;
+  FrameCache& frames_;
   bool closed_;
   std::vector<Node> nodes_;
   std::vector<Corner> corners_;  // a heap
@@ -220,8 +223,9 @@ SurfacePath shorten(const Mesh& mesh, std::span<const SurfacePoint> points, bool
   SurfacePath path;
   path.closed = closed;
   std::vector<StraightPiece> pieces;
-  if (at.size() > 1) pieces = Shortener(mesh, closed).run(sleeves_of(mesh, at));
-  for (const StraightPiece& p : pieces) detail::append_points(mesh, p, path.points);
+  FrameCache frames(mesh);
+  if (at.size() > 1) pieces = Shortener(mesh, frames, closed).run(sleeves_of(mesh, at));
+  for (const StraightPiece& p : pieces) detail::append_points(mesh, p, frames, path.points);
   if (path.points.empty()) path.points.push_back({at.front().face, at.front().weights});
   if (closed && path.points.size() > 1) path.points.pop_back();  // the first one again
   path.length = total_length(pieces).high * mesh.unit();

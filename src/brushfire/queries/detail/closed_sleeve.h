@@ -20,9 +20,9 @@ Sleeve joined(const Sleeve& a, const std::vector<Step>& between, const Sleeve& b
 //
 // Its length is a convex function of where it crosses one edge, with a slope that is read off the two ends: some ten
 // times the cost of shortest_in_sleeve.
-std::vector<StraightPiece> shortest_in_ring(const Mesh& mesh, std::vector<Step> ring);
+std::vector<StraightPiece> shortest_in_ring(const Mesh& mesh, std::vector<Step> ring, FrameCache& frames);
 
 // Pieces of a closed curve that begins and ends anywhere, of the same kind: the shortest through their faces.
-std::vector<StraightPiece> without_free_end(const Mesh& mesh, std::vector<StraightPiece> pieces);
+std::vector<StraightPiece> without_free_end(const Mesh& mesh, std::vector<StraightPiece> pieces, FrameCache& frames);
 
 }  // namespace brushfire::detail
