@@ -482,6 +482,9 @@ void Examination::hold_path(const WindowField& field, const SurfacePoint& to, Re
   };
   const std::vector<Source>& sources = case_.starts[start_];
   std::optional<double> begin = begins_at(sources[value.source]);
+  // A point at no distance from its curve may lie in other faces, glued to the curve's by faces without area: then
+  // there is no more to say of it than its value.
+  if (!begin && length == 0) begin = static_cast<double>(truth);
   for (std::size_t s = 0; s < sources.size() && !begin; ++s) begin = begins_at(sources[s]);
   if (!begin) {
     ++out.lost;

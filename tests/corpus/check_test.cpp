@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 namespace brushfire::corpus {
@@ -38,6 +39,13 @@ constexpr Once kWrongOnce[] = {
      "wider numbers in a face with an edge without length, where it is entered from beyond"},
     {"curves-bipyramids", 9, 74, "targets", "a run that ended by a path shorter by rounding than its target's light"},
     {"curves-mutilated", 9, 4, "targets", "the same, on lengths of 1e11"},
+    {"far-point", 20261130, 967, "paths",
+     "vertices that rounding of an edge 1e16 long put at no distance from a vertex"},
+    {"far-point", 20261201, 117, "paths", "the same"},
+    {"zoo", 20261201, 88, "paths", "the same, at lengths of 1e5 and a value of 1e-12"},
+    {"curves-far-point", 10, 9, "paths", "the same, before a curve"},
+    {"curves-doubled", 9, 13, "paths", "a point at no distance from its curve, in another face: the judge's"},
+    {"curves-lattice", 10, 33, "paths", "a value beside a source that is less than nothing by rounding"},
     {"curves-collinear", 7, 41, "exact", "parallel light of less than nothing at a place of the curve"},
 };
 

@@ -306,12 +306,13 @@ class Solver {
     struct Sight {
       R value;
       int side;
+      R aside;  // how far from the line
     };
     std::optional<Sight> sight_of(Point p) const {
       const R ahead = dot(along(), p - from), aside = cross(along(), p - from),
               foot = rise() * ahead - abs(aside) * slope();
       if (!(foot > 0 && foot < rise() * length())) return {};
-      return Sight{from_value + slope() * ahead + abs(aside) * rise(), aside < 0 ? -1 : 1};
+      return Sight{from_value + slope() * ahead + abs(aside) * rise(), aside < 0 ? -1 : 1, R(abs(aside))};
     }
   };
 
@@ -324,7 +325,11 @@ class Solver {
     Index g = h;
     for (int k = 0; k < 3; ++k) {
       const Corner& c = complex_.corner[g];
-      if (const auto seen = s.sight_of({0, 0})) {
+      const auto seen = s.sight_of({0, 0});
+      if (seen && seen->aside <= kMargin * epsilon<R>() * s.length()) {
+        // In a face without area: the vertex is on the curve, which lights all faces around it.
+        reach({seen->value, c.from, Arrival::By::Start, 0, 0});
+      } else if (seen) {
         const Point back = Point{0, 0} - s.light(seen->side);
         reach({seen->value, c.from, Arrival::By::Corner, g, std::clamp(R(atan2(back.y, back.x)), R{0}, c.angle)});
       }

@@ -142,6 +142,14 @@ TEST(Rounding, OrdinaryMeshesAreSureToTenDigitsAndUnevenOnesAreNot) {
   EXPECT_EQ(windows::rounding_of(uneven).of(0), 0);  // a source is where it is
 }
 
+TEST(Rounding, AnEdgeThatOnlyFacesWithoutAreaHaveIsAsShortAsAnyOther) {
+  windows::Unevenness u;
+  u.add(1e6, 1e6, 1e6);
+  const double before = windows::rounding_of(u).doubt;
+  u.add(0, 1, 1);
+  EXPECT_NEAR(windows::rounding_of(u).doubt, 1e6 * before, before);
+}
+
 TEST(Rounding, NothingIsPromisedWhereProductsLeaveTheRangeOfDoubles) {
   windows::Unevenness u;
   u.add(1e-200, 1, 1);

@@ -50,17 +50,21 @@ LegOrigins::LegOrigins(const Mesh& mesh, const PointLocation& at, double value) 
       const std::array<double, 3> d = corner_distances(mesh_, here);
       for (Index k = 0; k < 3; ++k) {
         const double way = from.before + d[k];
-        if (way <= no_distance(f.face)) add(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
+        if (way <= no_distance(from.at, f.face)) add(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
       }
       for (Index k = 0; k < 3; ++k) add_across(f, 3 * f.face + k, i);
     }
   }
 }
 
-// A point of an edge is known to an epsilon of the edge, whatever the value.
-double LegOrigins::no_distance(Index face) const {
+// Values beside a source may be rounded to less than nothing.
+double LegOrigins::no_distance() const { return std::max(0.0, kNoDistance * value_); }
+
+// A point of an edge is known to an epsilon of the edge, whatever the value; a vertex is where it is.
+double LegOrigins::no_distance(const PointLocation& from, Index face) const {
+  if (from.on == On::Vertex) return no_distance();
   const auto l = mesh_.lengths().subspan(3 * std::size_t{face}, 3);
-  return std::max(kNoDistance * value_, kNoPlace * std::max({l[0], l[1], l[2]}));
+  return std::max(no_distance(), kNoPlace * std::max({l[0], l[1], l[2]}));
 }
 
 void LegOrigins::add(Index v, Index corner, double way, Index previous) {
@@ -73,6 +77,12 @@ void LegOrigins::add(Index v, Index corner, double way, Index previous) {
   origins_.push_back({at, way, previous});
 }
 
+bool LegOrigins::has_value_of(Index v) const {
+  return std::any_of(origins_.begin(), origins_.end(), [&](const LegOrigin& o) {
+    return o.at.on == On::Vertex && o.at.vertex == v && o.before <= no_distance();
+  });
+}
+
 bool LegOrigins::has(Index v) const {
   return std::any_of(origins_.begin(), origins_.end(),
                      [&](const LegOrigin& o) { return o.at.on == On::Vertex && o.at.vertex == v; });
@@ -80,7 +90,8 @@ bool LegOrigins::has(Index v) const {
 
 // The foot of the point on an edge at no distance: other corners of faces without area may lie there.
 void LegOrigins::add_across(const PointInFace& f, Index h, Index previous) {
-  const double weight = f.weights[Mesh::previous(h) % 3], length = mesh_.length(h), room = no_distance(f.face);
+  const double weight = f.weights[Mesh::previous(h) % 3], length = mesh_.length(h);
+  const double room = no_distance(origins_[previous].at, f.face);
   if (weight == 0 || !(length > 0) || mesh_.opposite()[h] == h || has_edge(h)) return;
   if (!(weight * mesh_.double_areas()[f.face] <= 2 * room * length)) return;
   const std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, h % 3);

@@ -35,11 +35,13 @@ class LegOrigins {
 
   Index size() const { return static_cast<Index>(origins_.size()); }
   const LegOrigin& operator[](Index i) const { return origins_[i]; }
-  // Whether vertex v is one.
-  bool has(Index v) const;
+  // Whether vertex v is one that has the point's value, as far as anyone knows: no leg ends there.
+  bool has_value_of(Index v) const;
 
  private:
-  double no_distance(Index face) const;
+  bool has(Index v) const;
+  double no_distance() const;
+  double no_distance(const PointLocation& from, Index face) const;
   void add(Index v, Index corner, double way, Index previous);
   void add_across(const PointInFace& f, Index h, Index previous);
   bool has_edge(Index h) const;

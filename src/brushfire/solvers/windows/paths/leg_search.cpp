@@ -213,10 +213,10 @@ class LegSearch {
   void add(const Wedge& w) {
     if (!is_left_of(w.right_limit, w.left_limit)) return;  // too narrow to hold more than the way to a vertex
     if (!(mesh_.length(w.halfedge) > 0)) return;           // its ends are one place, which is a vertex
-    const Vec2 span = visible_part(w);
-    const double least = least_total(w, span);
+    const VisiblePart part = visible_part(w);
+    const double least = least_total(w, part);
     if (!(least <= (by_length() ? best_.total : value_ + room_))) return;
-    if (!seen_.is_new(mesh_, w, span, kSamePlace * value_)) return;
+    if (!seen_.is_new(mesh_, w, part, kSamePlace * value_)) return;
     wedges_.push_back(w);
     const auto number = static_cast<Index>(wedges_.size() - 1);
     if (by_length()) {
@@ -231,17 +231,18 @@ class LegSearch {
   // The least that a way through the wedge can come to. The value on the edge differs from those at its ends by no more
   // than the way to them. Going left, the way from the point falls by no more than the bound by the right end does and
   // rises by no more than that by the left end does, so the least is where the two bounds meet. Nor is it less than the
-  // way alone.
-  double least_total(const Wedge& w, Vec2 span) const {
+  // way alone, which beside a vertex of an edge 1e16 long is all that is known.
+  double least_total(const Wedge& w, const VisiblePart& part) const {
+    const WideVec2 edge = w.left - w.right;
+    const DoubleDouble foot = std::clamp(-dot(w.right, edge) / dot(edge, edge), part.first, part.last);
+    const double alone = length_of(w.right + foot * edge);
+    if (pass_ == Pass::WithoutValues) return origins_[w.origin].before + alone;
     const double length = mesh_.length(w.halfedge);
     const double right = known(w.right_vertex), left = known(w.left_vertex);
-    const auto way_to = [&](double share) { return norm(rounded(w.right + share * (w.left - w.right))); };
-    const double meet = std::clamp((right - left + length) / (2 * length), span.x, span.y);
-    const Vec2 edge = rounded(w.left - w.right);
-    const double foot = std::clamp(-dot(rounded(w.right), edge) / dot(edge, edge), span.x, span.y);
+    const double meet = std::clamp((right - left + length) / (2 * length), part.first.high, part.last.high);
+    const double way = norm(rounded(w.right + DoubleDouble(meet) * edge));
     const double value = std::max(right - meet * length, left - (1 - meet) * length);
-    const double least = pass_ == Pass::WithoutValues ? way_to(foot) : std::max(way_to(meet) + value, way_to(foot));
-    return origins_[w.origin].before + least - kShares * length;
+    return origins_[w.origin].before + std::max(alone, way + value - kShares * length);
   }
   // A run that stopped early does not know values that are larger than where it stopped: those are NaN.
   double known(Index v) const { return value_of(v) >= 0 ? value_of(v) : value_; }
@@ -314,7 +315,7 @@ class LegSearch {
 
   void offer_corner(LegGoal goal, Index k, WideVec2 place) {
     goal.vertex = mesh_.faces()[goal.face][k];
-    if (!(value_of(goal.vertex) < value_) || origins_.has(goal.vertex)) return;
+    if (!(value_of(goal.vertex) < value_) || origins_.has_value_of(goal.vertex)) return;
     goal.place = place;
     goal.length = length_of(place);
     goal.weights = corner_weights(k);
@@ -358,7 +359,7 @@ class LegSearch {
   // Where the straight way passes through a vertex of the wedge's edge, as far as anyone can see.
   bool end_at_vertex(const LegGoal& goal, const Wedge& w, WindowField::Leg& leg) const {
     const auto try_end = [&](Index v, Index corner, WideVec2 place) {
-      if (v == goal.vertex || origins_.has(v) || !(value_of(v) < value_)) return false;
+      if (v == goal.vertex || origins_.has_value_of(v) || !(value_of(v) < value_)) return false;
       const double along = dot(goal.place, place).high / goal.length,
                    aside = std::abs(cross(goal.place, place).high) / goal.length;
       if (!(along > 0) || !(aside <= kThrough * std::min(along, goal.length - along))) return false;

@@ -21,21 +21,24 @@ class SeenWedges {
  public:
   void clear() { seen_.clear(); }
 
-  // False where the wedge, of whose edge `span` is visible, is one that came before, to `room`. Remembers it.
-  bool is_new(const Mesh& mesh, const Wedge& w, Vec2 span, double room) {
+  // False where the wedge, of whose edge `part` is visible, is one that came before, to `room`. Remembers it.
+  bool is_new(const Mesh& mesh, const Wedge& w, const VisiblePart& part, double room) {
     Index first = w.halfedge;
     for (Index g = mesh.opposite()[first]; g != w.halfedge; g = mesh.opposite()[g]) first = std::min(first, g);
-    const double length = mesh.length(w.halfedge);
-    const Vec2 edge = (1 / length) * rounded(w.left - w.right), right = rounded(w.right);
-    const double along = -dot(edge, right), across = std::abs(cross(edge, right));
+    const WideVec2 edge = w.left - w.right;
+    const DoubleDouble length = norm(edge), along = -dot(edge, w.right) / length,
+                       across = cross(edge, w.right) / length;
     const bool forward = w.right_vertex < w.left_vertex;
-    const Seen now{
-        {forward ? along : length - along, across}, forward ? span.x : 1 - span.y, forward ? span.y : 1 - span.x};
+    const DoubleDouble from = part.first * length, to = part.last * length;
+    const Seen now{{forward ? along : length - along, across.high < 0 ? -across : across},
+                   forward ? from : length - to,
+                   forward ? to : length - from};
     std::vector<Seen>& others = seen_[first];
     const auto recent = others.end() - std::min<std::ptrdiff_t>(std::ssize(others), kRecent);
+    const auto is_at_most = [&](DoubleDouble a, DoubleDouble b) { return (a - b).high <= room; };
     const bool seen = std::any_of(recent, others.end(), [&](const Seen& s) {
-      return std::abs(s.place.x - now.place.x) <= room && std::abs(s.place.y - now.place.y) <= room &&
-             (s.first - now.first) * length <= room && (now.last - s.last) * length <= room;
+      return std::abs((s.place.x - now.place.x).high) <= room && std::abs((s.place.y - now.place.y).high) <= room &&
+             is_at_most(s.first, now.first) && is_at_most(now.last, s.last);
     });
     if (!seen) others.push_back(now);
     return !seen;
@@ -43,8 +46,8 @@ class SeenWedges {
 
  private:
   struct Seen {
-    Vec2 place;  // of the point, in the frame of the edge
-    double first, last;
+    WideVec2 place;            // of the point, in the frame of the edge
+    DoubleDouble first, last;  // of what is visible, as lengths from the lower vertex
   };
 
   std::unordered_map<Index, std::vector<Seen>> seen_;  // by the lowest halfedge of the edge

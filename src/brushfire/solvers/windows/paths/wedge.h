@@ -66,14 +66,17 @@ inline bool in_wedge(const Wedge& w, WideVec2 p) {
   return side_of(w.right_limit, p) >= 0 && side_of(p, w.left_limit) >= 0;
 }
 
-// The part of the wedge's edge that lies in the wedge, from right to left, as shares of the edge.
-inline Vec2 visible_part(const Wedge& w) {
-  const auto share = [&](WideVec2 limit) {
-    const double r = -cross(limit, w.right).high, l = cross(limit, w.left).high;
-    return r + l > 0 ? std::clamp(r / (r + l), 0.0, 1.0) : kInfinity;
+// The part of the wedge's edge that lies in the wedge, from right to left, as shares of the edge: of an edge 1e16 long
+// next places in doubles are units apart.
+struct VisiblePart {
+  DoubleDouble first, last;
+};
+inline VisiblePart visible_part(const Wedge& w) {
+  const auto share = [&](WideVec2 limit, DoubleDouble otherwise) {
+    const DoubleDouble r = -cross(limit, w.right), sum = r + cross(limit, w.left);
+    return sum.high > 0 ? std::clamp(r / sum, DoubleDouble(0), DoubleDouble(1)) : otherwise;
   };
-  const double first = share(w.right_limit), last = share(w.left_limit);
-  return {first < kInfinity ? first : 0, last < kInfinity ? last : 1};
+  return {share(w.right_limit, 0.0), share(w.left_limit, 1.0)};
 }
 
 // How far away the edge is, in the direction of the wedge that is nearest to the hint. Who is far has got somewhere:

@@ -20,7 +20,10 @@ class Unevenness {
     area_ += 0.5 * double_area;
     longest_ = std::max(longest_, longest);
     lever_ = std::max(lever_, longest);
-    if (!(shortest > 0)) return;  // an edge without length has no direction; the other two are each other's
+    if (!(shortest > 0)) {  // an edge without length has no direction; the other two are each other's
+      if (longest > 0) shortest_ = std::min(shortest_, longest);  // and a way for light to their ends, perhaps the only
+      return;
+    }
     const double ratio = longest / shortest;
     ratio_ = std::max(ratio_, ratio);
     lever_ = std::max(lever_, ratio * longest);
