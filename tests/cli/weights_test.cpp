@@ -64,7 +64,7 @@ TEST_F(WeightFiles, AreArraysToo) {
 TEST_F(WeightFiles, AreMarchedOverWhereAMethodSaysSo) {
   const std::vector<std::string> how{"distance", path("m.off"), "-s",          "5",        "-t",
                                      "9",        "--weights",   path("w.txt"), "--method", "novotni-klein"};
-  EXPECT_NEAR(number(run_program(how)), 8, 0.1);
+  EXPECT_NEAR(number(run_program(how)), 8, 0.5);
   std::vector<std::string> told = how;
   told.push_back("--json");
   const auto json = nlohmann::json::parse(run_program(told).out);
