@@ -36,6 +36,9 @@ void Fingerprint::add(const Weighting& weighting) {
     add(e.along);
     add(e.crossing);
   }
+  for (const Grain& g : weights.grain) {
+    for (const double x : {g.direction.x, g.direction.y, g.direction.z, g.across}) add(x);
+  }
   if (!weights.pace) return;
   constexpr int kSamples = 1000;  // on each side of the flat, up to 45 degrees and beyond
   for (int i = -kSamples; i <= kSamples; ++i) add((*weights.pace)(i * (1.5 / kSamples)));

@@ -27,8 +27,8 @@ void check(const Domain& domain, const DistanceOptions& options) {
   if (options.bound == Bound::Lower && options.weighting->options().marching) {
     throw Error(ErrorCode::InvalidArgument, "lower bounds: marching has none");
   }
-  if (options.bound == Bound::Lower && options.weighting->weights().pace) {
-    throw Error(ErrorCode::InvalidArgument, "lower bounds: where slopes count there are upper ones only");
+  if (options.bound == Bound::Lower && !options.weighting->weights().is_isotropic()) {
+    throw Error(ErrorCode::InvalidArgument, "lower bounds: where slopes or a grain count there are upper ones only");
   }
 }
 

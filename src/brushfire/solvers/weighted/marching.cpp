@@ -15,10 +15,10 @@ namespace brushfire::weighted {
 using steiner::WeightedMesh;
 
 std::unique_ptr<detail::Engine> make_march(const WeightedMesh& mesh, const Weights& weights) {
-  if (!weights.edges.empty() || weights.pace) {
-    throw Error(
-        ErrorCode::InvalidArgument,
-        "marching takes weights of faces only: roads, fences and slopes are for the search over points on edges");
+  if (!weights.edges.empty() || !weights.is_isotropic()) {
+    throw Error(ErrorCode::InvalidArgument,
+                "marching takes weights of faces only: roads, fences, slopes and grain are for the search over points "
+                "on edges");
   }
   std::vector<double> of_faces(mesh.mesh().face_count());
   for (Index f = 0; f < of_faces.size(); ++f) of_faces[f] = mesh.face_weight(f);

@@ -217,7 +217,7 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
   if (lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
   run->layout = points_for(Costs::Real, options, doublings);
   std::shared_ptr<const PointLayout> below;
-  if (lower && !weights.pace) below = points_for(Costs::Below, options, doublings);
+  if (lower && weights.is_isotropic()) below = points_for(Costs::Below, options, doublings);
   search(*run, options, below.get(), field);
   field.points = run->layout->size() + (below ? below->size() : 0);
   field.run = std::move(run);
