@@ -72,6 +72,7 @@ class WeightedSolver:
         slopes: _Floats | None,
         paces: _Floats | None,
         steepest: float,
+        grain: _Floats | None,
     ) -> None: ...
     def weighting(self, tolerance: float, towards: bool, method: str) -> Weighting: ...
     def solve(

@@ -63,9 +63,13 @@ Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& 
                      const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
                      const Vector<double>& crossing, const std::string& slope,
                      const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces,
-                     double steepest) {
+                     double steepest, const std::optional<Vector<double>>& grain) {
   Weights weights = faces_and_edges(domain, face, edge_vertices, along, crossing);
   weights.pace = pace_from(slope, slopes, paces, steepest);
+  for (std::size_t i = 0; grain && i + 3 < grain->shape(0); i += 4) {
+    const double* g = grain->data() + i;
+    weights.grain.push_back({{g[0], g[1], g[2]}, g[3]});
+  }
   return weights;
 }
 
@@ -203,10 +207,12 @@ void bind_weighted(nb::module_& m) {
   nb::class_<Weighted>(m, "WeightedSolver")
       .def(nb::init<const Domain&, const std::optional<Vector<double>>&, const Vector<std::int64_t>&,
                     const Vector<double>&, const Vector<double>&, const std::string&,
-                    const std::optional<Vector<double>>&, const std::optional<Vector<double>>&, double>(),
+                    const std::optional<Vector<double>>&, const std::optional<Vector<double>>&, double,
+                    const std::optional<Vector<double>>&>(),
            nb::arg("domain"), nb::arg("face").noconvert().none(), nb::arg("edge_vertices").noconvert(),
            nb::arg("along").noconvert(), nb::arg("crossing").noconvert(), nb::arg("slope"),
-           nb::arg("slopes").noconvert().none(), nb::arg("paces").noconvert().none(), nb::arg("steepest"))
+           nb::arg("slopes").noconvert().none(), nb::arg("paces").noconvert().none(), nb::arg("steepest"),
+           nb::arg("grain").noconvert().none())
       .def("weighting", weighting_of, nb::arg("tolerance"), nb::arg("towards"), nb::arg("method"))
       .def("solve", solve, nb::arg("sources"), nb::arg("target_index").noconvert().none(),
            nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("refinements"), nb::arg("lower"),

@@ -126,3 +126,21 @@ def test_marching_is_near_and_fast_and_promises_nothing(strip: bf.Mesh) -> None:
         weighted.distance(5, method="carried-source")
     with pytest.raises(bf.BrushfireError, match="roads"):
         strip.weighted(W, [[2, 7, np.inf, 5]]).distance(5, method="novotni-klein")
+
+
+def test_going_across_a_grain_costs_more(strip: bf.Mesh) -> None:
+    grain = np.tile([1.0, 0.0, 0.0, 3.0], (len(F), 1))
+    weighted = strip.weighted(grain=grain)
+    truth = np.hypot(V[:, 0], 3 * V[:, 1])
+    found = weighted.distance(0, tolerance=0.001)
+    assert (found >= truth * (1 - 1e-12)).all() and found == pytest.approx(truth, rel=2e-3)
+    assert weighted.costs(0).lower is None
+    planner = weighted.replanner(0)
+    planner.change(np.full(len(F), 2.0))
+    assert planner.distance == pytest.approx(2 * weighted.distance(0), rel=1e-12)
+    planner.change(grain=np.tile([0.0, 1.0, 0.0, 3.0], (len(F), 1)))
+    assert planner.distance[5] == pytest.approx(2) and planner.distance[1] == pytest.approx(6)
+    with pytest.raises(bf.BrushfireError, match="grain"):
+        strip.weighted(grain=[[1, 0, 0, 3]])
+    with pytest.raises(bf.BrushfireError, match="together"):
+        strip.weighted(grain=grain, slope="tobler")

@@ -61,6 +61,19 @@ TEST_F(WeightFiles, AreArraysToo) {
   EXPECT_NEAR(read_npy(path("d.npy")).values[7], 1, 2e-9);  // rounding of windows
 }
 
+TEST_F(WeightFiles, GrainMakesOneDirectionDear) {
+  std::string rows;
+  for (int f = 0; f < 16; ++f) rows += "0 1 0 3\n";
+  write("grain.txt", rows);
+  const std::string mesh = path("m.off");
+  EXPECT_NEAR(number(run_program({"distance", mesh, "-s", "5", "-t", "9", "--grain", path("grain.txt")})), 12, 1e-9);
+  EXPECT_NEAR(number(run_program({"distance", mesh, "-s", "5", "-t", "10", "--grain", path("grain.txt")})), 1, 1e-9);
+  write("short.txt", "0 1 0 3\n");
+  EXPECT_EQ(run_program({"distance", mesh, "-s", "5", "--grain", path("short.txt")}).code, 2);
+  write("three.txt", "0 1 0\n");
+  EXPECT_EQ(run_program({"distance", mesh, "-s", "5", "--grain", path("three.txt")}).code, 2);
+}
+
 TEST_F(WeightFiles, AreMarchedOverWhereAMethodSaysSo) {
   const std::vector<std::string> how{"distance", path("m.off"), "-s",          "5",        "-t",
                                      "9",        "--weights",   path("w.txt"), "--method", "novotni-klein"};

@@ -54,6 +54,7 @@ Record head(const WeightedRequest& request, const Scene& scene) {
       .add("method", method_name(scene))
       .add("weights", request.shared.weights_file)
       .add("edge_weights", request.shared.edge_weights_file)
+      .add("grain", request.shared.grain_file)
       .add("slope", request.shared.slope)
       .add("towards", request.shared.towards)
       .add("tolerance", scene.options.tolerance)
