@@ -100,7 +100,7 @@ void measure(const std::string& name, const Mesh& mesh, const std::string& kind,
   const double both = timed(solver, sources, {.tolerance = tolerance}, field);
   double march = 0, off = 0;
   if (kind != "one") {
-    march = timed(solver, sources, {.marching = Method::NovotniKlein}, marched);
+    march = timed(solver, sources, {.marching = Method::KimmelSethian}, marched);
     double count = 0;
     for (std::size_t v = 0; v < field.distance.size(); ++v) {
       if (!(field.distance[v] > 0 && field.distance[v] < kInfinity)) continue;

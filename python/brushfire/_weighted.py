@@ -161,8 +161,8 @@ class Weighted:
         """What the cheapest path from the nearest of the sources costs: upper bounds, without lower ones in a fraction of
         the time of :meth:`costs`. Arguments as there; float64 (vertex_count,) or (targets,), +inf where there is no path.
 
-        :param method: ``"novotni-klein"`` or ``"kimmel-sethian"``: fast marching, which promises nothing, in a twentieth of
-            the time; weights of faces only.
+        :param method: ``"kimmel-sethian"``: fast marching, which promises nothing, in a twentieth of the time; weights of
+            faces only.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
@@ -342,8 +342,8 @@ def chosen_in(
         return surface._space, options(method, tolerance, radius, bound, precision, threads)
     if precision is not None:
         raise BrushfireError("precision: with weights it is not to be chosen")
-    if method not in (None, "novotni-klein", "kimmel-sethian"):
-        raise BrushfireError("method: with weights points on edges (None), or novotni-klein or kimmel-sethian, without bounds")
+    if method not in (None, "kimmel-sethian"):
+        raise BrushfireError("method: with weights points on edges (None), or kimmel-sethian, without bounds")
     within = _TOLERANCE if tolerance is None else tolerance_of(tolerance)
     weighting = weighted._solver.weighting(within, weighted._towards, method or "")
     chosen: Options = {

@@ -76,12 +76,12 @@ TEST_F(WeightFiles, GrainMakesOneDirectionDear) {
 
 TEST_F(WeightFiles, AreMarchedOverWhereAMethodSaysSo) {
   const std::vector<std::string> how{"distance", path("m.off"), "-s",          "5",        "-t",
-                                     "9",        "--weights",   path("w.txt"), "--method", "novotni-klein"};
+                                     "9",        "--weights",   path("w.txt"), "--method", "kimmel-sethian"};
   EXPECT_NEAR(number(run_program(how)), 8, 0.5);
   std::vector<std::string> told = how;
   told.push_back("--json");
   const auto json = nlohmann::json::parse(run_program(told).out);
-  EXPECT_EQ(json.at("method"), "novotni-klein");
+  EXPECT_EQ(json.at("method"), "kimmel-sethian");
   EXPECT_EQ(json.at("engine"), "marching");
   EXPECT_TRUE(json.at("max_error_bound").is_null());
   for (const std::vector<std::string>& more :

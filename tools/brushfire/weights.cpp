@@ -213,11 +213,9 @@ WeightedOptions weighted_computation(const SharedArguments& a) {
   options.max_distance = plain.max_distance;
   options.cancel = plain.cancel;
   if (given(a, {Shared::Method})) {
-    if (plain.method != Method::NovotniKlein && plain.method != Method::KimmelSethian) {
-      refuse(
-          "--method " + a.methods.front() +
-          ": with --weights there are points on edges, which is what is taken without --method, and novotni-klein and "
-          "kimmel-sethian");
+    if (plain.method != Method::KimmelSethian) {
+      refuse("--method " + a.methods.front() +
+             ": with --weights there are points on edges, which is what is taken without --method, and kimmel-sethian");
     }
     if (a.bound == "lower") refuse("--bound lower: marching has no bounds");
     options.marching = plain.method;

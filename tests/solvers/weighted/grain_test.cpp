@@ -131,7 +131,7 @@ TEST(Grain, ThatMeansNothingIsRefused) {
   weights.pace = SlopePace::tobler();
   refused(weights);
   EXPECT_THROW(weighted_distance(mesh, grained(mesh, 0), std::vector<Source>{{vertex_point(mesh, 0)}},
-                                 {.marching = Method::NovotniKlein}),
+                                 {.marching = Method::KimmelSethian}),
                Error);
 }
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <utility>
 
 #include "random_weighted.h"
 #include "support/sheets.h"
@@ -29,7 +28,7 @@ Weights by_place(const Mesh& mesh, const std::function<double(Vec3)>& cost) {
 }
 
 WeightedField march(const Domain& mesh, const Weights& weights, const SurfacePoint& from,
-                    std::vector<SurfacePoint> targets = {}, Method method = Method::NovotniKlein) {
+                    std::vector<SurfacePoint> targets = {}, Method method = Method::KimmelSethian) {
   return weighted_distance(mesh, weights, std::vector<Source>{{from}},
                            {.marching = method, .targets = std::move(targets)});
 }
@@ -60,8 +59,8 @@ TEST(WeightedMarching, OneWeightEverywhereIsThatTimesTheDistance) {
   std::vector<double> truth = distance(mesh, std::vector<Source>{{vertex_point(mesh, 0)}}).distance;
   for (double& d : truth) d *= 3;
   const Deviation off = deviation(field.distance, truth);
-  EXPECT_LT(off.mean, 2e-3);
-  EXPECT_LT(off.most, 2e-2);
+  EXPECT_LT(off.mean, 2e-2);
+  EXPECT_LT(off.most, 0.2);
 }
 
 // Where one is as fast as 1 + x, a path is an arc of a circle, and takes arcosh(1 + |p - q|^2 / (2 v(p) v(q))).
@@ -80,21 +79,20 @@ TEST(WeightedMarching, ConvergesWhereSpeedGrowsAlongAnAxis) {
     const WeightedField field = march(mesh, weights, vertex_point(mesh, 0));
     mean.push_back(deviation(field.distance, truth).mean);
   }
-  EXPECT_LT(mean[2], 5e-3) << mean[0] << " " << mean[1];
-  EXPECT_LT(mean[1], 0.6 * mean[0]);  // of order one, about
-  EXPECT_LT(mean[2], 0.6 * mean[1]);
+  EXPECT_LT(mean[2], 1.5e-2) << mean[0] << " " << mean[1];
+  EXPECT_LT(mean[1], 0.8 * mean[0]);  // the error that straight fronts make around a point goes like h log h
+  EXPECT_LT(mean[2], 0.8 * mean[1]);
 }
 
 TEST(WeightedMarching, LiesNearTheBoundsWhereFrontsRefract) {
   const Mesh mesh = test::shaken_sheet(6, 4, 3);
-  for (const auto& [ratio, method] : {std::pair(2.0, Method::NovotniKlein), std::pair(10.0, Method::KimmelSethian)}) {
-    const double n = ratio;
+  for (const double n : {2.0, 10.0}) {
     const Weights weights = by_place(mesh, [&](Vec3 p) { return p.x > 3 ? n : 1.0; });
     for (const SurfacePoint& from : {vertex_point(mesh, 8), SurfacePoint{20, {0.2, 0.3, 0.5}}}) {
       const WeightedField truth = weighted_distance(mesh, weights, std::vector<Source>{{from}}, {.tolerance = 1e-4});
-      const Deviation off = deviation(march(mesh, weights, from, {}, method).distance, truth.distance);
-      EXPECT_LT(off.mean, 0.03) << n;
-      EXPECT_LT(off.most, n < 10 ? 0.1 : 0.5) << n;
+      const Deviation off = deviation(march(mesh, weights, from).distance, truth.distance);
+      EXPECT_LT(off.mean, 0.05) << n;
+      EXPECT_LT(off.most, 0.5) << n;
     }
   }
 }
@@ -138,7 +136,7 @@ TEST(WeightedMarching, PassesNoWallAndReadsTargets) {
   const double truth = weighted_distance(mesh, weights, std::vector<Source>{{vertex_point(mesh, 0)}},
                                          {.tolerance = 1e-3, .targets = {near}})
                            .target_distance[0];
-  EXPECT_NEAR(field.target_distance[0], truth, 0.01 * truth);
+  EXPECT_NEAR(field.target_distance[0], truth, 0.06 * truth);
   EXPECT_EQ(field.target_distance[1], kInfinity);
   EXPECT_EQ(field.target_source[0], 0);
 }
@@ -152,12 +150,27 @@ TEST(WeightedMarching, NearAndFarWeightsEnd) {
   EXPECT_LT(deviation(field.distance, truth.distance).mean, 0.05);
 }
 
+// Round fronts fell below what they came from, and then below nothing.
+TEST(WeightedMarching, NeverCollapsesOnStretchedMeshes) {
+  Shape shape = shapes::icosphere(4);
+  for (Vec3& p : shape.positions) p.x *= 10;
+  const Mesh mesh = shape.mesh();
+  Random random(4);
+  Weights weights;
+  for (Index f = 0; f < mesh.face_count(); ++f) weights.face.push_back(random.uniform(1, 10));
+  const std::vector<Source> sources{{vertex_point(mesh, 0)}};
+  const std::vector<double> least = distance(mesh, sources).distance;
+  const WeightedField field = march(mesh, weights, vertex_point(mesh, 0));
+  for (Index v = 1; v < mesh.vertex_count(); ++v) EXPECT_GT(field.distance[v], 0.9 * least[v]) << v;
+  EXPECT_THROW(march(mesh, weights, vertex_point(mesh, 0), {}, Method::NovotniKlein), Error);
+}
+
 TEST(WeightedMarching, IsWhatDistanceOptionsComputeWhereAWeightingSaysSo) {
   const Mesh mesh = test::squares(8, [](Index, Index) { return 0.0; });
   const Weights weights = by_place(mesh, [](Vec3 p) { return 1 + p.x; });
   DistanceOptions options;
   options.weighting =
-      std::make_shared<const Weighting>(mesh, weights, WeightingOptions{.marching = Method::NovotniKlein});
+      std::make_shared<const Weighting>(mesh, weights, WeightingOptions{.marching = Method::KimmelSethian});
   EXPECT_EQ(distance(mesh, std::vector<Source>{{vertex_point(mesh, 3)}}, options).distance,
             march(mesh, weights, vertex_point(mesh, 3)).distance);
   options.bound = Bound::Lower;
@@ -177,7 +190,7 @@ TEST(WeightedMarching, RefusesWhatItCannotSee) {
   curve.places = {vertex_point(mesh, 0), vertex_point(mesh, 1)};
   EXPECT_THROW(march(mesh, weights, vertex_point(mesh, 0), {}, Method::CarriedSource), Error);
   EXPECT_THROW(
-      weighted_distance(mesh, weights, std::vector<Source>{source_along(curve)}, {.marching = Method::NovotniKlein}),
+      weighted_distance(mesh, weights, std::vector<Source>{source_along(curve)}, {.marching = Method::KimmelSethian}),
       Error);
 }
 

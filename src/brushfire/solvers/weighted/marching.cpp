@@ -28,9 +28,9 @@ std::unique_ptr<detail::Engine> make_march(const WeightedMesh& mesh, const Weigh
 WeightedField march(const std::shared_ptr<const WeightedMesh>& mesh, detail::Engine& engine,
                     std::span<const Source> sources, const WeightedOptions& options) {
   const Method method = *options.marching;
-  if (method != Method::NovotniKlein && method != Method::KimmelSethian) {
+  if (method != Method::KimmelSethian) {
     throw Error(ErrorCode::InvalidArgument,
-                "weights are marched over by novotni-klein or kimmel-sethian, not by " + std::string(name_of(method)));
+                "weights are marched over by kimmel-sethian, not by " + std::string(name_of(method)));
   }
   if (std::any_of(sources.begin(), sources.end(), [](const Source& s) { return s.curve != nullptr; })) {
     throw Error(ErrorCode::InvalidArgument, "marching with weights starts at points, not at curves");

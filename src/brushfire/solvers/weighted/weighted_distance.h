@@ -43,9 +43,8 @@ struct WeightedOptions {
   bool towards = false;
   // false: upper bounds only, those of a search over points on edges.
   bool lower = true;
-  // Fast marching in place of bounds: nothing is promised, in a fraction of the time. Method::NovotniKlein, or where
-  // weights beside each other differ by more than ten times Method::KimmelSethian. Weights of faces only; from points.
-  // Tolerance, lower, towards and keep_paths do not count.
+  // Method::KimmelSethian: fast marching in place of bounds, which promises nothing, in a fraction of the time. Weights
+  // of faces only; from points. Tolerance, lower, towards and keep_paths do not count.
   std::optional<Method> marching = std::nullopt;
   bool keep_paths = false;                 // WeightedField::run, for weighted_path(): by points on edges
   double max_distance = kInfinity;         // vertices that cost more read +inf; >= 0, may be +inf
