@@ -175,6 +175,31 @@ TEST(Walls, GroupedRowsGoAroundThem) {
   EXPECT_LT(error, 1.1 * error_single);
 }
 
+// The polar coordinates of the nearest side of every vertex (of sides that are equally near to rounding, of any), by
+// whoever has used the solver before.
+void expect_map_of_nearest_sides(DistanceSolver& solver, const SurfacePoint& from, double radius) {
+  const Domain& domain = solver.domain();
+  const LogMap open = log_map(domain.open(), domain.on_open(from).front(), radius);
+  const SparseLogMap map = log_map(solver, from, radius);
+  std::map<Index, double> nearest;
+  for (Index v = 0; v < domain.open().vertex_count(); ++v) {
+    if (open.radius[v] == kInfinity) continue;
+    double& least = nearest.try_emplace(domain.vertex(v), kInfinity).first->second;
+    least = std::min(least, open.radius[v]);
+  }
+  ASSERT_EQ(map.vertex.size(), nearest.size());
+  std::set<Index> explained;
+  for (Index v = 0; v < domain.open().vertex_count(); ++v) {
+    if (open.radius[v] == kInfinity || open.radius[v] > nearest.at(domain.vertex(v)) + kRounding) continue;
+    const auto i = std::lower_bound(map.vertex.begin(), map.vertex.end(), domain.vertex(v)) - map.vertex.begin();
+    EXPECT_EQ(map.vertex[i], domain.vertex(v));
+    EXPECT_EQ(map.radius[i], nearest.at(domain.vertex(v)));
+    if (std::abs(std::remainder(map.angle[i] - open.angle[v], map.total_angle)) < 1e-9)
+      explained.insert(domain.vertex(v));
+  }
+  EXPECT_EQ(explained.size(), nearest.size());
+}
+
 TEST(Walls, TargetsPathsMatricesAndLogMapsAgreeWithTheField) {
   for (unsigned seed = 100; seed < 130; ++seed) {
     SCOPED_TRACE(seed);
@@ -214,6 +239,7 @@ TEST(Walls, TargetsPathsMatricesAndLogMapsAgreeWithTheField) {
     if (domain.on_open(from).size() == 1) {
       const LogMap map = log_map(domain, from);
       EXPECT_LE(difference(map.radius, whole.distance), kRounding);
+      for (const double radius : {kInfinity, 0.4, 0.1}) expect_map_of_nearest_sides(solver, from, radius);
     }
     const SparseMatrix<double> near = distances_within<double>(domain, 0.4, std::span<const Place>(rows), matrix);
     for (std::size_t i = 0; i < near.column.size(); ++i)

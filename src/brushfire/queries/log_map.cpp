@@ -1,16 +1,18 @@
-// The logarithmic map: how far every vertex is, and in which direction its shortest path starts.
-#include <brushfire/queries/straightest.h>
-
+// The logarithmic map, by where shortest paths start.
 #include <brushfire/core/cancel.h>
 #include <brushfire/queries/detail/leaving_angles.h>
 #include <brushfire/queries/detail/lengths_only.h>
-#include <brushfire/queries/detail/only_side.h>
+#include <brushfire/queries/straightest.h>
 #include <brushfire/solvers/windows/paths/departures.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace brushfire {
 namespace {
@@ -19,46 +21,84 @@ using detail::LeavingAngles;
 
 constexpr double kUnknownAngle = std::numeric_limits<double>::quiet_NaN();
 
-// Sets map.angle along the path to entry i: back along the vertices that the path bends at, to one whose angle is known
-// or to the source. `chain` is room to work in.
-void find_angle(windows::Departures& departures, const LeavingAngles& leaving, SparseLogMap& map, std::size_t i,
-                std::vector<std::size_t>& chain) {
-  chain.clear();
-  double angle = 0;
-  while (true) {
-    chain.push_back(i);
-    const windows::Departures::Departure departure = departures.of(map.vertex[i]);
-    if (departure.vertex == kNoIndex || leaving.is_source(departure.vertex)) {
-      angle = leaving.within_turn(departure.angle);
-      break;
-    }
-    i = static_cast<std::size_t>(std::lower_bound(map.vertex.begin(), map.vertex.end(), departure.vertex) -
-                                 map.vertex.begin());
-    if (!std::isnan(map.angle[i])) {
-      angle = map.angle[i];
-      break;
-    }
-  }
-  for (const std::size_t k : chain) map.angle[k] = angle;
-}
+// The angles at which paths leave the source.
+class PathAngles {
+ public:
+  // vertices: all that a path may bend at, ascending, of the mesh of the run.
+  PathAngles(const WindowField& paths, const LeavingAngles& leaving, std::span<const Index> vertices)
+      : leaving_(leaving),
+        vertices_(vertices),
+        angle_(vertices.size(), kUnknownAngle),
+        departures_(paths, vertices.size(), [&leaving](const WindowField::Leg& leg) { return leaving.of(leg); }) {}
 
-// Of the copies of a vertex the nearest.
-SparseLogMap brought_back(const Domain& domain, const SparseLogMap& map) {
-  std::vector<std::size_t> order(map.vertex.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::tuple(domain.vertex(map.vertex[a]), map.radius[a], a) <
-           std::tuple(domain.vertex(map.vertex[b]), map.radius[b], b);
-  });
-  SparseLogMap result{{}, {}, {}, map.total_angle};
-  for (const std::size_t i : order) {
-    const Index v = domain.vertex(map.vertex[i]);
-    if (!result.vertex.empty() && result.vertex.back() == v) continue;
-    result.vertex.push_back(v);
-    result.radius.push_back(map.radius[i]);
-    result.angle.push_back(map.angle[i]);
+  // Of the path to vertices[i].
+  double to(std::size_t i) {
+    if (leaving_.is_source(vertices_[i])) return 0;
+    if (std::isnan(angle_[i])) find(i);
+    return angle_[i];
   }
-  return result;
+
+ private:
+  // Back along the vertices that the path bends at, to one whose angle is known or to the source; theirs is the same.
+  void find(std::size_t i) {
+    chain_.clear();
+    double angle = 0;
+    while (true) {
+      chain_.push_back(i);
+      const windows::Departures::Departure departure = departures_.of(vertices_[i]);
+      if (departure.vertex == kNoIndex || leaving_.is_source(departure.vertex)) {
+        angle = leaving_.within_turn(departure.angle);
+        break;
+      }
+      i = static_cast<std::size_t>(std::lower_bound(vertices_.begin(), vertices_.end(), departure.vertex) -
+                                   vertices_.begin());
+      if (!std::isnan(angle_[i])) {
+        angle = angle_[i];
+        break;
+      }
+    }
+    for (const std::size_t k : chain_) angle_[k] = angle;
+  }
+
+  const LeavingAngles& leaving_;
+  std::span<const Index> vertices_;
+  std::vector<double> angle_;  // [vertices]
+  windows::Departures departures_;
+  std::vector<std::size_t> chain_;
+};
+
+// The vertices of what is open that a run came to, on all sides of walls, and the nearest side of each vertex that was
+// reached.
+struct Sides {
+  std::vector<Index> vertex;         // of domain.open(), ascending
+  std::vector<std::size_t> nearest;  // [reached] its place in these
+};
+
+Sides sides_of(const Domain& domain, const SparseField& field) {
+  Sides sides;
+  sides.nearest.resize(field.vertex.size());
+  std::iota(sides.nearest.begin(), sides.nearest.end(), std::size_t{0});
+  if (!domain.has_walls()) {
+    sides.vertex = field.vertex;
+    return sides;
+  }
+  std::vector<std::tuple<Index, std::size_t, double>> found;  // side, which of the reached, value
+  for (std::size_t i = 0; i < field.vertex.size(); ++i) {
+    for (const SurfacePoint& side : domain.on_open(vertex_point(domain.mesh(), field.vertex[i]))) {
+      const double value = field.windows->value(side).distance;
+      if (value < kInfinity) found.emplace_back(locate(domain.open(), side).vertex, i, value);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<double> least(field.vertex.size(), kInfinity);
+  for (const auto& [vertex, i, value] : found) {
+    if (value < least[i]) {
+      least[i] = value;
+      sides.nearest[i] = sides.vertex.size();
+    }
+    sides.vertex.push_back(vertex);
+  }
+  return sides;
 }
 
 }  // namespace
@@ -72,11 +112,8 @@ SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, double 
 
 SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const DistanceOptions& how) {
   detail::check_lengths_only(how, "directions and lengths of a log map");
-  if (const Domain& domain = solver.domain(); domain.has_walls()) {
-    DistanceSolver on_open(domain.open());
-    return brought_back(domain, log_map(on_open, detail::only_side(domain, source), how));
-  }
-  const LeavingAngles leaving(solver.mesh(), source);
+  const Domain& domain = solver.domain();
+  const LeavingAngles leaving(domain.open(), detail::only_side(domain, source));
   DistanceOptions options;
   options.method = Method::Exact;
   options.max_distance = how.max_distance;
@@ -86,17 +123,15 @@ SparseLogMap log_map(DistanceSolver& solver, const SurfacePoint& source, const D
   options.cancel = how.cancel;
   const Source origin{source};
   SparseField field = solver.distance_sparse(std::span(&origin, 1), options);
+  const Sides sides = sides_of(domain, field);
+  PathAngles angles(*field.windows, leaving, sides.vertex);
   SparseLogMap map{std::move(field.vertex), std::move(field.distance), {}, leaving.total()};
-  map.angle.assign(map.vertex.size(), kUnknownAngle);
-  std::vector<std::size_t> chain;
-  windows::Departures departures(*field.windows, map.vertex.size(),
-                                 [&](const WindowField::Leg& leg) { return leaving.of(leg); });
+  map.angle.reserve(map.vertex.size());
   const CancelScope listen(how.cancel);
   Poll poll(64);
-  for (std::size_t i = 0; i < map.vertex.size(); ++i) {
+  for (const std::size_t side : sides.nearest) {
     poll();
-    if (leaving.is_source(map.vertex[i])) map.angle[i] = 0;
-    if (std::isnan(map.angle[i])) find_angle(departures, leaving, map, i, chain);
+    map.angle.push_back(angles.to(side));
   }
   return map;
 }

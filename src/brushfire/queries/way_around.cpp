@@ -1,14 +1,13 @@
-// Directions at the vertices that a path passes, and the shortest way around them in their links.
+// Angles are summed corner by corner, whichever way the faces are oriented and however many an edge has.
+#include <brushfire/queries/detail/way_around.h>
+
 #include <brushfire/mesh/detail/flat_face.h>
-#include <brushfire/queries/detail/sleeve.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
-#include <queue>
-#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace brushfire::detail {
 namespace {
@@ -43,133 +42,105 @@ Direction direction_towards(const Mesh& mesh, Index vertex, Index f, const std::
   return {corner, std::clamp(std::atan2(cross(side, d), dot(side, d)), 0.0, full)};
 }
 
-namespace {
-
-std::array<double, 3> weights_on(Index h, const Crossing& at) {
-  std::array<double, 3> w{0, 0, 0};
-  w[h % 3] = at.from;
-  w[Mesh::next(h) % 3] = at.to;
-  return w;
-}
-
-}  // namespace
-
 Direction direction_at_begin(const Mesh& mesh, const StraightPiece& straight) {
-  const Index f = straight.sleeve.first_face;
-  const auto ahead = straight.sleeve.steps.empty()
-                         ? *weights_in(mesh, straight.sleeve.end, f)
-                         : weights_on(straight.sleeve.steps.front().out, straight.crossing.front());
-  return direction_towards(mesh, straight.sleeve.begin.vertex, f, ahead);
+  return direction_towards(mesh, straight.sleeve.begin.vertex, straight.sleeve.first_face,
+                           point_after_begin(mesh, straight));
 }
 
 Direction direction_at_end(const Mesh& mesh, const StraightPiece& straight) {
-  const Index f = straight.sleeve.last_face();
-  if (straight.sleeve.steps.empty()) {
-    return direction_towards(mesh, straight.sleeve.end.vertex, f, *weights_in(mesh, straight.sleeve.begin, f));
-  }
-  const Step& last = straight.sleeve.steps.back();
-  const bool same_start = mesh.from(last.in) == mesh.from(last.out);
-  const Crossing& at = straight.crossing.back();
-  return direction_towards(mesh, straight.sleeve.end.vertex, f,
-                           weights_on(last.in, same_start ? at : Crossing{at.to, at.from}));
+  return direction_towards(mesh, straight.sleeve.end.vertex, straight.sleeve.last_face(),
+                           point_before_end(mesh, straight));
 }
 
 namespace {
 
-// Shortest ways in the link of a vertex, whose nodes are the edges there (named by their other ends) and whose arcs are
-// the corners, as long as their angles: Dijkstra's algorithm, from inside a corner to inside another.
-class LinkSearch {
+// The edges at a vertex, by their other ends, and the corners between them: at a vertex of a million faces every edge
+// finds its own corners, and no others.
+class VertexLink {
  public:
-  LinkSearch(const Mesh& mesh, Index vertex) : mesh_(mesh) {
-    // At a vertex of a million faces every edge asks for its own faces, and no others.
+  VertexLink(const Mesh& mesh, Index vertex, Index from) : mesh_(mesh) {
+    arcs_ = {{ahead(from), kNoIndex}, {behind(from), kNoIndex}};  // its edges, whether or not its face is usable
     for (const Index corner : mesh.corners(vertex)) {
       if (!mesh.is_face_usable(Mesh::face_of(corner))) continue;
-      corner_at_.emplace_back(ahead(corner), corner);
-      if (behind(corner) != ahead(corner)) corner_at_.emplace_back(behind(corner), corner);
+      arcs_.emplace_back(ahead(corner), corner);
+      if (behind(corner) != ahead(corner)) arcs_.emplace_back(behind(corner), corner);
     }
-    std::sort(corner_at_.begin(), corner_at_.end());
+    std::sort(arcs_.begin(), arcs_.end());
   }
-
-  WayAround run(const Direction& from, const Direction& to) {
-    offer(ahead(from.corner), from.angle, from.corner, kNoIndex);
-    offer(behind(from.corner), corner_angle(mesh_, from.corner) - from.angle, from.corner, kNoIndex);
-    if (from.corner == to.corner) best_.angle = std::abs(from.angle - to.angle);
-    while (!queue_.empty()) {
-      const auto [angle, edge] = queue_.top();
-      queue_.pop();
-      Node& node = nodes_[edge];
-      if (node.done || angle >= best_.angle) continue;
-      node.done = true;
-      cross_corners(edge, angle, node.through, to);
-    }
-    return way_back(to.corner);
-  }
-
- private:
-  struct Node {
-    double angle = kInfinity;
-    Index through = kNoIndex;  // the corner through which it was reached
-    Index before = kNoIndex;   // the edge before, kNoIndex: the beginning
-    bool done = false;
-  };
-  using Entry = std::tuple<double, Index>;
 
   Index ahead(Index corner) const { return mesh_.to(corner); }                     // the edge that `corner` runs along
   Index behind(Index corner) const { return mesh_.from(Mesh::previous(corner)); }  // the corner's other edge
-
-  void offer(Index edge, double angle, Index through, Index before) {
-    Node& n = nodes_[edge];
-    if (angle < n.angle) {
-      n.angle = angle;
-      n.through = through;
-      n.before = before;
-      queue_.emplace(angle, edge);
-    }
+  // Where the arcs of an edge begin.
+  std::size_t first(Index edge) const {
+    return static_cast<std::size_t>(std::lower_bound(arcs_.begin(), arcs_.end(), std::pair{edge, Index{0}}) -
+                                    arcs_.begin());
   }
+  // (edge, corner), by edge; kNoIndex for no corner
+  const std::vector<std::pair<Index, Index>>& arcs() const { return arcs_; }
 
-  // From an edge through its corners to their other edges, and to where `to` is.
-  void cross_corners(Index edge, double angle, Index through, const Direction& to) {
-    const auto first = std::lower_bound(corner_at_.begin(), corner_at_.end(), std::pair{edge, Index{0}});
-    for (auto it = first; it != corner_at_.end() && it->first == edge; ++it) {
-      const Index corner = it->second;
-      if (corner == through) continue;
-      const bool is_ahead = ahead(corner) == edge;
-      const double full = corner_angle(mesh_, corner);
-      if (corner == to.corner) {
-        const double total = angle + (is_ahead ? to.angle : full - to.angle);
-        if (total < best_.angle) {
-          best_.angle = total;
-          best_edge_ = edge;
-        }
-      }
-      offer(is_ahead ? behind(corner) : ahead(corner), angle + full, corner, edge);
-    }
-  }
-
-  // Back along the edges: each is crossed from the corner that reached it into the one beyond.
-  WayAround way_back(Index into) {
-    for (Index edge = best_edge_; edge != kNoIndex; edge = nodes_[edge].before) {
-      const Index out = nodes_[edge].through;
-      const auto halfedge = [&](Index corner) { return ahead(corner) == edge ? corner : Mesh::previous(corner); };
-      best_.steps.push_back({halfedge(out), halfedge(into)});
-      into = out;
-    }
-    std::reverse(best_.steps.begin(), best_.steps.end());
-    return std::move(best_);
-  }
-
+ private:
   const Mesh& mesh_;
-  std::vector<std::pair<Index, Index>> corner_at_;  // an edge and a corner that has it
-  std::map<Index, Node> nodes_;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
-  WayAround best_;
-  Index best_edge_ = kNoIndex;
+  std::vector<std::pair<Index, Index>> arcs_;
 };
 
 }  // namespace
 
+// Dijkstra on the link: its nodes are the edges at the vertex (named by the first of their arcs), its arcs the corners.
 WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& from, const Direction& to) {
-  return LinkSearch(mesh, vertex).run(from, to);
+  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  struct Node {
+    double angle = kInfinity;
+    Index through = kNoIndex;    // the corner through which it was reached
+    std::size_t before = kNone;  // the edge before, kNone: the beginning
+  };
+  const VertexLink link(mesh, vertex, from.corner);
+  std::vector<Node> nodes(link.arcs().size());
+  using Entry = std::pair<double, std::size_t>;
+  std::vector<Entry> queue;
+  const auto offer = [&](Index edge, double angle, Index through, std::size_t before) {
+    const std::size_t node = link.first(edge);
+    if (!(angle < nodes[node].angle)) return;
+    nodes[node] = {angle, through, before};
+    queue.emplace_back(angle, node);
+    std::push_heap(queue.begin(), queue.end(), std::greater<>());
+  };
+  offer(link.ahead(from.corner), from.angle, from.corner, kNone);
+  offer(link.behind(from.corner), corner_angle(mesh, from.corner) - from.angle, from.corner, kNone);
+
+  double least = kPi;
+  std::size_t best = kNone;
+  WayAround way;
+  if (from.corner == to.corner) way.angle = least = std::min(least, std::abs(from.angle - to.angle));
+  while (!queue.empty()) {
+    std::pop_heap(queue.begin(), queue.end(), std::greater<>());
+    const auto [angle, node] = queue.back();
+    queue.pop_back();
+    if (angle >= least) break;
+    if (angle > nodes[node].angle) continue;
+    const Index edge = link.arcs()[node].first;
+    for (std::size_t i = node; i < link.arcs().size() && link.arcs()[i].first == edge; ++i) {
+      const Index corner = link.arcs()[i].second;
+      if (corner == nodes[node].through || corner == kNoIndex) continue;
+      const bool is_ahead = link.ahead(corner) == edge;
+      const double full = corner_angle(mesh, corner);
+      const double total = angle + (is_ahead ? to.angle : full - to.angle);
+      if (corner == to.corner && total < least) {
+        way.angle = least = total;
+        best = node;
+      }
+      offer(is_ahead ? link.behind(corner) : link.ahead(corner), angle + full, corner, node);
+    }
+  }
+  // Back along the edges: each is crossed from the corner that reached it into the one beyond.
+  Index into = to.corner;
+  for (std::size_t node = best; node != kNone; node = nodes[node].before) {
+    const Index out = nodes[node].through, edge = link.arcs()[node].first;
+    const auto halfedge = [&](Index corner) { return link.ahead(corner) == edge ? corner : Mesh::previous(corner); };
+    way.steps.push_back({halfedge(out), halfedge(into)});
+    into = out;
+  }
+  std::reverse(way.steps.begin(), way.steps.end());
+  return way;
 }
 
 }  // namespace brushfire::detail
