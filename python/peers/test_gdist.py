@@ -83,3 +83,18 @@ class TestDistanceMatrixOfSelectedPoints:
         assert_symmetric(matrix)
         assert matrix.nnz == len(points) * (len(points) - 1)
         assert type(matrix) is scipy_sparse.csc_matrix
+
+
+def test_numbers_are_those_of_the_release():
+    """Up to the limit: the release keeps some vertices a little beyond, and says 1e100 for the others."""
+    theirs = pytest.importorskip("gdist")
+    v, f = hedgehog()
+    sources, targets = int32(0, 12, 150), np.arange(0, len(v), 7, dtype=np.int32)
+    for given in ({}, {"max_distance": 0.9}, {"target_indices": targets}):
+        ours = gdist.compute_gdist(v, f, source_indices=sources, **given)
+        expected = theirs.compute_gdist(v, f, source_indices=sources, **given)
+        assert ours.shape == expected.shape
+        within = np.where(expected <= given.get("max_distance", 1e99), expected, np.inf)
+        assert np.allclose(ours, within, rtol=1e-9)
+    picked = [m.distance_matrix_of_selected_points(v, f, targets).toarray() for m in (gdist, theirs)]
+    assert np.allclose(*picked, rtol=1e-9)

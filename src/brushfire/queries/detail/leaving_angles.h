@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/core/types.h>
+#include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/queries/detail/tangent_fan.h>
@@ -12,6 +13,10 @@
 #include <utility>
 
 namespace brushfire::detail {
+
+// The point of domain.open() that a point of the whole mesh is. Throws Error(InvalidArgument) where there is none, or
+// one on each side of a wall.
+SurfacePoint only_side(const Domain& domain, const SurfacePoint& point);
 
 class LeavingAngles {
  public:
