@@ -1,7 +1,7 @@
 // What a change of one per cent of a terrain's weights takes, against a run from nothing; by where it changes.
 //
 //     time_replan [VERTICES]
-#include <brushfire/solvers/steiner/replanner.h>
+#include <brushfire/solvers/weighted/replanner.h>
 
 #include <cmath>
 #include <cstdio>

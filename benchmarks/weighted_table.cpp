@@ -7,7 +7,7 @@
 // exact distances), patches (1 to 4), smooth (1 to 3), random (1 to 10 per face), steep (1 or 1e9 per patch).
 #include <brushfire/core/detail/random.h>
 #include <brushfire/io/read_mesh.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <algorithm>
 #include <cmath>

@@ -37,6 +37,7 @@ from brushfire._picture import Panel, animate, render, render_svg
 from brushfire._places import At, Point, Points, at
 from brushfire._reeb import ReebGraph, reeb_graph
 from brushfire._regions import Border, Cut, Samples, Voronoi
+from brushfire._replanner import Replanner
 from brushfire._report import MeshReport
 from brushfire._sets import distance_matrices
 from brushfire._solver import Solver
@@ -81,6 +82,7 @@ __all__ = [
     "Point",
     "Points",
     "ReebGraph",
+    "Replanner",
     "Samples",
     "SignedHeatSolver",
     "Solver",

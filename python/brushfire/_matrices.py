@@ -10,9 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import floating_type, path_text, radius_of, whole
-from brushfire._errors import BrushfireError, BrushfireTypeError
-from brushfire._options import Options, Tolerance, options, thread_count
+from brushfire._arrays import path_text, radius_of, whole
+from brushfire._errors import BrushfireError
+from brushfire._matrix_arrays import as_type, check_out, fits_core, float_type, memory_of, new_matrix
+from brushfire._options import Options, Tolerance, thread_count
 from brushfire._places import PlaceArrays, Places
 from brushfire._progress import Progress, Reporter, shown
 from brushfire._weighted import Weighing, chosen_in
@@ -75,13 +76,13 @@ def distance_matrix(
     shape = (_count(mesh, row), _count(mesh, column))
     space, chosen = chosen_in(mesh, weights, method, tolerance, radius, bound, precision)
     team = thread_count(threads)
-    result = _new_matrix(shape, dtype) if out is None else out
-    array = _memory_of(result)
-    _check_out(array, shape)
+    result = new_matrix(shape, dtype) if out is None else out
+    array = memory_of(result)
+    check_out(array, shape)
     with shown(progress, "matrix") as report:
         if 0 in shape:
             pass
-        elif _fits_core(array):
+        elif fits_core(array):
             _fill(space, array, row, column, chosen, team, report)
         else:
             _fill_by_blocks(space, array, row, column, chosen, team, report)
@@ -121,7 +122,7 @@ def _fill_by_blocks(
         end = min(rows, begin + step)
         block = np.empty((end - begin, columns), dtype=np.float32 if single else np.float64)
         _fill(space, block, _some(row, begin, end), column, chosen, threads, _part(report, begin, end, rows))
-        array[begin:end] = _as_type(block, wanted)
+        array[begin:end] = as_type(block, wanted)
 
 
 def _some(row: PlaceArrays | None, begin: int, end: int) -> PlaceArrays:
@@ -298,77 +299,6 @@ def _part(report: Reporter | None, begin: int, end: int, rows: int) -> Reporter 
     if report is None:
         return None
     return lambda share: report((begin + share * (end - begin)) / rows)
-
-
-def float_type(dtype: npt.DTypeLike) -> np.dtype[Any]:
-    """float32 or float64."""
-    return floating_type(dtype)
-
-
-def _new_matrix(shape: tuple[int, int], dtype: npt.DTypeLike) -> npt.NDArray[Any]:
-    wanted = np.dtype(np.float16) if _is_half(dtype) else float_type(dtype)
-    if wanted == np.float16:
-        _require_memory_of_halves(shape)
-    else:
-        _core.require_dense_memory(*shape, bool(wanted == np.float32), 0)
-    return np.empty(shape, dtype=wanted)
-
-
-def _is_half(dtype: npt.DTypeLike) -> bool:
-    try:
-        return bool(np.dtype(dtype) == np.float16)
-    except TypeError:
-        return False
-
-
-def _require_memory_of_halves(shape: tuple[int, int]) -> None:
-    try:
-        _core.require_dense_memory(shape[0], (shape[1] + 1) // 2, True, 0)  # as many bytes
-    except BrushfireError as error:
-        raise BrushfireError(
-            f"a {shape[0]} x {shape[1]} float16 matrix does not fit into memory: ask for fewer rows or columns, or for "
-            "distances within a radius (sparse)",
-            error.code,
-        ) from None
-
-
-def _memory_of(out: Any) -> Any:
-    """A numpy view of a torch tensor; anything else itself."""
-    if hasattr(out, "detach") and hasattr(out, "numpy"):
-        try:
-            return out.detach().numpy()
-        except (TypeError, RuntimeError) as error:  # of a GPU, or of a type that numpy has not
-            raise BrushfireTypeError(f"out: {error}") from None
-    return out
-
-
-def _fits_core(array: Any) -> bool:
-    return isinstance(array, np.ndarray) and array.dtype != np.float16
-
-
-def _check_out(array: Any, shape: tuple[int, int]) -> None:
-    if isinstance(array, (list, tuple)) or not all(hasattr(array, a) for a in ("shape", "dtype", "__setitem__")):
-        raise BrushfireTypeError(f"out: an array that can be written to is needed, not {type(array).__name__}")
-    if np.dtype(array.dtype) != np.float16:
-        float_type(array.dtype)
-    flags = getattr(array, "flags", None)
-    plain = not isinstance(array, np.ndarray) or (array.flags.c_contiguous and array.flags.writeable)
-    if tuple(array.shape) != shape or not plain:
-        what = "a writable C-contiguous array" if flags is not None else "an array"
-        raise BrushfireError(f"out: {what} of shape {shape} is needed, not {tuple(array.shape)}")
-
-
-def _as_type(block: npt.NDArray[Any], wanted: np.dtype[Any]) -> npt.NDArray[Any]:
-    """Rounded; what has no place among the numbers of float16 is an error, neither infinity nor 0."""
-    if wanted != np.float16:
-        return block.astype(wanted, copy=False)
-    rounded: npt.NDArray[Any]
-    with np.errstate(over="ignore", under="ignore"):
-        rounded = block.astype(np.float16)
-    lost = (np.isinf(rounded) & np.isfinite(block)) | ((rounded == 0) & (block != 0))
-    if lost.any():
-        raise BrushfireError(f"float16: a distance of {block[lost][0]:g} is out of its range: ask for float32")
-    return rounded
 
 
 def _check_symmetric(symmetric: Any, row: PlaceArrays | None, column: PlaceArrays | None) -> None:

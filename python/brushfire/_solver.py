@@ -9,7 +9,8 @@ import numpy.typing as npt
 
 from brushfire import _core, _curves, _distance, _fields
 from brushfire._arrays import radius_of
-from brushfire._matrices import float_type, sparse_matrix
+from brushfire._matrices import sparse_matrix
+from brushfire._matrix_arrays import float_type
 from brushfire._options import Tolerance, options
 from brushfire._places import PlaceArrays, Places
 from brushfire._progress import Progress, shown

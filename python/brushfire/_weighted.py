@@ -21,6 +21,7 @@ from brushfire._sources import Sources, sources_of
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
+    from brushfire._replanner import Replanner
     from brushfire._surface import Surface
 
 _TOLERANCE = 0.01
@@ -126,6 +127,8 @@ class Weighted:
             raise BrushfireError(f"weights: one per face is needed, not an array of shape {face.shape}")
         self._on = mesh
         self._towards = bool(towards)
+        edges = None if edge_weights is None else np.array(edge_weights)
+        self._given = (None if face is None else face.copy(), edges, slope, steepest)
         self._solver = _core.WeightedSolver(
             mesh._space, face, *_edges(edge_weights), *_pace(slope), number(steepest, "steepest")
         )
@@ -261,14 +264,38 @@ class Weighted:
             self._direction(towards),
             radius_of(radius),
         )
-        return [self._weighted_path(*p) for p in found], source
+        return [weighted_path(self._on, *p) for p in found], source
+
+    def replanner(
+        self,
+        sources: Sources,
+        *,
+        offset: npt.ArrayLike = 0.0,
+        tolerance: float = _TOLERANCE,
+        towards: bool | None = None,
+        progress: Progress = None,
+    ) -> Replanner:
+        """Costs that follow changes of weights, walls, fences, roads and sources: see :class:`Replanner`. Arguments as for
+        :meth:`costs`.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> planner = mesh.weighted([1, 3]).replanner(1)
+        >>> planner.change([1, 1])
+        >>> round(planner.path(3).cost, 6)
+        5.0
+        """
+        from brushfire._replanner import Replanner
+
+        return Replanner(self, sources, offset, number(tolerance, "tolerance"), self._direction(towards), progress)
 
     def _direction(self, towards: bool | None) -> bool:
         return self._towards if towards is None else bool(towards)
 
-    def _weighted_path(self, path: _core.PathArrays, cost: float, lower: float, *legs: Any) -> WeightedPath:
-        face, length, weight, toll, edge = legs
-        return WeightedPath(path_of(self._on, path), cost, lower, face, length, weight, toll, edge.reshape(-1, 2))
+
+def weighted_path(on: Mesh, path: _core.PathArrays, cost: float, lower: float, *legs: Any) -> WeightedPath:
+    face, length, weight, toll, edge = legs
+    return WeightedPath(path_of(on, path), cost, lower, face, length, weight, toll, edge.reshape(-1, 2))
 
 
 Weighing: TypeAlias = "Weighted | npt.ArrayLike"

@@ -24,7 +24,8 @@ from distributed import Client, as_completed, get_client, get_worker
 from brushfire import _core
 from brushfire._arrays import path_text, whole
 from brushfire._errors import BrushfireError
-from brushfire._matrices import _MOST_ROWS, Symmetric, _check_symmetric, _optional, _pair, _symmetry, float_type
+from brushfire._matrices import _MOST_ROWS, Symmetric, _check_symmetric, _optional, _pair, _symmetry
+from brushfire._matrix_arrays import float_type
 from brushfire._mesh import Mesh
 from brushfire._options import Tolerance, options
 from brushfire._places import Places

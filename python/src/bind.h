@@ -35,6 +35,7 @@ void bind_fields(nb::module_& m);
 void bind_certify(nb::module_& m);
 void bind_cells(nb::module_& m);
 void bind_weighted(nb::module_& m);
+void bind_replanner(nb::module_& m);
 void bind_regions(nb::module_& m);
 void bind_heat(nb::module_& m);
 void bind_figure(nb::module_& m);

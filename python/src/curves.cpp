@@ -92,7 +92,8 @@ nb::tuple edge_path(Solver& solver, const Sources& sources, std::int64_t target)
     DistanceOptions options;
     options.cancel = computation.cancel();
     const SurfacePoint end = target_point(mesh, static_cast<Index>(target));
-    return edge_paths_to(solver.domain(), sources.list, std::span(&end, 1), options).front();
+    return solver.with(
+        [&](DistanceSolver& s) { return edge_paths_to(s, sources.list, std::span(&end, 1), options).front(); });
   }));
 }
 

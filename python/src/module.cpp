@@ -16,6 +16,7 @@ NB_MODULE(_core, m) {
   brushfire::python::bind_regions(m);
   brushfire::python::bind_cells(m);
   brushfire::python::bind_weighted(m);
+  brushfire::python::bind_replanner(m);
   brushfire::python::bind_heat(m);
   brushfire::python::bind_figure(m);
   brushfire::python::bind_files(m);

@@ -1,21 +1,18 @@
 // _core.WeightedSolver: costs and cheapest paths where not all places are equally easy to cross.
-#include "bind.h"
+#include "weighted.h"
+
 #include "interrupt.h"
 
 #include <brushfire/core/error.h>
+#include <brushfire/io/write_grid.h>
 #include <brushfire/mesh/terrain.h>
 #include <brushfire/queries/isochrones.h>
-#include <brushfire/queries/weighted_path.h>
-#include <brushfire/solvers/steiner/weighting.h>
 
-#include <memory>
-#include <mutex>
+#include <array>
 #include <new>
 
 namespace brushfire::python {
 namespace {
-
-using OptionalWeights = std::optional<Triples<double>>;
 
 // A name, or slopes and the paces there; up to the steepest.
 std::optional<SlopePace> pace_from(const std::string& name, const std::optional<Vector<double>>& slopes,
@@ -37,9 +34,9 @@ std::optional<SlopePace> pace_from(const std::string& name, const std::optional<
   return pace;
 }
 
-Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& face,
-                     const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
-                     const Vector<double>& crossing) {
+Weights faces_and_edges(const Domain& domain, const std::optional<Vector<double>>& face,
+                        const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
+                        const Vector<double>& crossing) {
   Weights weights;
   if (face) weights.face.assign(face->data(), face->data() + face->shape(0));
   const std::int64_t count = domain.mesh().vertex_count();
@@ -60,43 +57,36 @@ Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& 
   return weights;
 }
 
-// Calls from several threads wait for each other.
-class Weighted {
- public:
-  Weighted(const Domain& domain, const std::optional<Vector<double>>& face, const Vector<std::int64_t>& edge_vertices,
-           const Vector<double>& along, const Vector<double>& crossing, const std::string& slope,
-           const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces, double steepest)
-      : solver_(domain, with_pace(weights_from(domain, face, edge_vertices, along, crossing),
-                                  pace_from(slope, slopes, paces, steepest))) {}
+}  // namespace
 
-  const Mesh& mesh() const { return solver_.domain().mesh(); }
+Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& face,
+                     const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
+                     const Vector<double>& crossing, const std::string& slope,
+                     const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces,
+                     double steepest) {
+  Weights weights = faces_and_edges(domain, face, edge_vertices, along, crossing);
+  weights.pace = pace_from(slope, slopes, paces, steepest);
+  return weights;
+}
 
-  // The last one is kept.
-  std::shared_ptr<const Weighting> weighting(const WeightingOptions& options) {
-    const std::lock_guard lock(mutex_);
-    if (!weighting_ || weighting_->options().tolerance != options.tolerance ||
-        weighting_->options().towards != options.towards) {
-      weighting_ = std::make_shared<const Weighting>(solver_.domain(), solver_.weights(), options);
-    }
-    return weighting_;
+nb::tuple path_arrays(const WeightedPath& path) {
+  std::vector<Index> face, along;
+  std::vector<double> length, weight, toll;
+  for (const WeightedLeg& leg : path.legs) {
+    face.push_back(leg.face);
+    along.insert(along.end(), leg.along.begin(), leg.along.end());
+    length.push_back(leg.length);
+    weight.push_back(leg.weight);
+    toll.push_back(leg.toll);
   }
+  return nb::make_tuple(path_to_numpy(path), path.cost, path.lower, to_numpy_signed(std::move(face)),
+                        to_numpy(std::move(length)), to_numpy(std::move(weight)), to_numpy(std::move(toll)),
+                        to_numpy_signed(std::move(along)));
+}
 
-  template <class Use>
-  auto with(Use&& use) {
-    const std::lock_guard lock(mutex_);
-    return use(solver_);
-  }
+namespace {
 
- private:
-  static Weights with_pace(Weights weights, std::optional<SlopePace> pace) {
-    weights.pace = std::move(pace);
-    return weights;
-  }
-
-  WeightedSolver solver_;
-  std::shared_ptr<const Weighting> weighting_;
-  std::mutex mutex_;
-};
+using OptionalWeights = std::optional<Triples<double>>;
 
 SharedWeighting weighting_of(Weighted& weighted, double tolerance, bool towards) {
   const nb::gil_scoped_release release;
@@ -128,22 +118,6 @@ nb::tuple solve(Weighted& weighted, const Sources& sources, const std::optional<
   return nb::make_tuple(to_numpy(std::move(values)),
                         to_numpy_signed(std::move(target_index ? field.target_source : field.source)), lower_bounds,
                         field.max_error_bound, field.mean_error_bound, name_of(field.engine));
-}
-
-// (path, cost, lower, legs: face, length, weight, toll, edge [legs, 2]).
-nb::tuple path_arrays(const WeightedPath& path) {
-  std::vector<Index> face, along;
-  std::vector<double> length, weight, toll;
-  for (const WeightedLeg& leg : path.legs) {
-    face.push_back(leg.face);
-    along.insert(along.end(), leg.along.begin(), leg.along.end());
-    length.push_back(leg.length);
-    weight.push_back(leg.weight);
-    toll.push_back(leg.toll);
-  }
-  return nb::make_tuple(path_to_numpy(path), path.cost, path.lower, to_numpy_signed(std::move(face)),
-                        to_numpy(std::move(length)), to_numpy(std::move(weight)), to_numpy(std::move(toll)),
-                        to_numpy_signed(std::move(along)));
 }
 
 nb::tuple paths(Weighted& weighted, const Sources& sources, const Vector<std::int64_t>& target_index,
@@ -182,6 +156,33 @@ nb::tuple below(const Terrain& terrain, const Vector<double>& xy) {
   return points_to_numpy(points);
 }
 
+// origin, to the right, down.
+std::array<double, 6> numbers_of(const GridPlacement& p) {
+  return {p.origin[0], p.origin[1], p.right[0], p.right[1], p.down[0], p.down[1]};
+}
+
+// (heights, columns, rows, placement, reference).
+nb::tuple grid_from_file(const std::string& path) {
+  Grid grid = listening(false, [&] { return read_grid(path); });
+  const std::array<double, 6> placed = numbers_of(grid.placement);
+  return nb::make_tuple(to_numpy(std::move(grid.heights)), grid.columns, grid.rows,
+                        to_numpy(std::vector<double>(placed.begin(), placed.end())), grid.reference);
+}
+
+void grid_to_file(const std::string& path, const Vector<double>& values, Index columns, Index rows,
+                  const Vector<double>& placement, const std::string& reference) {
+  const double* p = placement.data();
+  const Grid grid{{values.data(), values.data() + values.shape(0)},
+                  columns,
+                  rows,
+                  {{p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}},
+                  reference};
+  listening(false, [&] {
+    write_grid(path, grid);
+    return true;
+  });
+}
+
 std::string isochrones(const Mesh& mesh, const Vector<double>& values, const Vector<double>& levels) {
   const nb::gil_scoped_release release;
   return isochrones_as_geojson(mesh, {values.data(), values.shape(0)}, {levels.data(), levels.shape(0)});
@@ -208,6 +209,9 @@ void bind_weighted(nb::module_& m) {
            nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("towards"),
            nb::arg("max_distance"));
   m.def("isochrones", isochrones, nb::arg("mesh"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());
+  m.def("read_grid", grid_from_file, nb::arg("path"));
+  m.def("write_grid", grid_to_file, nb::arg("path"), nb::arg("values").noconvert(), nb::arg("columns"), nb::arg("rows"),
+        nb::arg("placement").noconvert(), nb::arg("reference"));
   nb::class_<Terrain>(m, "Terrain")
       .def("__init__", make_terrain, nb::arg("heights").noconvert(), nb::arg("columns"), nb::arg("rows"),
            nb::arg("placement").noconvert(), nb::arg("no_data"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -28,6 +29,47 @@ def test_vertices_are_the_array_and_holes_stay_holes() -> None:
     with pytest.raises(bf.BrushfireError, match="no ground below"):
         ground.below([0, 0])
     assert (bf.terrain(np.where(np.isnan(heights), -1, heights), no_data=-1).mesh.faces == ground.mesh.faces).all()
+
+
+@pytest.mark.parametrize("name", ["dem.asc", "dem.npy", "dem.tif"])
+def test_terrain_comes_from_files_and_values_go_back_into_them(tmp_path: Path, name: str) -> None:
+    heights = np.arange(12.0).reshape(3, 4) / 3
+    heights[0, 0] = np.nan
+    file = tmp_path / name
+    if name.endswith(".tif"):
+        pytest.importorskip("rasterio", reason="rasterio is not installed")
+    ground = bf.terrain(heights, (1000, 10, 0, 2000, 0, -10))
+    ground.write(file, heights)
+    again = bf.terrain(file, (1000, 10, 0, 2000, 0, -10) if name.endswith(".npy") else None)
+    assert (again.mesh.vertices == ground.mesh.vertices).all() and (again.mesh.faces == ground.mesh.faces).all()
+    seconds = again.mesh.weighted(slope="tobler").distance(5)
+    again.write(str(file), seconds)
+    back = bf.terrain(file).mesh.vertices[:, 2]
+    assert np.isinf(seconds[0]) and (back[1:] == seconds[1:]).all()
+    with pytest.raises(bf.BrushfireError, match="3 x 4"):
+        again.write(file, seconds[:5])
+    with pytest.raises(bf.BrushfireError, match="tif"):
+        again.write(tmp_path / "x.png", seconds)
+    assert sorted(f.name for f in tmp_path.iterdir()) == [name]
+
+
+def test_maps_in_degrees_are_refused(tmp_path: Path) -> None:
+    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
+    how = {"driver": "GTiff", "width": 3, "height": 3, "count": 1, "dtype": "int16", "nodata": -32768}
+    for crs, good in (("EPSG:4326", False), ("EPSG:32632", True)):
+        with rasterio.open(
+            tmp_path / "dem.tif", "w", **how, crs=crs, transform=rasterio.Affine(30, 0, 0, 0, -30, 0)
+        ) as out:
+            out.write(np.array([[1, 2, -32768], [4, 5, 6], [7, 8, 9]], np.int16), 1)
+        if good:
+            assert bf.terrain(tmp_path / "dem.tif").mesh.face_count == 7
+            ground = bf.terrain(tmp_path / "dem.tif")
+            ground.write(tmp_path / "out.tif", np.zeros(9))
+            with rasterio.open(tmp_path / "out.tif") as data:
+                assert data.crs.to_epsg() == 32632
+        else:
+            with pytest.raises(bf.BrushfireError, match="degrees"):
+                bf.terrain(tmp_path / "dem.tif")
 
 
 def test_circles_on_flat_ground_are_circles() -> None:

@@ -26,11 +26,11 @@
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/heat_options.h>
-#include <brushfire/solvers/steiner/replanner.h>
 #include <brushfire/solvers/steiner/slope_pace.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
-#include <brushfire/solvers/steiner/weighting.h>
 #include <brushfire/solvers/steiner/weights.h>
+#include <brushfire/solvers/weighted/replanner.h>
+#include <brushfire/solvers/weighted/weighted_distance.h>
+#include <brushfire/solvers/weighted/weighting.h>
 #include <brushfire/solvers/window_field.h>
 #include <brushfire/version.h>
 #if BRUSHFIRE_HEAT
@@ -81,6 +81,7 @@
 #include <brushfire/io/write_bytes.h>
 #include <brushfire/io/write_columns.h>
 #include <brushfire/io/write_field.h>
+#include <brushfire/io/write_grid.h>
 #include <brushfire/io/write_lines.h>
 #include <brushfire/io/write_mesh.h>
 #endif

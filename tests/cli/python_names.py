@@ -88,6 +88,7 @@ OTHERWISE = {
     "compare --fail-above": ("", "an exit code"),
     "certify --show": ("", "slices do that: Certificate.wrong_vertices[:10]"),
     "sample --lloyd": ("sites", "a function of its own: centroidal_voronoi(sites)"),
+    "terrain --values": ("", "of Terrain.write(file, values)"),
     "terrain --cell": ("transform", "GDAL's six numbers, which also say where the grid lies"),
     "measure --of": ("", "functions of their own"),
 }

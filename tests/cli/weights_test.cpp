@@ -3,6 +3,7 @@
 #include "program.h"
 
 #include <brushfire/io/npy.h>
+#include <brushfire/io/read_grid.h>
 
 #include <gtest/gtest.h>
 
@@ -225,6 +226,15 @@ TEST_F(WeightFiles, GridsBecomeTerrainThatIsWalkedInSecondsAndDrawnAsIsochrones)
   EXPECT_EQ(json.at("features").at(0).at("geometry").at("coordinates").size(), 1);
   EXPECT_EQ(run_program({"distance", path("t.ply"), "-s", "5", "--steepest", "1", "--weights", path("w.txt")}).code, 2);
   EXPECT_EQ(run_program({"terrain", path("m.off"), "-o", path("x.ply")}).code, 3);
+  // Seconds as a grid that lies where the heights do; the hole stays one.
+  const Ended placed = run_program({"terrain", path("dem.asc"), "--values", path("s.npy"), "-o", path("s.asc")});
+  ASSERT_EQ(placed.code, 0) << placed.err;
+  const Grid heights = read_grid(path("dem.asc")), costs = read_grid(path("s.asc"));
+  EXPECT_EQ(costs.placement.origin, heights.placement.origin);
+  EXPECT_EQ(costs.placement.down, heights.placement.down);
+  EXPECT_EQ(costs.heights[105], 0);
+  EXPECT_EQ(costs.heights.back(), kInfinity);
+  EXPECT_EQ(run_program({"terrain", path("dem.asc"), "--values", path("w.txt"), "-o", path("s.asc")}).code, 2);
 }
 
 }  // namespace

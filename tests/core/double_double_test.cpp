@@ -1,3 +1,4 @@
+// Pairs of doubles: what sums, quotients and roots of them keep.
 #include <brushfire/core/detail/double_double.h>
 
 #include <gtest/gtest.h>

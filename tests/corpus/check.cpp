@@ -2,6 +2,7 @@
 #include "corpus/check.h"
 
 #include "corpus/curves.h"
+#include "corpus/promises.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/queries/path.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 namespace brushfire::corpus {
 namespace {
@@ -18,11 +18,6 @@ using oracle::Arithmetic;
 using oracle::kFar;
 using oracle::Real;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// What is smaller has no number of its own.
-constexpr double kLeastStep = std::numeric_limits<double>::denorm_min();
-// The truth itself is rounded, to 64 bits.
-constexpr Real kTruthRounding = 0x1p-63L;
 // Quad was right where 237 bits say the same to this share.
 constexpr Real kSure = 1e-15L;
 // With 237 bits a window takes a tenth of a millisecond and more: beyond so many the quad's word is taken.
@@ -30,76 +25,7 @@ constexpr std::uint64_t kMostWindowsOfOctuple = 200'000;
 // Of so many cases one is asked about with 237 bits whether or not anything seems wrong, where that is quickly done.
 constexpr std::uint64_t kOctupleEvery = 16, kFewWindowsOfOctuple = 2'000;
 
-// Of an exact value's bound.
-constexpr double kWarning = 0.5;
-
 constexpr double kSolveSeconds = 2, kTruthSeconds = 5, kOctupleSeconds = 120;
-
-// A value, what it should be, the length of the path to it (without an offset) and the bound that came along (infinity:
-// none).
-struct Value {
-  double got;
-  Real truth, length;
-  double bound;
-};
-
-std::string off(const Value& v, const std::string& where) {
-  char text[200];
-  const Real error = std::abs(v.got - v.truth);
-  std::snprintf(text, sizeof text, "%s reads %.17g, is %.19Lg, off by %.2Lg (%.2Lg of it), bound %.2g", where.c_str(),
-                v.got, v.truth, error, v.length > 0 ? error / v.length : 0, v.bound);
-  return text;
-}
-
-bool same_reach(const Value& v, const std::string& where, Outcome& out) {
-  ++out.compared;
-  if (!std::isnan(v.got) && (v.got == kInfinity) == (v.truth == kFar)) return v.truth < kFar;
-  ++out.beyond;
-  out.worst = kInfinity;
-  out.complain(off(v, where));
-  return false;
-}
-
-// The exact method's promise.
-void hold_exact(const Value& v, const std::string& where, Outcome& out) {
-  if (!same_reach(v, where, out)) return;
-  const Real error = std::abs(v.got - v.truth);
-  const Real room = std::max({Real{kExactPromise} * v.length, Real{2 * kEpsilon} * std::abs(v.truth),
-                              v.bound < kInfinity ? Real{v.bound} : Real{0}});
-  if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(error / v.length));
-  if (error > room) ++out.beyond;
-  // The factor of the bound's law is measured: half of it is an early warning (docs/tolerance.md, "The factor").
-  const bool nearly_broken = error > kWarning * v.bound + kTruthRounding * std::abs(v.truth) + kLeastStep;
-  if (nearly_broken) ++out.unbound;
-  if (error > room || nearly_broken) out.complain(off(v, where));
-}
-
-// A bound's promise. `offsets`: the largest of the sources, whose rounding a bound may hold; `more`: what else it may.
-void hold_bound(const Value& v, double tolerance, double offsets, Real more, const std::string& where, Outcome& out) {
-  if (!same_reach(v, where, out)) return;
-  const Real error = std::abs(v.got - v.truth);
-  if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(error / v.length));
-  const bool too_wide =
-      v.bound > tolerance * v.length + 16 * kEpsilon * (std::abs(v.got) + offsets) + more + 2 * kLeastStep;
-  if (error > v.bound + kTruthRounding * std::abs(v.truth)) {
-    ++out.unbound;
-    out.complain(off(v, where));
-  } else if (too_wide) {
-    ++out.beyond;
-    out.complain("bound beyond the tolerance: " + off(v, where));
-  }
-}
-
-// One side of the truth.
-void hold_side(const Value& v, bool below, const std::string& where, Outcome& out) {
-  if (!same_reach(v, where, out)) return;
-  const Real rounding = kTruthRounding * std::abs(v.truth);
-  const bool wrong = below ? v.got > v.truth + rounding : v.got < v.truth - rounding;
-  if (v.length > 0) out.worst = std::max(out.worst, static_cast<double>(std::abs(v.got - v.truth) / v.length));
-  if (!wrong) return;
-  ++out.beyond;
-  out.complain(off(v, where));
-}
 
 std::string vertex_text(Index v) { return "vertex " + std::to_string(v); }
 std::string target_text(const SurfacePoint& p) { return "target " + place_text(p); }
@@ -289,56 +215,6 @@ Outcome Examination::exact(const DistanceOptions& options) {
     hold_exact(value_at(field, offsets_, truth().distance, v), vertex_text(v), out);
   }
   return out;
-}
-
-// What naming a point by three doubles may move it by: an epsilon of each weight, of the longest edge there. (Beside a
-// vertex on an edge 1e16 long there is no place but the vertex.)
-static Real rounding_of(const Mesh& mesh, const SurfacePoint& p) {
-  const auto longest_of = [&](Index face) {
-    return std::max({mesh.length(3 * face), mesh.length(3 * face + 1), mesh.length(3 * face + 2)});
-  };
-  double longest = longest_of(p.face);
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (p.weights[k] != 1) continue;
-    for (const Index h : mesh.corners(mesh.faces()[p.face][k])) longest = std::max(longest, longest_of(h / 3));
-  }
-  return 2 * kEpsilon * mesh.unit() * longest;
-}
-
-static Real rounding_of(const Mesh& mesh, const SurfacePath& path) {
-  Real sum = 0;
-  for (const SurfacePoint& p : path.points) sum += rounding_of(mesh, p);
-  return sum;
-}
-
-// What frames of doubles may be off by, of which "absolute" in "Rounding" of docs/tolerance.md is made.
-static Real lever_rounding(const Mesh& mesh) {
-  Real lever = 0;
-  for (Index h = 0; h < mesh.halfedge_count(); h += 3) {
-    const std::array<double, 3> l{mesh.length(h), mesh.length(h + 1), mesh.length(h + 2)};
-    const Real longest = *std::max_element(l.begin(), l.end()), shortest = *std::min_element(l.begin(), l.end());
-    lever = std::max(lever, shortest > 0 ? longest * longest / shortest : longest);
-  }
-  return kEpsilon * lever * mesh.unit();
-}
-
-// Of the longest and the shortest edge of a face, the largest.
-static Real ratio_of(const Mesh& mesh) {
-  Real ratio = 1;
-  for (Index h = 0; h < mesh.halfedge_count(); h += 3) {
-    const auto l = mesh.lengths().subspan(h, 3);
-    const auto [shortest, longest] = std::minmax_element(l.begin(), l.end());
-    if (*shortest > 0) ratio = std::max(ratio, Real{*longest} / *shortest);
-  }
-  return ratio;
-}
-
-static Real shortest_edge(const Mesh& mesh) {
-  double shortest = kInfinity;
-  for (const double l : mesh.lengths()) {
-    if (l > 0) shortest = std::min(shortest, l);
-  }
-  return mesh.unit() * shortest;
 }
 
 Outcome Examination::targets() {

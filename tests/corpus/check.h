@@ -10,11 +10,6 @@
 
 namespace brushfire::corpus {
 
-// kExactPromise of the value, or the bound that comes with it, whichever is more.
-inline constexpr double kExactPromise = 1e-12;
-// Of its length: how far a path may be from the field's value and from the truth, unless the bound is more.
-inline constexpr double kPathPromise = 1e-11;
-
 struct Task {
   enum class Kind : std::uint8_t {
     Truth,    // the oracle has an answer at all

@@ -3,6 +3,7 @@
 
 #include "corpus/check.h"
 #include "corpus/dice.h"
+#include "corpus/promises.h"
 #include "oracle/deviation.h"
 
 #include <brushfire/core/error.h>
@@ -19,7 +20,6 @@
 namespace brushfire::corpus {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kMakingSeconds = 120;  // reading or building a mesh is not what is judged
 constexpr std::size_t kPoints = 6;
 constexpr int kPathsPerMesh = 30;

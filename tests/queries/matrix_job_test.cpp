@@ -3,7 +3,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/matrix_job.h>
-#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/weighted/weighting.h>
 
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// The viewer's page, found beside the program, filled with meshes and shown.
 #include "page.h"
 
 #include <brushfire/core/detail/base64.h>

@@ -7,7 +7,7 @@
 
 #include <brushfire/io/formats.h>
 #include <brushfire/mesh/weld.h>
-#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/weighted/weighting.h>
 
 #include <algorithm>
 #include <cmath>

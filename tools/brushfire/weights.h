@@ -4,7 +4,7 @@
 #include "command_line.h"
 #include "surface.h"
 
-#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/weighted/weighting.h>
 
 #include <string>
 

@@ -1,4 +1,4 @@
-// How long computations are stopped: their loops look at a token that was given to their thread.
+// How to stop a computation that takes long: its loops look at a token that was given to their thread.
 #pragma once
 
 #include <brushfire/core/progress.h>
@@ -9,12 +9,12 @@ namespace brushfire {
 
 // As long as it lives, everything of this library that this thread calls listens to the token, and throws
 // Error(Cancelled) some milliseconds after it is set: also what takes no token of its own, reading and writing files,
-// building what is derived of a mesh, queries, pictures. Scopes nest, the innermost counts; threads that work for the
+// building what is derived from a mesh, queries, pictures. Scopes nest, the innermost counts; threads that work for the
 // calling one listen to the same. (A single call into another library is not interrupted: the packing of the tree for
 // nearest points, the compression of a PNG.)
 class CancelScope {
  public:
-  explicit CancelScope(const CancelToken* token) noexcept;  // null: the outer scope goes on
+  explicit CancelScope(const CancelToken* token) noexcept;  // null: the outer scope stays in force
   ~CancelScope();
   CancelScope(const CancelScope&) = delete;
   CancelScope& operator=(const CancelScope&) = delete;

@@ -14,8 +14,8 @@ namespace brushfire {
 unsigned thread_count(unsigned requested) noexcept;
 
 // A fixed number of threads, the calling one among them, for one loop after the other. Where the platform has no
-// threads (WebAssembly without them) everything runs in the caller. So it does in a forked child of the process that
-// made the team: its size is 1 there. (Fork between loops, not in one.)
+// threads (WebAssembly without them) everything runs in the caller; also in a forked child of the process that made the
+// team, where its size is 1. (Fork between loops, not within one.)
 class ThreadTeam {
  public:
   // worker < size() numbers the thread, index the piece of work.

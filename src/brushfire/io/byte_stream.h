@@ -1,4 +1,4 @@
-// The bytes of a file, a pipe or the standard input as they come, and how long they may be waited for.
+// The bytes of a file, a pipe or the standard input as they come.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ class ByteStream {
   ByteStream(const ByteStream&) = delete;
   ByteStream& operator=(const ByteStream&) = delete;
 
-  // What has come, `most` bytes at most; 0 at the end. Throws Error(FileNotReadable) and Error(Cancelled).
+  // Waits for bytes and takes up to `most` of them; 0 at the end. Throws Error(FileNotReadable) and Error(Cancelled).
   std::size_t read(char* to, std::size_t most);
 
-  // As errors name it.
+  // The name that errors use.
   const std::string& name() const noexcept { return name_; }
   // False for pipes, and where the size is not known beforehand.
   bool is_file() const noexcept { return is_file_; }

@@ -1,14 +1,15 @@
-// PLY: ascii and binary of both byte orders, any property types, faces and triangle strips.
+// PLY, read: ascii and binary of both byte orders, any property types, faces and triangle strips.
 #include <brushfire/io/detail/binary.h>
-#include <brushfire/io/detail/colours.h>
 #include <brushfire/io/detail/formats.h>
+#include <brushfire/io/detail/lines_along.h>
 #include <brushfire/io/detail/ply.h>
 #include <brushfire/io/detail/ply_rows.h>
 #include <brushfire/io/detail/text.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <span>
 
 namespace brushfire::detail {
 
@@ -21,6 +22,29 @@ using ply::Encoding;
 using ply::Header;
 using ply::Property;
 using ply::Type;
+
+// Positions of vertices in one stride, each coordinate at an offset of its own.
+void convert_positions(const char* block, std::size_t stride, const std::array<std::size_t, 3>& offset,
+                       const std::array<Type, 3>& type, std::endian order, std::span<Vec3> out) {
+  const auto convert = [&]<class T>(T) {
+    for (std::size_t v = 0; v < out.size(); ++v) {
+      const char* p = block + v * stride;
+      out[v] = {static_cast<double>(load<T>(p + offset[0], order)), static_cast<double>(load<T>(p + offset[1], order)),
+                static_cast<double>(load<T>(p + offset[2], order))};
+    }
+  };
+  if (type == std::array{Type::Float64, Type::Float64, Type::Float64}) {
+    convert(double{});
+  } else if (type == std::array{Type::Float32, Type::Float32, Type::Float32}) {
+    convert(float{});
+  } else {
+    for (std::size_t v = 0; v < out.size(); ++v) {
+      const char* p = block + v * stride;
+      out[v] = {load_number(type[0], p + offset[0], order), load_number(type[1], p + offset[1], order),
+                load_number(type[2], p + offset[2], order)};
+    }
+  }
+}
 
 template <class Rows>
 class PlyReader {
@@ -70,8 +94,6 @@ class PlyReader {
                                   (name.empty() ? std::string() : " " + quote(name)));
   }
 
-  // Edges in the order of the file: one that starts where the last one ended goes on with its line. A vertex in no edge
-  // is a line of one point.
   LoadedLines read_lines() {
     std::vector<std::array<Index, 2>> edges;
     for (const Element& e : header_->elements) {
@@ -84,7 +106,7 @@ class PlyReader {
         skip(e);
       }
     }
-    return chained(edges);
+    return lines_along(parts_.positions, edges);
   }
 
  private:
@@ -111,35 +133,6 @@ class PlyReader {
       }
       rows_.end_row();
     }
-  }
-
-  LoadedLines chained(const std::vector<std::array<Index, 2>>& edges) const {
-    struct Chain {
-      Index first;  // vertex: lines come in the order of their first vertices
-      LoadedLine line;
-    };
-    std::vector<Chain> chains;
-    std::vector<bool> is_used(parts_.positions.size(), false);
-    Index last = kNoIndex;
-    for (const auto& [a, b] : edges) {
-      is_used[a] = is_used[b] = true;
-      if (a != last) chains.push_back({a, {{parts_.positions[a]}, {}, false, std::nan("")}});
-      Chain& chain = chains.back();
-      if (b == chain.first && chain.line.positions.size() > 1) {
-        chain.line.closed = true;
-        last = kNoIndex;
-      } else {
-        chain.line.positions.push_back(parts_.positions[b]);
-        last = b;
-      }
-    }
-    for (Index v = 0; v < is_used.size(); ++v) {
-      if (!is_used[v]) chains.push_back({v, {{parts_.positions[v]}, {}, false, std::nan("")}});
-    }
-    std::stable_sort(chains.begin(), chains.end(), [](const Chain& a, const Chain& b) { return a.first < b.first; });
-    LoadedLines loaded;
-    for (Chain& chain : chains) loaded.lines.push_back(std::move(chain.line));
-    return loaded;
   }
 
   static const Property* scalar(const Element& e, const std::string& name) {
@@ -225,26 +218,7 @@ class PlyReader {
     const std::size_t first = parts_.positions.size();
     parts_.positions.resize(first + count);
     Vec3* out = parts_.positions.data() + first;
-    const std::endian order = rows_.order();
-    const auto convert = [&]<class T>(T) {
-      for (std::size_t v = 0; v < count; ++v) {
-        const char* p = block + v * stride;
-        out[v] = {static_cast<double>(load<T>(p + offset[0], order)),
-                  static_cast<double>(load<T>(p + offset[1], order)),
-                  static_cast<double>(load<T>(p + offset[2], order))};
-      }
-    };
-    if (type == std::array{Type::Float64, Type::Float64, Type::Float64}) {
-      convert(double{});
-    } else if (type == std::array{Type::Float32, Type::Float32, Type::Float32}) {
-      convert(float{});
-    } else {
-      for (std::size_t v = 0; v < count; ++v) {
-        const char* p = block + v * stride;
-        out[v] = {load_number(type[0], p + offset[0], order), load_number(type[1], p + offset[1], order),
-                  load_number(type[2], p + offset[2], order)};
-      }
-    }
+    convert_positions(block, stride, offset, type, rows_.order(), {out, count});
     for (std::size_t v = 0; v < count; ++v) check_finite(out[v], first + v, begin + v * stride);
     return true;
   }
@@ -420,36 +394,6 @@ LoadedLines read_ply_lines(const Input& input) {
   const Header header = ply::read_header(input);
   if (header.encoding == Encoding::Ascii) return PlyReader<AsciiRows>(input, header).read_lines();
   return PlyReader<BinaryRows>(input, header).read_lines();
-}
-
-// Binary, little-endian. MeshLab reads `quality` and the colours.
-void write_ply(Output& out, const Mesh& mesh, const FieldView& field) {
-  constexpr std::endian kOrder = std::endian::little;
-  const bool has_values = !field.values.empty(), has_labels = !field.labels.empty();
-  out.write("ply\nformat binary_little_endian 1.0\n");
-  if (has_values) out.write("comment quality is " + printable(field.name) + "\n");
-  out.write("element vertex " + std::to_string(mesh.vertex_count()) + "\n");
-  out.write("property double x\nproperty double y\nproperty double z\n");
-  if (has_values) {
-    out.write("property double quality\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n");
-  }
-  if (has_labels) out.write("property int " + field.label_name + "\n");
-  out.write("element face " + std::to_string(mesh.face_count()) +
-            "\nproperty list uchar int vertex_indices\nend_header\n");
-  const ColourScale scale(field.values);
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const Vec3& p = mesh.positions()[v];
-    for (const double x : {p.x, p.y, p.z}) out.value(x, kOrder);
-    if (has_values) {
-      out.value(field.values[v], kOrder);
-      for (const std::uint8_t c : scale(field.values[v])) out.value(c, kOrder);
-    }
-    if (has_labels) out.value(field.labels[v], kOrder);
-  }
-  for (const Face& f : mesh.faces()) {
-    out.value(std::uint8_t{3}, kOrder);
-    for (const Index v : f) out.value(v, kOrder);
-  }
 }
 
 }  // namespace brushfire::detail

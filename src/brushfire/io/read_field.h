@@ -19,8 +19,8 @@ struct LoadedField {
   // with a column `vertex`); empty where values[v] is that of vertex v.
   std::vector<Index> vertices;
 
-  // Of infinite values: those of vertices to which the run that wrote them did not come, though a way may lead there.
-  // The others are out of reach. Ascending; empty where a file does not tell (only write_field()'s json does).
+  // Vertices whose value is infinite only because the run that wrote it ended before it came there; a way may lead to
+  // them. The others are out of reach. Ascending; empty where a file does not say (only write_field()'s json does).
   std::vector<Index> not_visited;
 
   struct Label {

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
+#include <brushfire/io/detail/gdal_grid.h>
 #include <brushfire/io/npy.h>
 
 #include <fast_float/fast_float.h>
@@ -130,9 +131,7 @@ Grid read_array(const std::string& path) {
 Grid read_grid(const std::string& path) {
   if (path.ends_with(".npy")) return read_array(path);
   if (path.ends_with(".asc") || path.ends_with(".txt") || path.ends_with(".grd")) return read_ascii(path);
-  throw Error(ErrorCode::UnknownFormat,
-              path + ": grids are read from .asc (ESRI ASCII grid) and .npy; 'gdal_translate -of AAIGrid " + path +
-                  " grid.asc' makes one");
+  return detail::read_gdal(path);
 }
 
 }  // namespace brushfire

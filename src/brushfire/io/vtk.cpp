@@ -1,9 +1,7 @@
 // Legacy VTK: surfaces of PolyData and UnstructuredGrid, ascii and binary, up to version 5.
-#include <brushfire/core/error.h>
 #include <brushfire/io/detail/formats.h>
-#include <brushfire/io/detail/numbers.h>
-#include <brushfire/io/detail/text.h>
 #include <brushfire/io/detail/vtk_cells.h>
+#include <brushfire/io/detail/vtk_text.h>
 
 #include <cmath>
 #include <optional>
@@ -11,32 +9,6 @@
 namespace brushfire::detail {
 
 namespace {
-
-std::optional<NumberType> type_of(std::string_view name) {
-  struct Name {
-    std::string_view name;
-    NumberType type;
-  };
-  static constexpr Name kNames[]{{"char", NumberType::Int8},
-                                 {"signed_char", NumberType::Int8},
-                                 {"unsigned_char", NumberType::UInt8},
-                                 {"short", NumberType::Int16},
-                                 {"unsigned_short", NumberType::UInt16},
-                                 {"int", NumberType::Int32},
-                                 {"unsigned_int", NumberType::UInt32},
-                                 {"long", NumberType::Int64},
-                                 {"unsigned_long", NumberType::UInt64},
-                                 {"vtktypeint64", NumberType::Int64},
-                                 {"vtktypeuint64", NumberType::UInt64},
-                                 {"vtkIdType", NumberType::Int32},
-                                 {"vtkidtype", NumberType::Int32},
-                                 {"float", NumberType::Float32},
-                                 {"double", NumberType::Float64}};
-  for (const Name& n : kNames) {
-    if (n.name == name) return n.type;
-  }
-  return std::nullopt;
-}
 
 std::string upper(std::string_view text) {
   std::string out(text);
@@ -48,7 +20,7 @@ class VtkReader {
  public:
   // `wanted`: the array of points or cells to keep; nullptr for none, "" for the first of one component.
   VtkReader(const Input& input, const std::string* wanted, ValuesOn on)
-      : input_(&input), text_(input, input.bytes()), wanted_(wanted), on_points_(on == ValuesOn::Vertices) {}
+      : input_(&input), in_(input), wanted_(wanted), on_points_(on == ValuesOn::Vertices) {}
 
   MeshParts read() {
     read_preamble();
@@ -74,8 +46,8 @@ class VtkReader {
     text_.next_line();  // the title
     const std::string encoding = upper(text_.word());
     if (encoding != "ASCII" && encoding != "BINARY") text_.fail(quote(encoding) + " where ASCII or BINARY is expected");
-    binary_ = encoding == "BINARY";
-    parts_.places_are_lines = !binary_;
+    in_.binary = encoding == "BINARY";
+    parts_.places_are_lines = !in_.binary;
     if (upper(text_.word()) != "DATASET") text_.fail("DATASET is expected");
     const std::string kind = upper(text_.word());
     if (kind == "UNSTRUCTURED_GRID") {
@@ -105,9 +77,9 @@ class VtkReader {
     } else if (keyword_ == "CELLS") {
       read_grid_cells();
     } else if (keyword_ == "CELL_TYPES") {
-      grid_types_ = read_array(NumberType::Int32, text_.count("the number of cells", 1));
+      grid_types_ = in_.read_array(NumberType::Int32, text_.count("the number of cells", 1));
     } else if (keyword_ == "POINT_DATA" || keyword_ == "CELL_DATA") {
-      attributes_of_ = count_of_tuples();
+      attributes_of_ = in_.count_of_tuples();
       point_data_ = keyword_ == "POINT_DATA";
     } else if (keyword_ == "METADATA") {
       while (text_.next_line() && text_.to_word_on_line()) {
@@ -119,12 +91,13 @@ class VtkReader {
 
   void read_points() {
     const std::size_t n = text_.count("the number of points", 1);
-    const std::vector<double> xyz = read_array(read_type(), checked_product(n, 3));
+    const std::vector<double> xyz = in_.read_array(in_.read_type(), in_.checked_product(n, 3));
     parts_.positions.resize(n);
     for (std::size_t v = 0; v < n; ++v) {
       parts_.positions[v] = {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
       for (std::size_t k = 0; k < 3; ++k) {
-        if (!std::isfinite(xyz[3 * v + k])) fail("point " + std::to_string(v) + " has a coordinate that is not finite");
+        if (!std::isfinite(xyz[3 * v + k]))
+          in_.fail("point " + std::to_string(v) + " has a coordinate that is not finite");
       }
     }
     has_points_ = true;
@@ -133,7 +106,7 @@ class VtkReader {
   // Up to version 4 "n a b ..." per cell, from 5 on an array of offsets and one of connectivity.
   template <class Use>
   void read_cells(Use use) {
-    const std::size_t place = this->place();
+    const std::size_t place = in_.place();
     std::vector<double> offset, connectivity;
     read_connectivity(offset, connectivity);
     for (std::size_t c = 0; c + 1 < offset.size(); ++c) {
@@ -143,7 +116,7 @@ class VtkReader {
   }
 
   void read_grid_cells() {
-    grid_place_ = place();
+    grid_place_ = in_.place();
     read_connectivity(grid_offset_, grid_connectivity_);
   }
 
@@ -153,13 +126,13 @@ class VtkReader {
     TextCursor ahead = text_;
     if (ahead.to_word() && upper(ahead.word_here()) == "OFFSETS") {
       text_ = ahead;
-      offset = read_array(read_type(), n);
-      if (!text_.to_word() || upper(text_.word_here()) != "CONNECTIVITY") fail("CONNECTIVITY is expected");
-      connectivity = read_array(read_type(), size);
+      offset = in_.read_array(in_.read_type(), n);
+      if (!text_.to_word() || upper(text_.word_here()) != "CONNECTIVITY") in_.fail("CONNECTIVITY is expected");
+      connectivity = in_.read_array(in_.read_type(), size);
       check_offsets(offset, size);
       return;
     }
-    const std::vector<double> raw = read_array(NumberType::Int32, size);
+    const std::vector<double> raw = in_.read_array(NumberType::Int32, size);
     connectivity.reserve(raw.size());
     offset.reserve(n + 1);
     offset.push_back(0);
@@ -167,8 +140,8 @@ class VtkReader {
     for (std::size_t c = 0; c < n; ++c) {
       if (at >= raw.size() || !(raw[at] >= 0) || raw[at] != std::floor(raw[at]) ||
           raw[at] > static_cast<double>(raw.size() - at - 1)) {
-        fail("cell " + std::to_string(c) + " of " + keyword_ + " reaches beyond the " + std::to_string(size) +
-             " entries");
+        in_.fail("cell " + std::to_string(c) + " of " + keyword_ + " reaches beyond the " + std::to_string(size) +
+                 " entries");
       }
       const auto corners = static_cast<std::size_t>(raw[at++]);
       connectivity.insert(connectivity.end(), raw.begin() + static_cast<std::ptrdiff_t>(at),
@@ -183,8 +156,8 @@ class VtkReader {
     for (std::size_t c = 0; c < offset.size(); ++c) {
       if (!(offset[c] >= last) || offset[c] != std::floor(offset[c]) || offset[c] > static_cast<double>(size) ||
           (c == 0 && offset[c] != 0)) {
-        fail("offset " + std::to_string(c) + " of " + keyword_ + " does not fit the " + std::to_string(size) +
-             " entries");
+        in_.fail("offset " + std::to_string(c) + " of " + keyword_ + " does not fit the " + std::to_string(size) +
+                 " entries");
       }
       last = offset[c];
     }
@@ -193,8 +166,8 @@ class VtkReader {
   // SCALARS, VECTORS and the rest behind POINT_DATA and CELL_DATA.
   void read_attribute() {
     if (keyword_ == "SCALARS") {
-      const std::string name(one_word("a name"));
-      const std::string type = type_name();
+      const std::string name(in_.one_word("a name"));
+      const std::string type = in_.type_name();
       std::size_t components = 1;
       if (text_.to_word_on_line()) components = text_.count("the number of components", 1);
       TextCursor ahead = text_;
@@ -203,7 +176,7 @@ class VtkReader {
         ahead.word_here();
         text_ = ahead;
       }
-      keep(name, components, read_attribute_array(type, checked_product(attributes_of_, components)));
+      keep(name, components, in_.read_attribute_array(type, in_.checked_product(attributes_of_, components)));
     } else if (keyword_ == "VECTORS" || keyword_ == "NORMALS") {
       skip_attribute(3);
     } else if (keyword_ == "TENSORS") {
@@ -211,16 +184,18 @@ class VtkReader {
     } else if (keyword_ == "GLOBAL_IDS" || keyword_ == "PEDIGREE_IDS") {
       skip_attribute(1);
     } else if (keyword_ == "TEXTURE_COORDINATES") {
-      one_word("a name");
+      in_.one_word("a name");
       const std::size_t dimension = text_.count("the dimension", 1);
-      read_array(read_type(), checked_product(attributes_of_, dimension));
+      in_.read_array(in_.read_type(), in_.checked_product(attributes_of_, dimension));
     } else if (keyword_ == "COLOR_SCALARS") {
-      one_word("a name");
+      in_.one_word("a name");
       const std::size_t components = text_.count("the number of components", 1);
-      read_array(binary_ ? NumberType::UInt8 : NumberType::Float32, checked_product(attributes_of_, components));
+      in_.read_array(in_.binary ? NumberType::UInt8 : NumberType::Float32,
+                     in_.checked_product(attributes_of_, components));
     } else if (keyword_ == "LOOKUP_TABLE") {
-      one_word("a name");
-      read_array(binary_ ? NumberType::UInt8 : NumberType::Float32, checked_product(text_.count("the size", 1), 4));
+      in_.one_word("a name");
+      in_.read_array(in_.binary ? NumberType::UInt8 : NumberType::Float32,
+                     in_.checked_product(text_.count("the size", 1), 4));
     } else if (keyword_ == "FIELD") {
       read_field_arrays();
     } else {
@@ -229,25 +204,25 @@ class VtkReader {
   }
 
   void skip_attribute(std::size_t components) {
-    one_word("a name");
-    const std::string type = type_name();
-    read_attribute_array(type, checked_product(attributes_of_, components));
+    in_.one_word("a name");
+    const std::string type = in_.type_name();
+    in_.read_attribute_array(type, in_.checked_product(attributes_of_, components));
   }
 
   void read_field_arrays() {
-    one_word("a name");
+    in_.one_word("a name");
     const std::size_t arrays = text_.count("the number of arrays", 1);
     for (std::size_t a = 0; a < arrays; ++a) {
-      std::string name(one_word("a name"));
+      std::string name(in_.one_word("a name"));
       while (upper(name) == "METADATA") {
         while (text_.next_line() && text_.to_word_on_line()) {
         }
-        name = one_word("a name");
+        name = in_.one_word("a name");
       }
       const std::size_t components = text_.count("the number of components", 1);
-      const std::size_t tuples = count_of_tuples();
-      const std::string type = type_name();
-      const std::vector<double> values = read_attribute_array(type, checked_product(tuples, components));
+      const std::size_t tuples = in_.count_of_tuples();
+      const std::string type = in_.type_name();
+      const std::vector<double> values = in_.read_attribute_array(type, in_.checked_product(tuples, components));
       if (tuples == attributes_of_) keep(name, components, values);
     }
   }
@@ -261,101 +236,9 @@ class VtkReader {
     field_->values = values;
   }
 
-  std::string_view one_word(const char* what) {
-    if (!text_.to_word()) text_.fail_end(what);
-    return text_.word_here();
-  }
-
-  std::string type_name() { return std::string(one_word("a type")); }
-
-  NumberType read_type(const std::string& name) const {
-    const std::optional<NumberType> type = type_of(name);
-    if (!type) fail("numbers of type " + quote(name) + " are not read");
-    return *type;
-  }
-  NumberType read_type() { return read_type(type_name()); }
-
-  // Attributes may also be bits or strings, which are passed over: empty.
-  std::vector<double> read_attribute_array(const std::string& type, std::size_t n) {
-    if (type == "bit" && binary_) {
-      text_.next_line();
-      take_bytes((n + 7) / 8);
-    } else if (type == "string" || type == "utf8_string") {
-      text_.next_line();
-      for (std::size_t k = 0; k < n; ++k) skip_string();
-    } else {
-      return read_array(type == "bit" ? NumberType::UInt8 : read_type(type), n);
-    }
-    return {};
-  }
-
-  // A line of text; in binary files bytes behind their number, whose own size stands in its two highest bits.
-  void skip_string() {
-    if (!binary_) {
-      if (!text_.next_line()) text_.fail_end("a string");
-      return;
-    }
-    constexpr std::size_t kBytes[]{8, 4, 2, 1};
-    if (text_.left() == 0) fail("the file ends within the strings");
-    const auto first = static_cast<unsigned char>(text_.peek());
-    std::uint64_t length = 0;
-    for (const char c : take_bytes(kBytes[first >> 6])) length = length << 8 | static_cast<unsigned char>(c);
-    take_bytes(as_size(length & (~std::uint64_t{0} >> (64 - (8 * kBytes[first >> 6] - 2)))));
-  }
-
-  std::string_view take_bytes(std::size_t size) {
-    if (size > text_.left())
-      fail(std::to_string(size) + " bytes are promised, but only " + std::to_string(text_.left()) + " follow");
-    return text_.take(size, 1);
-  }
-
-  // Tuples of bits take less than a byte each.
-  std::size_t count_of_tuples() {
-    const std::int64_t n = text_.integer("the number of tuples");
-    if (n < 0 || static_cast<std::uint64_t>(n) / 8 > text_.left()) {
-      fail("the number of tuples is " + std::to_string(n) + ", but only " + std::to_string(text_.left()) +
-           " bytes follow");
-    }
-    return static_cast<std::size_t>(n);
-  }
-
-  std::size_t checked_product(std::size_t a, std::size_t b) const {
-    if (b != 0 && a / 8 > text_.left() / b + 1) {
-      fail(std::to_string(a) + " times " + std::to_string(b) + " numbers are promised, but only " +
-           std::to_string(text_.left()) + " bytes follow");
-    }
-    return a * b;
-  }
-
-  std::vector<double> read_array(NumberType type, std::size_t n) {
-    std::vector<double> values;
-    if (binary_) {
-      text_.next_line();
-      const std::string_view raw = text_.take(n, size_of(type));
-      if (raw.size() != n * size_of(type)) {
-        fail(std::to_string(n) + " numbers are promised, but only " + std::to_string(text_.left()) + " bytes follow");
-      }
-      values.resize(n);
-      // NOLINTNEXTLINE(bugprone-suspicious-stringview-data-usage): as long as n numbers are
-      load_numbers(type, raw.data(), std::endian::big, n, values.data());
-      return values;
-    }
-    text_.check_count(n, "the number of values", 2);
-    values.reserve(n);
-    for (std::size_t k = 0; k < n; ++k) values.push_back(text_.number("a number"));
-    return values;
-  }
-
-  std::size_t place() const {
-    return binary_ ? static_cast<std::size_t>(text_.position() - input_->bytes().data()) : text_.line();
-  }
-  [[noreturn]] void fail(const std::string& cause) const {
-    if (binary_) input_->fail_byte(place(), cause);
-    input_->fail_line(place(), cause);
-  }
-
   const Input* input_;
-  TextCursor text_;
+  VtkText in_;
+  TextCursor& text_ = in_.text;
   const std::string* wanted_;
   bool on_points_;
   MeshParts parts_;
@@ -363,7 +246,7 @@ class VtkReader {
   std::optional<LoadedField> field_;
   std::string keyword_;
   Kind kind_ = Kind::PolyData;
-  bool binary_ = false, has_points_ = false, point_data_ = false;
+  bool has_points_ = false, point_data_ = false;
   std::size_t attributes_of_ = 0;
   std::vector<double> grid_offset_, grid_connectivity_, grid_types_;
   std::size_t grid_place_ = 0;

@@ -35,7 +35,7 @@ struct Columns {
 //         what is not finite is null
 //   ply   binary: the mesh with the columns as double properties, texture coordinates as texture_u and texture_v
 //   vtk   legacy PolyData, binary: the columns as scalars, vectors or texture coordinates
-//   obj   text: the mesh with texture coordinates; of nothing but those
+//   obj   text: the mesh with texture coordinates, and no other columns
 // Where there are rows for some vertices only, the last three hold the part of the mesh between them: these vertices,
 // with their numbers in the whole as `vertex`, and the faces all of whose corners they are. Rows for some faces only do
 // not go into these formats.

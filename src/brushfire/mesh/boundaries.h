@@ -21,8 +21,8 @@ struct Boundary {
 // on its left. O(vertices + faces).
 std::vector<Boundary> boundaries(const Mesh& mesh);
 
-// That of a region of faces (ascending): the border at which it meets the rest of the mesh, and what it has of the
-// mesh's own boundary; in the mesh's vertex numbers. Throws Error(IndexOutOfRange) for a face that does not exist.
+// The boundary of a region of faces (ascending): where it meets the rest of the mesh, and its share of the mesh's own
+// boundary; in the mesh's vertex numbers. Throws Error(IndexOutOfRange) for a face that does not exist.
 std::vector<Boundary> boundaries_of(const Mesh& mesh, std::span<const Index> faces);
 
 }  // namespace brushfire

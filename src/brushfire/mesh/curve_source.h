@@ -59,8 +59,8 @@ struct LocatedCurve {
 // to share a face, an edge or a vertex, whatever faces they are named by; where they share several, the segment lies in
 // the face that names the first, else in that which names the second, else in the lowest. Throws Error(InvalidArgument)
 // for a curve without places, for consecutive places that share no face, for a number of offsets other than that of
-// places, offsets that are not finite, and offsets that differ by more than the segment between them is long (those of
-// equal places differ at all), and offsets that change where there are faces inside; the message names the places.
+// places, offsets that are not finite, and offsets that differ by more than the segment between them is long (or at
+// all, where two places are equal), and offsets that change where there are faces inside; the message names the places.
 // Throws Error(IndexOutOfRange) for a face inside that does not exist. Throws what locate() of a point throws.
 // O(places), more at vertices of very many faces.
 LocatedCurve locate(const Mesh& mesh, const CurveSource& curve);

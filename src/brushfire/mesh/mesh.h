@@ -128,11 +128,11 @@ class Mesh {
   // unit()^2. Both sides of an edge have the same bits.
   std::span<const double> lengths() const;
   std::span<const double> double_areas() const;
-  // One of them, the same bits; computed where the arrays have not been built.
+  // A single one, with the same bits; computed where the arrays have not been built.
   double length(Index h) const;
   double double_area(Index f) const;
 
-  // The same of one face, whether or not those arrays have been built: for one look at every face, which is not worth
+  // The same for one face, whether or not those arrays have been built: for one look at every face, which is not worth
   // 64 bytes per vertex for good.
   struct FaceGeometry {
     std::array<double, 3> lengths;  // of the face's halfedges

@@ -72,6 +72,17 @@ void add_quad(std::vector<Face>& faces, Index a, Index b, Index c, Index d) {
   faces.push_back({a, d, c});
 }
 
+// A grid of them, row by row; `vertex`: of (x, y).
+template <class Vertex>
+void add_quads(std::vector<Face>& faces, Index columns, Index rows, Poll& poll, Vertex vertex) {
+  for (Index y = 0; y < rows; ++y) {
+    for (Index x = 0; x < columns; ++x) {
+      poll();
+      add_quad(faces, vertex(x, y), vertex(x + 1, y), vertex(x, y + 1), vertex(x + 1, y + 1));
+    }
+  }
+}
+
 // Quads between two rings of n vertices each that start at `lower` and `upper`.
 void join_rings(std::vector<Face>& faces, Index lower, Index upper, Index n) {
   Poll poll;
@@ -98,13 +109,7 @@ Shape grid(Index columns, Index rows, const Surface& surface) {
       s.positions.push_back(surface(share(x, columns), share(y, rows)));
     }
   }
-  for (Index y = 0; y < rows; ++y) {
-    for (Index x = 0; x < columns; ++x) {
-      poll();
-      const Index a = y * (columns + 1) + x;
-      add_quad(s.faces, a, a + 1, a + columns + 1, a + columns + 2);
-    }
-  }
+  add_quads(s.faces, columns, rows, poll, [=](Index x, Index y) { return y * (columns + 1) + x; });
   return s;
 }
 
@@ -197,12 +202,7 @@ Shape cube(Index cells) {
       s.positions[result] = {share(c[0], n), share(c[1], n), share(c[2], n)};
       return result;
     };
-    for (Index v = 0; v < n; ++v) {
-      for (Index u = 0; u < n; ++u) {
-        poll();
-        add_quad(s.faces, vertex(u, v), vertex(u + 1, v), vertex(u, v + 1), vertex(u + 1, v + 1));
-      }
-    }
+    add_quads(s.faces, n, n, poll, vertex);
   }
   return s;
 }
@@ -357,12 +357,7 @@ Shape book(Index pages, Index columns, Index rows) {
       }
     }
     const auto vertex = [&](Index x, Index y) { return x == 0 ? y : first + y * columns + x - 1; };
-    for (Index y = 0; y < rows; ++y) {
-      for (Index x = 0; x < columns; ++x) {
-        poll();
-        add_quad(s.faces, vertex(x, y), vertex(x + 1, y), vertex(x, y + 1), vertex(x + 1, y + 1));
-      }
-    }
+    add_quads(s.faces, columns, rows, poll, vertex);
   }
   return s;
 }

@@ -59,6 +59,7 @@ std::array<WideVec2, 3> wide_corners(const Mesh& mesh, Index f, Index k) {
 WideVec2 wide_point(const std::array<WideVec2, 3>& corners, const std::array<double, 3>& weights) {
   const auto k = static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+  if (weights[i] == 0 && weights[j] == 0) return corners[k];
   const DoubleDouble sum = DoubleDouble(weights[k]) + weights[i] + weights[j];
   return corners[k] + (weights[i] / sum) * (corners[i] - corners[k]) + (weights[j] / sum) * (corners[j] - corners[k]);
 }

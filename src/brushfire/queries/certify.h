@@ -27,8 +27,8 @@ std::string_view name_of(Finding finding);
 
 struct CertifyOptions {
   // How far apart the bounds may be: upper - lower <= 2 * tolerance * distance (plus rounding). 0, the default, is one
-  // exact run, and the bounds differ by rounding; 1e-3 is one run of windows: some times as fast on large meshes, and
-  // it proves errors of 0.2 % and more. In [0, kMaxTolerance].
+  // exact run, and the bounds differ by rounding; 1e-3 is one run of windows: several times as fast on large meshes,
+  // and it proves errors of 0.2 % and more. In [0, kMaxTolerance].
   double tolerance = 0;
   // What the field claims of itself: values may be off by this share of the distance (of the path's length, where
   // sources have offsets), and are wrong only beyond it. >= 0.
@@ -47,8 +47,8 @@ struct Certificate {
   // where it is finite and should not be, or should be; NaN where it is; 0 where nothing is proven.
   std::vector<double> proven_error;
   Index possible = 0, too_short = 0, too_long = 0, not_reachable = 0, not_reached = 0, not_a_number = 0;
-  // The least CertifyOptions::within for which nothing would be proven wrong; 0 where nothing is anyway, +inf where no
-  // such claim is true of the field. And the vertex that requires it, the lowest of them; kNoIndex: none.
+  // The least CertifyOptions::within for which nothing would be proven wrong; 0 where nothing is in any case, +inf
+  // where no such claim can hold. And the vertex that requires it, the lowest of them; kNoIndex: none.
   double least_within = 0;
   Index worst_vertex = kNoIndex;
   double max_gap = 0;  // the largest (upper - lower) / (length of the path), over reached vertices

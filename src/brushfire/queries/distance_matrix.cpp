@@ -241,12 +241,6 @@ constexpr std::size_t kSampleRows = 32;
 // Short rows are computed and kept this many at a time.
 constexpr std::size_t kBlockRows = 32;
 
-template <class T>
-struct SparseBlock {
-  std::vector<Index> column;
-  std::vector<T> value;
-};
-
 // What a sparse matrix takes while its rows are put together: every entry is there twice for a moment.
 template <class T>
 class SparseBudget {
@@ -290,7 +284,7 @@ struct RowPlace {
 };
 
 template <class T>
-SparseMatrix<T> join(std::vector<SparseBlock<T>>& entries, const detail::Rows::Blocks& blocks,
+SparseMatrix<T> join(std::vector<detail::SparseEntries<T>>& entries, const detail::Rows::Blocks& blocks,
                      std::span<const RowPlace> rows, std::size_t columns) {
   SparseMatrix<T> m;
   m.columns = static_cast<Index>(columns);
@@ -342,11 +336,11 @@ SparseMatrix<T> distances_within(const Domain& domain, double radius, Places row
   check_expected_size(all, budget);
 
   const detail::Rows::Blocks blocks = all.blocks_by_place(kBlockRows);
-  std::vector<SparseBlock<T>> of_block(blocks.begin.size() - 1);
+  std::vector<detail::SparseEntries<T>> of_block(blocks.begin.size() - 1);
   std::vector<RowPlace> row_place(all.count());
   std::atomic<std::uint64_t> entries{0};
   const auto take = [&](std::size_t b, std::size_t i, const SparseField& f) {
-    SparseBlock<T>& block = of_block[b];
+    detail::SparseEntries<T>& block = of_block[b];
     row_place[i] = {block.column.size(), static_cast<Index>(f.vertex.size())};
     block.column.insert(block.column.end(), f.vertex.begin(), f.vertex.end());
     block.value.insert(block.value.end(), f.distance.begin(), f.distance.end());

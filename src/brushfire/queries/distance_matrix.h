@@ -7,8 +7,8 @@
 // With Method::CarriedSource (in single precision) sixteen neighbouring vertices march together in the lanes of vector
 // registers, in groups that the mesh alone decides: seven to ten times as many rows a second as one by one.
 // A group is always run as a whole, whichever of its rows are needed, so that a row has the same bits every time; it
-// differs from distance()'s by some 0.01 to 0.02 % in the mean, less than from the truth. Single runs serve the rows of
-// other places than vertices, of vertices on walls or without close neighbours, a group that would not settle, and all
+// differs from distance()'s by some 0.01 to 0.02 % in the mean, which is less than its error. Single runs serve rows of
+// places other than vertices, of vertices on walls or without close neighbours, a group that would not settle, and all
 // rows where a column is no vertex. Rows of distances_within() depend on the radius, too: by as little.
 // docs/decisions/matrices.md
 //

@@ -1,7 +1,7 @@
 // From everything that a row depends on to one number.
 #include <brushfire/queries/detail/fingerprint.h>
 
-#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/weighted/weighting.h>
 #include <brushfire/version.h>
 
 namespace brushfire::detail {

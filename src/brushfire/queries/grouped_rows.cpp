@@ -101,85 +101,102 @@ Rows::ByUnits Rows::by_units() {
   return units;
 }
 
+// What is asked of a run of groups.
+struct Rows::Asked {
+  std::vector<Wish> wishes;        // of vertices in a group, ascending
+  std::vector<std::size_t> alone;  // the rest
+  std::vector<Index> columns;      // vertices, where not all are columns
+
+  // The rows of a vertex among some.
+  static std::span<const Wish> rows_of(std::span<const Wish> some, Index v) {
+    const auto begin = std::lower_bound(some.begin(), some.end(), Wish{v, 0});
+    return std::span(begin, std::upper_bound(begin, some.end(), Wish{v, ~std::size_t{0}}));
+  }
+};
+
+Rows::Asked Rows::asked_of(std::span<const std::size_t> numbers) {
+  std::vector<bool> in_a_group(mesh_.vertex_count(), false);
+  for (const auto& g : groups().groups()) {
+    for (const Index v : g.vertices) in_a_group[v] = true;
+  }
+  Asked asked;
+  std::vector<Wish> single;
+  for (const std::size_t i : numbers) {
+    const Index v = vertex_of_row(i);
+    if (v == kNoIndex) {
+      asked.alone.push_back(i);
+    } else {
+      (in_a_group[v] ? asked.wishes : single).emplace_back(v, i);
+    }
+  }
+  std::sort(asked.wishes.begin(), asked.wishes.end());
+  std::sort(single.begin(), single.end());
+  for (const auto& [v, i] : single) asked.alone.push_back(i);
+  for (const SurfacePoint& p : options_.targets) asked.columns.push_back(vertex_at(mesh_, p));
+  return asked;
+}
+
+// Those of a group's rows that are wanted; returns how many they are, others' among them.
+template <class T>
+std::size_t Rows::run_group(unsigned worker, std::size_t number, const Asked& asked, const TakeDense<T>& take,
+                            const Claim& claim) {
+  const carried_source::GroupedRows::Group& group = groups().groups()[number];
+  std::size_t count = 0;
+  std::vector<Wish> mine;
+  for (const Index v : group.vertices) {
+    for (const Wish& w : Asked::rows_of(asked.wishes, v)) {
+      ++count;
+      if (!claim || claim(w.second)) mine.push_back(w);
+    }
+  }
+  if (mine.empty()) return count;
+  std::sort(mine.begin(), mine.end());
+  Worker& w = workers_[worker];
+  if (!w.groups) w.groups = std::make_unique<carried_source::GroupRunner>(groups());
+  const auto of_lane = [&](int lane) { return Asked::rows_of(mine, group.vertices[static_cast<std::size_t>(lane)]); };
+  const auto take_lane = [&](int lane, std::span<const float> distances) {
+    if (of_lane(lane).empty()) return;
+    std::vector<T>& values = w.values<T>();
+    if (all_columns_) {
+      values.resize(column_count_);
+      in_units(distances, w.groups->unit(), options_.max_distance, values);
+    } else {
+      values.assign(column_count_, std::numeric_limits<T>::infinity());
+      for (std::size_t t = 0; t < asked.columns.size(); ++t) {
+        values[target_column_[t]] = in_units<T>(distances[asked.columns[t]], w.groups->unit(), options_.max_distance);
+      }
+    }
+    for (const auto& [v, i] : of_lane(lane)) take(worker, i, values);
+  };
+  for (const int lane : w.groups->run(group, options_.max_distance, take_lane)) {
+    for (const auto& [v, i] : of_lane(lane)) compute_dense_row<T>(worker, i, take);
+  }
+  return count;
+}
+
 template <class T>
 void Rows::run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take,
                        const Claim& claim) {
   const CancelScope listen(options_.cancel);
-  std::vector<Wish> wishes;
-  std::vector<std::size_t> alone;
-  for (const std::size_t i : numbers) {
-    const Index v = vertex_of_row(i);
-    if (v == kNoIndex) {
-      alone.push_back(i);
-    } else {
-      wishes.emplace_back(v, i);
-    }
-  }
-  std::sort(wishes.begin(), wishes.end());
-  std::vector<Index> columns;
-  for (const SurfacePoint& p : options_.targets) columns.push_back(vertex_at(mesh_, p));
   const carried_source::GroupedRows& rows = groups();
-
-  // The rows of a vertex among some.
-  const auto rows_of = [](std::span<const Wish> some, Index v) {
-    const auto begin = std::lower_bound(some.begin(), some.end(), Wish{v, 0});
-    return std::span(begin, std::upper_bound(begin, some.end(), Wish{v, ~std::size_t{0}}));
-  };
-  std::vector<bool> in_a_group(mesh_.vertex_count(), false);
-  for (const auto& g : rows.groups()) {
-    for (const Index v : g.vertices) in_a_group[v] = true;
-  }
-  for (const auto& [v, i] : wishes) {
-    if (!in_a_group[v]) alone.push_back(i);
-  }
-
+  const Asked asked = asked_of(numbers);
   std::atomic<std::size_t> done{0};
   const auto tell = [&](unsigned worker, std::size_t rows_done) {
     const std::size_t finished = done.fetch_add(rows_done, std::memory_order_relaxed) + rows_done;
     if (worker == 0 && progress) progress(static_cast<double>(finished) / static_cast<double>(numbers.size()));
   };
-  const auto run_group = [&](unsigned worker, const carried_source::GroupedRows::Group& group) {
-    std::size_t count = 0;
-    std::vector<Wish> mine;
-    for (const Index v : group.vertices) {
-      for (const Wish& w : rows_of(wishes, v)) {
-        ++count;
-        if (!claim || claim(w.second)) mine.push_back(w);
-      }
-    }
-    if (count == 0) return;
-    if (mine.empty()) return tell(worker, count);
-    std::sort(mine.begin(), mine.end());
-    Worker& w = workers_[worker];
-    if (!w.groups) w.groups = std::make_unique<carried_source::GroupRunner>(rows);
-    const auto of_lane = [&](int lane) { return rows_of(mine, group.vertices[static_cast<std::size_t>(lane)]); };
-    const auto take_lane = [&](int lane, std::span<const float> distances) {
-      if (of_lane(lane).empty()) return;
-      std::vector<T>& values = w.values<T>();
-      if (all_columns_) {
-        values.resize(column_count_);
-        in_units(distances, w.groups->unit(), options_.max_distance, values);
-      } else {
-        values.assign(column_count_, std::numeric_limits<T>::infinity());
-        for (std::size_t t = 0; t < columns.size(); ++t) {
-          values[target_column_[t]] = in_units<T>(distances[columns[t]], w.groups->unit(), options_.max_distance);
-        }
-      }
-      for (const auto& [v, i] : of_lane(lane)) take(worker, i, values);
-    };
-    for (const int lane : w.groups->run(group, options_.max_distance, take_lane)) {
-      for (const auto& [v, i] : of_lane(lane)) compute_dense_row<T>(worker, i, take);
-    }
-    tell(worker, count);
-  };
   const auto body = [&](unsigned worker, std::size_t index) {
     stop_if_cancelled();
-    if (index < rows.groups().size()) return run_group(worker, rows.groups()[index]);
-    const std::size_t i = alone[index - rows.groups().size()];
+    if (index < rows.groups().size()) {
+      const std::size_t count = run_group(worker, index, asked, take, claim);
+      if (count != 0) tell(worker, count);
+      return;
+    }
+    const std::size_t i = asked.alone[index - rows.groups().size()];
     if (!claim || claim(i)) compute_dense_row<T>(worker, i, take);
     tell(worker, 1);
   };
-  team_.run(rows.groups().size() + alone.size(), body, current_cancel_token());
+  team_.run(rows.groups().size() + asked.alone.size(), body, current_cancel_token());
 }
 
 template void Rows::run_grouped<float>(std::span<const std::size_t>, const Progress&, const TakeDense<float>&,

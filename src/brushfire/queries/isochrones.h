@@ -26,8 +26,8 @@ struct MapPolygon {
 // mesh without positions and a level that is not finite. O(faces), and rings times holes.
 std::vector<MapPolygon> isochrone(const Mesh& mesh, std::span<const double> values, double level);
 
-// A GeoJSON FeatureCollection (RFC 7946) with one MultiPolygon for each level, which its property "level" tells. In the
-// mesh's coordinates, which RFC 7946 wants to be longitude and latitude; GIS programs take others if they are told.
+// A GeoJSON FeatureCollection (RFC 7946) with one MultiPolygon for each level, which its property "level" names. In the
+// mesh's coordinates, which RFC 7946 wants to be longitude and latitude; GIS programs take others if told so.
 std::string isochrones_as_geojson(const Mesh& mesh, std::span<const double> values, std::span<const double> levels);
 
 }  // namespace brushfire

@@ -11,8 +11,8 @@
 
 namespace brushfire {
 
-// Makes the angles of a map run counter-clockwise, as the faces at its source do, and from a direction in space on (as
-// of angle_of()), or from the first edge there. Around a point they go from 0 to the full turn; at the mesh's border
+// Makes the angles of a map run counter-clockwise, as the faces at its source do, counted from a direction in space
+// (see angle_of()), or from the first edge there. Around a point they go from 0 to the full turn; at the mesh's border
 // they stay between its two edges, and are negative clockwise of the direction. Throws as angle_of() does.
 void turn(const Mesh& mesh, const SurfacePoint& source, const std::optional<Vec3>& direction, SparseLogMap& map);
 

@@ -1,9 +1,9 @@
-// Distance matrices on disk as jobs: they survive being killed, are helped with by other processes, and are cut into
-// shards for machines that share nothing.
+// Distance matrices on disk as jobs: they survive being killed, other processes can help with them, and they can be cut
+// into shards for machines that share nothing.
 //
-// A row is written in its place and then marked in PATH.part.rows; what is marked is never computed again, and who was
-// killed leaves nothing locked. Every process that is given the same job takes rows that nobody is at, and returns
-// when all are there. The bytes are the same whoever computed what. docs/cluster.md
+// A row is written in its place and then marked in PATH.part.rows; a marked row is never computed again, and a process
+// that is killed leaves nothing locked. Every process that is given the same job takes rows that no other is computing,
+// and returns when all are there. The bytes are the same whichever process computed which row. docs/cluster.md
 //
 // Example:
 //     const brushfire::Mesh mesh = brushfire::read_mesh("scan.ply").mesh;
@@ -45,10 +45,10 @@ struct MatrixFileOptions {
 // .zarr (a group with the array "distance", uncompressed, in chunks of whole rows; what is not there yet reads NaN).
 class MatrixJob {
  public:
-  // Begins the job, or joins it, also where it was begun by a process that is no more. Throws Error(FileNotWritable)
+  // Begins the job, or joins it, also where the process that began it has ended. Throws Error(FileNotWritable)
   // where another job was begun at this path, where something that is no such store stands there, or where the disk
-  // has not enough room (and says how many rows would fit); Error(UnknownFormat) for another extension;
-  // Error(InvalidArgument) for options without sense; what distance_matrix() throws.
+  // has too little room (and says how many rows would fit); Error(UnknownFormat) for another extension;
+  // Error(InvalidArgument) for options that contradict each other; what distance_matrix() throws.
   MatrixJob(const std::filesystem::path& path, const Domain& domain, Places rows, Places columns,
             ValueType type = ValueType::Float32, const MatrixOptions& options = {},
             const MatrixFileOptions& file_options = {});
@@ -62,13 +62,13 @@ class MatrixJob {
   std::size_t done() const;              // rows that are there now
   std::filesystem::path output() const;  // PATH; of a shard in a .npy file its own: d.3-of-16.npy
 
-  // Computes the rows that are missing and that nobody else is at, waits for those that somebody is (and takes them
-  // over should he die), and completes the files. With shards of a Zarr store: those of its own shard, and whoever
-  // finds all rows there completes it. MatrixOptions' progress counts all rows.
+  // Computes the rows that are missing and that no other process is computing, waits for those that one is (and takes
+  // them over if it dies), and completes the files. With shards of a Zarr store: those of its own shard, and the
+  // process that finds all rows there completes it. MatrixOptions' progress counts all rows.
   void run();
 
-  // Of `count` blocks of rows that are computed together, block number `block` alone: rows that somebody else is at
-  // are left to him. Returns how many rows it computed. run() completes the files afterwards.
+  // Of `count` blocks of rows that are computed together, block number `block` alone: rows that another process is
+  // computing are left to it. Returns how many rows it computed. run() completes the files afterwards.
   std::size_t run_block(std::size_t block, std::size_t count);
 
   // Whether the matrix stands complete under its name.

@@ -4,8 +4,8 @@
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
-#include <brushfire/queries/detail/sleeve.h>
 #include <brushfire/queries/detail/tangent_fan.h>
+#include <brushfire/queries/detail/way_around.h>
 #include <brushfire/solvers/windows/paths/field_rays.h>
 
 #include <algorithm>

@@ -26,8 +26,8 @@ ParcelDistance parcel_distance_named(std::string_view name);
 struct ParcelMatrix {
   std::vector<std::int64_t> label;  // of each parcel, ascending
   std::vector<double> distance;     // [parcels * parcels] symmetric; +inf: unreachable
-  // [parcels] ParcelDistance::Centroid only: the vertex of each parcel with the least sum of distances to the others of
-  // it (weighted by their areas), the lowest of equals.
+  // [parcels] ParcelDistance::Centroid only: the vertex of each parcel with the least sum of distances to its other
+  // vertices (weighted by their areas), the lowest of equals.
   std::vector<Index> centroid;
   std::vector<Index> vertices;  // [parcels] how many there are
 };

@@ -6,7 +6,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/lengths_only.h>
-#include <brushfire/queries/detail/sleeve.h>
+#include <brushfire/queries/detail/way_around.h>
 #include <brushfire/queries/shorten.h>
 #include <brushfire/solvers/detail/walls.h>
 
@@ -184,6 +184,13 @@ std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source>
 
 std::vector<SourcePath> edge_paths_to(const Domain& domain, std::span<const Source> sources,
                                       std::span<const SurfacePoint> targets, const DistanceOptions& how) {
+  DistanceSolver solver(domain);
+  return edge_paths_to(solver, sources, targets, how);
+}
+
+std::vector<SourcePath> edge_paths_to(DistanceSolver& solver, std::span<const Source> sources,
+                                      std::span<const SurfacePoint> targets, const DistanceOptions& how) {
+  const Domain& domain = solver.domain();
   detail::check_lengths_only(how, "paths along edges");
   const Mesh& open = domain.open();
   const auto check_vertex = [&](const SurfacePoint& p) {
@@ -199,7 +206,8 @@ std::vector<SourcePath> edge_paths_to(const Domain& domain, std::span<const Sour
   options.method = Method::Dijkstra;
   options.targets.assign(targets.begin(), targets.end());
   const detail::WalledRun walled(domain, sources, options);
-  const DistanceField field = distance(open, walled.sources(), walled.options());
+  const DistanceField field = domain.has_walls() ? distance(open, walled.sources(), walled.options())
+                                                 : solver.distance(walled.sources(), walled.options());
   std::vector<SourcePath> paths;
   for (const SurfacePoint& t : targets) {
     SourcePath& path = paths.emplace_back();

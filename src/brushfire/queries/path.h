@@ -60,6 +60,8 @@ std::vector<SourcePath> paths_to(DistanceSolver& solver, std::span<const Source>
 
 // The same along edges, with the paths of edge_path_to(): sources and targets are vertices. Throws
 // Error(InvalidArgument) for others.
+std::vector<SourcePath> edge_paths_to(DistanceSolver& solver, std::span<const Source> sources,
+                                      std::span<const SurfacePoint> targets, const DistanceOptions& how = {});
 std::vector<SourcePath> edge_paths_to(const Domain& domain, std::span<const Source> sources,
                                       std::span<const SurfacePoint> targets, const DistanceOptions& how = {});
 

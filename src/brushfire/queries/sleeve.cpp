@@ -1,4 +1,4 @@
-// Unfolding of sleeves, shortest paths in them, ways around vertices.
+// Unfolding of sleeves, and shortest paths in them.
 //
 // Based on: Lee, Preparata, "Euclidean shortest paths in the presence of rectilinear barriers", 1984 (the funnel).
 #include <brushfire/queries/detail/sleeve.h>
@@ -8,10 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
-#include <queue>
-#include <tuple>
+#include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,45 +40,84 @@ Index longest_halfedge(const Mesh& mesh, Index f) {
   return longest;
 }
 
-// A sleeve laid out in the plane, its beginning in the origin: the edge of every step, seen by someone who walks along,
-// and the end. In 106 bits: faces of a sleeve may be of very different sizes.
-struct Unfolded {
+// Of length 1 to some 2^-100: one step of Newton's method from the root and quotient of doubles, whose error it
+// squares.
+WideVec2 unit(WideVec2 a) {
+  const DoubleDouble square = dot(a, a);
+  const double guess = 1 / std::sqrt(square.high);
+  const DoubleDouble rest = DoubleDouble(1) - square * DoubleDouble::product(guess, guess);
+  return (DoubleDouble(guess) + 0.5 * guess * rest.high) * a;
+}
+
+// A sleeve laid out in the plane face by face, its beginning in the origin: the edge of every step, seen by someone who
+// walks along, and the end. In 106 bits: faces of a sleeve may be of very different sizes.
+class Unfolding {
+ public:
   struct Portal {
     WideVec2 left, right;
     bool left_is_from = false;  // whether the left end is the vertex that `out` starts from
   };
-  std::vector<Portal> portals;
-  WideVec2 end;
+
+  Unfolding(const Mesh& mesh, const Sleeve& sleeve, FrameCache& frames)
+      : mesh_(mesh), sleeve_(sleeve), frames_(frames) {
+    portals_.reserve(sleeve.steps.size());
+    corners_ = first_corners();
+    const WideVec2 begin = wide_point(corners_, *weights_in(mesh, sleeve.begin, sleeve.first_face));
+    for (WideVec2& corner : corners_) corner = corner - begin;
+  }
+
+  // The edge of step i; of steps in order, or those that were asked for before.
+  const Portal& portal(std::size_t i) {
+    while (portals_.size() <= i) advance(sleeve_.steps[portals_.size()]);
+    return portals_[i];
+  }
+  // Once all edges were asked for.
+  WideVec2 end() const { return wide_point(corners_, *weights_in(mesh_, sleeve_.end, sleeve_.last_face())); }
+  const std::vector<Portal>& portals() const { return portals_; }
+  std::size_t size() const { return sleeve_.steps.size(); }
+
+ private:
+  std::array<WideVec2, 3> first_corners() {
+    std::array<WideVec2, 3> corners;
+    const Index h = longest_halfedge(mesh_, sleeve_.first_face);
+    if (!(mesh_.length(h) > 0)) return corners;
+    const WideFrame& frame = frames_.of(h);
+    corners[Mesh::next(h) % 3] = {frame.length, 0.0};
+    corners[Mesh::previous(h) % 3] = frame.apex;
+    return corners;
+  }
+
+  void advance(const Step& step) {
+    const WideVec2 from = corners_[step.out % 3], to = corners_[Mesh::next(step.out) % 3];
+    // Leaving a counter-clockwise face, the edge's far end lies to the left.
+    portals_.push_back(mirrored_ ? Portal{from, to, true} : Portal{to, from, false});
+    const bool same_start = mesh_.from(step.in) == mesh_.from(step.out);
+    mirrored_ = mirrored_ != same_start;
+    const WideVec2 u = same_start ? from : to, v = same_start ? to : from;
+    const WideVec2& apex = frames_.of(step.in).apex;
+    // Not by the edge's own length: keeps rounding from turning into a change of scale.
+    const WideVec2 along = unit(v - u);
+    const WideVec2 inward = mirrored_ ? WideVec2{along.y, -along.x} : WideVec2{-along.y, along.x};
+    corners_[step.in % 3] = u;
+    corners_[Mesh::next(step.in) % 3] = v;
+    corners_[Mesh::previous(step.in) % 3] = u + apex.x * along + apex.y * inward;
+  }
+
+  const Mesh& mesh_;
+  const Sleeve& sleeve_;
+  FrameCache& frames_;
+  std::array<WideVec2, 3> corners_;  // of the last face
+  bool mirrored_ = false;            // whether it lies clockwise
+  std::vector<Portal> portals_;
 };
 
-Unfolded unfold(const Mesh& mesh, const Sleeve& sleeve) {
-  Unfolded flat;
-  flat.portals.reserve(sleeve.steps.size());
-  std::array<WideVec2, 3> corners =
-      wide_corners(mesh, sleeve.first_face, longest_halfedge(mesh, sleeve.first_face) % 3);
-  bool mirrored = false;  // whether the present face lies clockwise
-  const WideVec2 begin = wide_point(corners, *weights_in(mesh, sleeve.begin, sleeve.first_face));
-  for (WideVec2& corner : corners) corner = corner - begin;
-  for (const Step& step : sleeve.steps) {
-    const WideVec2 from = corners[step.out % 3], to = corners[Mesh::next(step.out) % 3];
-    // Leaving a counter-clockwise face, the edge's far end lies to the left.
-    flat.portals.push_back(mirrored ? Unfolded::Portal{from, to, true} : Unfolded::Portal{to, from, false});
-    const bool same_start = mesh.from(step.in) == mesh.from(step.out);
-    mirrored = mirrored != same_start;
-    const WideVec2 u = same_start ? from : to, v = same_start ? to : from;
-    const WideVec2 apex = wide_frame(mesh, step.in).apex;
-    // Not by the edge's own length: keeps rounding from turning into a change of scale.
-    const WideVec2 along = (DoubleDouble(1) / norm(v - u)) * (v - u);
-    const WideVec2 inward = mirrored ? WideVec2{along.y, -along.x} : WideVec2{-along.y, along.x};
-    corners[step.in % 3] = u;
-    corners[Mesh::next(step.in) % 3] = v;
-    corners[Mesh::previous(step.in) % 3] = u + apex.x * along + apex.y * inward;
-  }
-  flat.end = wide_point(corners, *weights_in(mesh, sleeve.end, sleeve.last_face()));
-  return flat;
+// The cross product, at least its sign: in doubles where their rounding, a few units in the last place of both
+// products, cannot change that.
+double turn(const WideVec2& a, const WideVec2& b) {
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  const double p = a.x.high * b.y.high, q = a.y.high * b.x.high;
+  return std::abs(p - q) > kRounding * (std::abs(p) + std::abs(q)) ? p - q : cross(a, b).high;
 }
-
-double turn(WideVec2 a, WideVec2 b) { return cross(a, b).high; }
 
 // Where the shortest path from the beginning has to bend first: the step whose edge ends in that vertex.
 struct Bend {
@@ -88,14 +125,15 @@ struct Bend {
   bool left;
 };
 
-std::optional<Bend> first_bend(const Unfolded& flat) {
+// Lays out no more than it takes to tell.
+std::optional<Bend> first_bend(Unfolding& flat) {
   WideVec2 left, right;  // the funnel's sides
   std::size_t left_step = 0, right_step = 0;
   bool open = false;
-  for (std::size_t i = 0; i <= flat.portals.size(); ++i) {
-    const bool last = i == flat.portals.size();
-    const WideVec2 l = last ? flat.end : flat.portals[i].left;
-    const WideVec2 r = last ? flat.end : flat.portals[i].right;
+  for (std::size_t i = 0; i <= flat.size(); ++i) {
+    const bool last = i == flat.size();
+    const WideVec2 l = last ? flat.end() : flat.portal(i).left;
+    const WideVec2 r = last ? l : flat.portal(i).right;
     if (!open) {
       left = l;
       right = r;
@@ -117,15 +155,21 @@ std::optional<Bend> first_bend(const Unfolded& flat) {
   return std::nullopt;
 }
 
-Index vertex_of(const Mesh& mesh, const Sleeve& sleeve, const Unfolded& flat, const Bend& bend) {
+Index vertex_of(const Mesh& mesh, const Sleeve& sleeve, const Unfolding& flat, const Bend& bend) {
   const Index out = sleeve.steps[bend.step].out;
-  return flat.portals[bend.step].left_is_from == bend.left ? mesh.from(out) : mesh.to(out);
+  return flat.portals()[bend.step].left_is_from == bend.left ? mesh.from(out) : mesh.to(out);
 }
 
-// Where the line from begin to end crosses a step's edge.
-Crossing crossing_of(const Unfolded& flat, std::size_t step) {
-  const Unfolded::Portal& portal = flat.portals[step];
-  const DoubleDouble l = cross(flat.end, portal.left), r = cross(flat.end, portal.right);
+std::array<double, 3> weights_on(Index h, const Crossing& at) {
+  std::array<double, 3> w{0, 0, 0};
+  w[h % 3] = at.from;
+  w[Mesh::next(h) % 3] = at.to;
+  return w;
+}
+
+// Where the line from the origin to `end` crosses an edge.
+Crossing crossing_of(const Unfolding::Portal& portal, WideVec2 end) {
+  const DoubleDouble l = cross(end, portal.left), r = cross(end, portal.right);
   double at_left = 1, at_right = 0;
   if (l.high > 0 && r.high < 0) {
     at_left = (r / (r - l)).high;
@@ -154,28 +198,37 @@ Sleeve split_off(const Mesh& mesh, Sleeve& sleeve, std::size_t i, Index vertex) 
 
 // The first step whose edge the line crosses at a vertex: so near to it, for someone at either end, that going through
 // it makes no bend that can be told from straight.
-std::optional<Bend> first_touch(const Unfolded& flat) {
-  const double length = norm(flat.end).high;
-  const auto touches = [&](WideVec2 p) {
-    const double along = dot(flat.end, p).high / length, aside = std::abs(cross(flat.end, p).high) / length;
+std::optional<Bend> first_touch(const std::vector<Unfolding::Portal>& portals, WideVec2 end) {
+  const double length = norm(end).high;
+  const auto touches = [&](const WideVec2& p) {
+    const double far = std::abs(p.x.high) + std::abs(p.y.high);
+    if (std::abs(turn(end, p)) > 2 * kTouch * far * length) return false;  // most: twice what could touch
+    const double along = dot(end, p).high / length, aside = std::abs(cross(end, p).high) / length;
     return aside <= kTouch * std::min(along, length - along);
   };
-  for (std::size_t i = 0; length > 0 && i < flat.portals.size(); ++i) {
-    if (touches(flat.portals[i].left)) return Bend{i, true};
-    if (touches(flat.portals[i].right)) return Bend{i, false};
+  for (std::size_t i = 0; length > 0 && i < portals.size(); ++i) {
+    if (touches(portals[i].left)) return Bend{i, true};
+    if (touches(portals[i].right)) return Bend{i, false};
   }
   return std::nullopt;
 }
 
 // Over an edge without length there is no "straight": the path goes through one of its vertices.
 std::optional<std::size_t> zero_length_step(const Mesh& mesh, const Sleeve& sleeve) {
+  const std::span<const double> lengths = mesh.lengths();
   for (std::size_t i = 0; i < sleeve.steps.size(); ++i) {
-    if (mesh.lengths()[sleeve.steps[i].out] == 0) return i;
+    if (lengths[sleeve.steps[i].out] == 0) return i;
   }
   return std::nullopt;
 }
 
 }  // namespace
+
+const WideFrame& FrameCache::of(Index h) {
+  const auto [at, is_new] = frames_.try_emplace(h);
+  if (is_new) at->second = wide_frame(mesh_, h);
+  return at->second;
+}
 
 void tidy(const Mesh& mesh, Sleeve& sleeve) {
   std::vector<Step> kept;
@@ -197,7 +250,7 @@ void tidy(const Mesh& mesh, Sleeve& sleeve) {
                       kept.begin() + static_cast<std::ptrdiff_t>(last));
 }
 
-std::vector<StraightPiece> shortest_in_sleeve(const Mesh& mesh, Sleeve sleeve) {
+std::vector<StraightPiece> shortest_in_sleeve(const Mesh& mesh, Sleeve sleeve, FrameCache& frames) {
   std::vector<StraightPiece> pieces;
   std::vector<Sleeve> waiting;  // the last one comes first
   tidy(mesh, sleeve);
@@ -206,33 +259,36 @@ std::vector<StraightPiece> shortest_in_sleeve(const Mesh& mesh, Sleeve sleeve) {
     Sleeve now = std::move(waiting.back());
     waiting.pop_back();
     std::optional<std::pair<std::size_t, Index>> split;
-    StraightPiece straight;
     if (const auto step = zero_length_step(mesh, now)) {
       split = {*step, mesh.from(now.steps[*step].out)};
     } else {
-      const Unfolded flat = unfold(mesh, now);
+      Unfolding flat(mesh, now, frames);
       std::optional<Bend> bend = first_bend(flat);
-      if (!bend) bend = first_touch(flat);
+      if (!bend) bend = first_touch(flat.portals(), flat.end());
       if (bend) {
         split = {bend->step, vertex_of(mesh, now, flat, *bend)};
       } else {
-        straight.sleeve = now;
-        straight.length = norm(flat.end);
-        for (std::size_t i = 0; i < now.steps.size(); ++i) straight.crossing.push_back(crossing_of(flat, i));
+        const WideVec2 end = flat.end();
+        StraightPiece& straight = pieces.emplace_back();
+        straight.length = norm(end);
+        if (!now.steps.empty()) {
+          straight.first = crossing_of(flat.portals().front(), end);
+          straight.last = crossing_of(flat.portals().back(), end);
+        }
+        straight.sleeve = std::move(now);
       }
     }
     if (split) {
       Sleeve before = split_off(mesh, now, split->first, split->second);
       waiting.push_back(std::move(now));
       waiting.push_back(std::move(before));
-    } else {
-      pieces.push_back(std::move(straight));
     }
   }
   return pieces;
 }
 
-void append_points(const Mesh& mesh, const StraightPiece& straight, std::vector<SurfacePoint>& points) {
+void append_points(const Mesh& mesh, const StraightPiece& straight, FrameCache& frames,
+                   std::vector<SurfacePoint>& points) {
   const auto append = [&](SurfacePoint p) {
     if (!points.empty()) {
       const PointLocation a = locate(mesh, points.back(), 0), b = locate(mesh, p, 0);
@@ -241,148 +297,27 @@ void append_points(const Mesh& mesh, const StraightPiece& straight, std::vector<
     points.push_back(p);
   };
   append({straight.sleeve.begin.face, straight.sleeve.begin.weights});
-  for (std::size_t i = 0; i < straight.crossing.size(); ++i) {
+  Unfolding flat(mesh, straight.sleeve, frames);
+  const std::size_t count = straight.sleeve.steps.size();
+  if (count > 0) flat.portal(count - 1);
+  const WideVec2 end = flat.end();
+  for (std::size_t i = 0; i < count; ++i) {
     const Index h = straight.sleeve.steps[i].out;
-    SurfacePoint p{Mesh::face_of(h), {0, 0, 0}};
-    p.weights[h % 3] = straight.crossing[i].from;
-    p.weights[Mesh::next(h) % 3] = straight.crossing[i].to;
-    append(p);
+    append({Mesh::face_of(h), weights_on(h, crossing_of(flat.portals()[i], end))});
   }
   append({straight.sleeve.end.face, straight.sleeve.end.weights});
 }
 
-namespace {
-
-// From coordinates: sides of one vertex keep all digits, however thin the face, which lengths do not.
-Vec3 side_of(const Mesh& mesh, Index from, Index to) {
-  return (1 / mesh.unit()) * (mesh.positions()[to] - mesh.positions()[from]);
-}
-double angle_between(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
-double corner_angle(const Mesh& mesh, Index corner) {
-  if (!mesh.has_positions()) return mesh.corner_angle(corner);
-  const Index v = mesh.from(corner);
-  return angle_between(side_of(mesh, v, mesh.to(corner)), side_of(mesh, v, mesh.from(Mesh::previous(corner))));
+std::array<double, 3> point_after_begin(const Mesh& mesh, const StraightPiece& straight) {
+  if (straight.sleeve.steps.empty()) return *weights_in(mesh, straight.sleeve.end, straight.sleeve.first_face);
+  return weights_on(straight.sleeve.steps.front().out, straight.first);
 }
 
-}  // namespace
-
-Direction direction_towards(const Mesh& mesh, Index vertex, Index f, const std::array<double, 3>& point) {
-  const Face& t = mesh.faces()[f];
-  const auto k = static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
-  std::array<double, 3> own{0, 0, 0};
-  own[k] = 1;
-  const Index corner = 3 * f + static_cast<Index>(k);
-  const double full = corner_angle(mesh, corner);
-  if (mesh.has_positions()) {
-    const Vec3 ahead = side_of(mesh, vertex, t[(k + 1) % 3]), behind = side_of(mesh, vertex, t[(k + 2) % 3]);
-    const Vec3 d = point[(k + 1) % 3] * ahead + point[(k + 2) % 3] * behind;
-    return {corner, std::min(angle_between(ahead, d), full)};
-  }
-  const std::array<Vec2, 3> corners = flat_corners(mesh, f);
-  const Vec2 d = flat_difference(corners, own, point), side = corners[(k + 1) % 3] - corners[k];
-  return {corner, std::clamp(std::atan2(cross(side, d), dot(side, d)), 0.0, full)};
-}
-
-namespace {
-
-std::array<double, 3> weights_on(Index h, const Crossing& at) {
-  std::array<double, 3> w{0, 0, 0};
-  w[h % 3] = at.from;
-  w[Mesh::next(h) % 3] = at.to;
-  return w;
-}
-
-}  // namespace
-
-Direction direction_at_begin(const Mesh& mesh, const StraightPiece& straight) {
-  const Index f = straight.sleeve.first_face;
-  const auto ahead = straight.sleeve.steps.empty()
-                         ? *weights_in(mesh, straight.sleeve.end, f)
-                         : weights_on(straight.sleeve.steps.front().out, straight.crossing.front());
-  return direction_towards(mesh, straight.sleeve.begin.vertex, f, ahead);
-}
-
-Direction direction_at_end(const Mesh& mesh, const StraightPiece& straight) {
-  const Index f = straight.sleeve.last_face();
-  if (straight.sleeve.steps.empty()) {
-    return direction_towards(mesh, straight.sleeve.end.vertex, f, *weights_in(mesh, straight.sleeve.begin, f));
-  }
+std::array<double, 3> point_before_end(const Mesh& mesh, const StraightPiece& straight) {
+  if (straight.sleeve.steps.empty()) return *weights_in(mesh, straight.sleeve.begin, straight.sleeve.first_face);
   const Step& last = straight.sleeve.steps.back();
-  const bool same_start = mesh.from(last.in) == mesh.from(last.out);
-  const Crossing& at = straight.crossing.back();
-  return direction_towards(mesh, straight.sleeve.end.vertex, f,
-                           weights_on(last.in, same_start ? at : Crossing{at.to, at.from}));
-}
-
-// Dijkstra on the link: its nodes are the edges at the vertex (by their other end), its arcs the corners.
-WayAround shortest_way_around(const Mesh& mesh, Index vertex, const Direction& from, const Direction& to) {
-  struct Node {
-    double angle = kInfinity;
-    Index through = kNoIndex;  // the corner through which it was reached
-    Index before = kNoIndex;   // the edge before, kNoIndex: the beginning
-    bool done = false;
-  };
-  std::map<Index, Node> nodes;
-  using Entry = std::tuple<double, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  const auto offer = [&](Index edge, double angle, Index through, Index before) {
-    Node& n = nodes[edge];
-    if (angle < n.angle) {
-      n.angle = angle;
-      n.through = through;
-      n.before = before;
-      queue.emplace(angle, edge);
-    }
-  };
-  const auto ahead = [&](Index corner) { return mesh.to(corner); };  // the edge that `corner` runs along
-  const auto behind = [&](Index corner) { return mesh.from(Mesh::previous(corner)); };  // the corner's other edge
-  offer(ahead(from.corner), from.angle, from.corner, kNoIndex);
-  offer(behind(from.corner), corner_angle(mesh, from.corner) - from.angle, from.corner, kNoIndex);
-
-  // At a vertex of a million faces every edge asks for its own faces, and no others.
-  std::vector<std::pair<Index, Index>> corner_at;  // an edge and a corner that has it
-  for (const Index corner : mesh.corners(vertex)) {
-    if (!mesh.is_face_usable(Mesh::face_of(corner))) continue;
-    corner_at.emplace_back(ahead(corner), corner);
-    if (behind(corner) != ahead(corner)) corner_at.emplace_back(behind(corner), corner);
-  }
-  std::sort(corner_at.begin(), corner_at.end());
-
-  WayAround best;
-  Index best_edge = kNoIndex;
-  if (from.corner == to.corner) best.angle = std::abs(from.angle - to.angle);
-  while (!queue.empty()) {
-    const auto [angle, edge] = queue.top();
-    queue.pop();
-    Node& node = nodes[edge];
-    if (node.done || angle >= best.angle) continue;
-    node.done = true;
-    const auto first = std::lower_bound(corner_at.begin(), corner_at.end(), std::pair{edge, Index{0}});
-    for (auto it = first; it != corner_at.end() && it->first == edge; ++it) {
-      const Index corner = it->second;
-      if (corner == node.through) continue;
-      const bool is_ahead = ahead(corner) == edge;
-      const double full = corner_angle(mesh, corner);
-      if (corner == to.corner) {
-        const double total = angle + (is_ahead ? to.angle : full - to.angle);
-        if (total < best.angle) {
-          best.angle = total;
-          best_edge = edge;
-        }
-      }
-      offer(is_ahead ? behind(corner) : ahead(corner), angle + full, corner, edge);
-    }
-  }
-  // Back along the edges: each is crossed from the corner that reached it into the one beyond.
-  Index into = to.corner;
-  for (Index edge = best_edge; edge != kNoIndex; edge = nodes[edge].before) {
-    const Index out = nodes[edge].through;
-    const auto halfedge = [&](Index corner) { return ahead(corner) == edge ? corner : Mesh::previous(corner); };
-    best.steps.push_back({halfedge(out), halfedge(into)});
-    into = out;
-  }
-  std::reverse(best.steps.begin(), best.steps.end());
-  return best;
+  const Crossing& at = straight.last;
+  return weights_on(last.in, mesh.from(last.in) == mesh.from(last.out) ? at : Crossing{at.to, at.from});
 }
 
 }  // namespace brushfire::detail

@@ -32,12 +32,6 @@ constexpr std::size_t kFileRows = 2048;
 constexpr std::size_t kThreadRows = 32;
 
 template <class T>
-struct SparseRow {
-  std::vector<Index> column;
-  std::vector<T> value;
-};
-
-template <class T>
 class SparseJob {
  public:
   SparseJob(const fs::path& path, const Domain& domain, double radius, Places rows, const MatrixOptions& options,
@@ -143,7 +137,7 @@ class SparseJob {
   // Sizes of the rows, then their columns, then their values.
   void compute(std::size_t file) {
     const std::span<const std::size_t> numbers = numbers_of(file);
-    std::vector<SparseRow<T>> rows(numbers.size());
+    std::vector<detail::SparseEntries<T>> rows(numbers.size());
     std::vector<std::pair<std::size_t, std::size_t>> place;  // of a row's number: where it is in the file
     for (std::size_t k = 0; k < numbers.size(); ++k) place.emplace_back(numbers[k], k);
     std::sort(place.begin(), place.end());
@@ -151,15 +145,17 @@ class SparseJob {
     Progress part;
     if (progress_) part = [&](double share) { progress_((before + share) / blocks); };
     all_.run_blocks(blocks_, files_[file], files_[file + 1], part, [&](std::size_t, std::size_t i, const auto& f) {
-      SparseRow<T>& row = rows[std::lower_bound(place.begin(), place.end(), std::pair(i, std::size_t{0}))->second];
+      detail::SparseEntries<T>& row =
+          rows[std::lower_bound(place.begin(), place.end(), std::pair(i, std::size_t{0}))->second];
       row.column.assign(f.vertex.begin(), f.vertex.end());
       row.value.assign(f.distance.begin(), f.distance.end());
     });
     detail::Output output(file_of(file).string());
-    for (const SparseRow<T>& row : rows)
+    for (const detail::SparseEntries<T>& row : rows)
       output.value(static_cast<std::uint32_t>(row.column.size()), std::endian::little);
-    for (const SparseRow<T>& row : rows) output.values(std::span<const Index>(row.column), std::endian::little);
-    for (const SparseRow<T>& row : rows) output.values(std::span<const T>(row.value), std::endian::little);
+    for (const detail::SparseEntries<T>& row : rows)
+      output.values(std::span<const Index>(row.column), std::endian::little);
+    for (const detail::SparseEntries<T>& row : rows) output.values(std::span<const T>(row.value), std::endian::little);
     output.commit();
     ledger_->mark(file);
     ledger_->release(file);

@@ -21,7 +21,7 @@ struct ProjectedCurve {
 };
 
 // A polyline in space, projected onto the surface: its corners and, along pieces that are longer than the mesh's mean
-// edge, so many points that no piece is longer, each at the nearest point of the surface; between them shortest paths.
+// edge, enough points that no piece is longer, each at the nearest point of the surface; between them shortest paths.
 // Whether a curve that lies far off the surface is meaningful is up to the caller: largest_gap says how far. Throws
 // Error(InvalidArgument) for no points, a mesh without positions, and places between which no way leads; what
 // NearestPointFinder throws. O(points log faces) and a short exact run for each.

@@ -31,7 +31,7 @@ struct Discs {
 // The disc around each place that holds `share` (in (0, 1]) of the area of its component: fields are linear in every
 // face, as for isolines, and the disc is what is nearer than its radius. Small shares cost what they reach. Throws
 // Error(InvalidArgument) for another share, and as distance_matrix() does.
-// As in: surfdist, Connectome Workbench (-surface-geodesic-rois), which take vertices or radii.
+// Compare: surfdist, Connectome Workbench (-surface-geodesic-rois), which take vertices or radii.
 Discs discs_of_share(const Domain& domain, double share, Places places = {}, const MatrixOptions& options = {});
 
 }  // namespace brushfire

@@ -3,7 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/solvers/detail/walls.h>
-#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/weighted/weighting.h>
 
 #include <algorithm>
 #include <cmath>

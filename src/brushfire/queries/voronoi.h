@@ -13,7 +13,8 @@
 
 namespace brushfire {
 
-// Where two cells meet: closed, or from one end (a point of three cells, the boundary, what is not reached) to another.
+// Where two cells meet: closed, or from one end (a point of three cells, the boundary, the edge of what is reached) to
+// another.
 struct VoronoiBorder {
   std::array<Index, 2> sources;  // places in the caller's list, the lower first
   SurfacePath line;

@@ -12,7 +12,7 @@
 
 #include <brushfire/mesh/surface_path.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <array>
 #include <span>

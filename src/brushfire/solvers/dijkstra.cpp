@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <tuple>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -23,19 +23,27 @@ class Dijkstra final : public Engine {
     heap_.clear();
     touched_ = problem.touched;
     for (const LocatedSource& s : problem.sources) start(s, field);
+    wait_for(problem.targets);
     march(problem, field);
     for (std::size_t i = 0; i < problem.targets.size(); ++i) evaluate(problem, i, field);
   }
 
  private:
-  using Entry = std::tuple<double, Index, Index>;  // value, source, vertex: equal values go to the lowest source
+  struct Entry {
+    double value;
+    Index label, vertex;  // the source's; equal values go to the lowest
+    bool operator>(const Entry& other) const {
+      return value > other.value || (value == other.value && label > other.label);
+    }
+  };
 
   void offer(Index v, double value, Index label, DistanceField& field) {
-    if (std::tie(value, label) < std::tie(field.distance[v], field.source[v])) {
+    const double before = field.distance[v];
+    if (value < before || (value == before && label < field.source[v])) {
       if (touched_ && field.source[v] == kNoIndex) touched_->push_back(v);
       field.distance[v] = value;
       field.source[v] = label;
-      heap_.emplace_back(value, label, v);
+      heap_.push_back({value, label, v});
       std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
     }
   }
@@ -47,22 +55,44 @@ class Dijkstra final : public Engine {
     }
   }
 
+  // The vertices that all targets are read off.
+  void wait_for(std::span<const PointLocation> targets) {
+    awaited_.clear();
+    for (const PointLocation& at : targets) {
+      for (const Seed& seed : seeds_.in_own_faces(mesh_, at)) awaited_.insert(seed.vertex);
+    }
+  }
+
   void march(const Problem& problem, DistanceField& field) {
     constexpr std::uint64_t kPollInterval = 4096;
+    const std::span<const double> lengths = mesh_.lengths();
     while (!heap_.empty()) {
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
       const auto [value, label, v] = heap_.back();
       heap_.pop_back();
       if (value != field.distance[v] || label != field.source[v]) continue;
       if (value > problem.max_distance) break;
+      if (!awaited_.empty() && awaited_.erase(v) != 0 && awaited_.empty()) {
+        drop_front(field);
+        break;
+      }
       if (++field.updates % kPollInterval == 0 && problem.cancel && problem.cancel->cancelled()) {
         throw Error(ErrorCode::Cancelled, "cancelled");
       }
       for (const Index h : mesh_.corners(v)) {
-        offer(mesh_.to(h), value + mesh_.lengths()[h], label, field);
+        offer(mesh_.to(h), value + lengths[h], label, field);
         const Index back = Mesh::previous(h);
-        offer(mesh_.from(back), value + mesh_.lengths()[back], label, field);
+        offer(mesh_.from(back), value + lengths[back], label, field);
       }
+    }
+  }
+
+  // What was still to become less reads +inf.
+  void drop_front(DistanceField& field) const {
+    for (const auto& [value, label, v] : heap_) {
+      if (value != field.distance[v] || label != field.source[v]) continue;
+      field.distance[v] = kInfinity;
+      field.source[v] = kNoIndex;
     }
   }
 
@@ -87,7 +117,8 @@ class Dijkstra final : public Engine {
   Mesh mesh_;
   std::vector<Index>* touched_ = nullptr;
   SeedSearch seeds_;
-  std::vector<Entry> heap_;  // its memory stays from run to run
+  std::unordered_set<Index> awaited_;  // not final yet
+  std::vector<Entry> heap_;            // its memory stays from run to run
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <brushfire/solvers/detail/methods.h>
 #include <brushfire/solvers/detail/offsets.h>
 #include <brushfire/solvers/detail/walls.h>
-#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/weighted/weighting.h>
 
 #include <algorithm>
 #include <cmath>

@@ -82,7 +82,7 @@ struct DistanceOptions {
   bool keep_paths = false;    // fill DistanceField::windows, for paths to vertices and targets (exact)
   bool keep_windows = false;  // the same for every surface point: all windows are kept, some kB a vertex
   unsigned threads = 1;       // for this one field; 0: one per processor. The result does not depend on it
-  // Costs in place of distances: see solvers/steiner/weighting.h.
+  // Costs in place of distances: see solvers/weighted/weighting.h.
   std::shared_ptr<const Weighting> weighting = nullptr;
   Progress progress = {};               // called now and then; may be empty
   const CancelToken* cancel = nullptr;  // polled now and then; null: what the thread listens to (see cancel.h)

@@ -16,8 +16,8 @@ struct Laplacian {
   std::vector<double> mass;  // [vertex_count] a third of the area around each vertex, in units of the mesh squared
 };
 
-// Of whatever is given: borders, edges of three faces and mirrored faces by way of the tufted cover, faces without an
-// area by mollification. delaunay false: on the faces as they are, whose weights may be negative. O(vertices + faces).
+// Of any mesh: borders, edges of three faces and mirrored faces by way of the tufted cover, faces without area by
+// mollification. delaunay false: on the faces as they are, where weights may be negative. O(vertices + faces).
 //
 // Based on: Sharp, Crane, "A Laplacian for nonmanifold triangle meshes", 2020.
 Laplacian laplacian_of(const Mesh& mesh, bool delaunay = true);

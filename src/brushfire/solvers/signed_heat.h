@@ -31,7 +31,7 @@ struct SignedHeatOptions {
   LevelSetConstraint constraint = LevelSetConstraint::ZeroSet;
   // > 0: the constraint is weighed against the rest in place of being kept.
   double soft_weight = 0;
-  // Where curves run through a face distances grow at right angles to them, whatever heat makes of it.
+  // In faces that curves run through, distances grow at right angles to the curves, whatever heat says there.
   bool preserve_normals = false;
 };
 

@@ -24,8 +24,8 @@ enum class LogMapStrategy : std::uint8_t {
 };
 
 // For one mesh, factored once, with what a call needs when it first needs it. Tangent vectors are complex numbers in
-// the frames of tangent_frames(). Surfaces whose faces lie the same way round and whose edges have one or two of them
-// only. Of the options time_factor, time and delaunay count: borders are free. Not for use from several threads at
+// the frames of tangent_frames(). Only for surfaces whose faces lie the same way round and whose edges have one or two
+// of them. Of the options time_factor, time and delaunay count: borders are free. Not for use from several threads at
 // once.
 //
 // Other components have no value: NaN. In its own component everything has one, however far away.
@@ -62,8 +62,8 @@ class VectorHeatSolver {
   // at the source. Throws Error(IndexOutOfRange).
   std::vector<std::complex<double>> log_map(Index source, LogMapStrategy strategy = LogMapStrategy::AffineLocal);
 
-  // The Laplacian of tangent vectors: Hermitian, positive semidefinite; rows and columns ascend. Entry (i, j), i above
-  // j or not, stands once in each triangle.
+  // The Laplacian of tangent vectors: Hermitian, positive semidefinite; rows and columns ascend. Both triangles are
+  // stored.
   struct SparseComplex {
     std::vector<Index> row, column;
     std::vector<std::complex<double>> value;

@@ -1,3 +1,4 @@
+// The factorization: real and Hermitian matrices solved, others refused.
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/solvers/heat/cholesky.h>

@@ -1,7 +1,7 @@
 // Bounds by windows on random complexes, beside a dense graph and locally shortest paths.
 #include <brushfire/queries/weighted_path.h>
 #include <brushfire/solvers/refraction/detail/run.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "solvers/steiner/dense_graph.h"
-#include "solvers/steiner/random_weighted.h"
+#include "solvers/weighted/dense_graph.h"
+#include "solvers/weighted/random_weighted.h"
 
 namespace brushfire {
 namespace {

@@ -1,7 +1,7 @@
 // Both bounds by windows around what plane geometry says, at every vertex: half-planes, layers, roads, critical angles.
 #include <brushfire/core/detail/random.h>
 #include <brushfire/mesh/shapes.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <gtest/gtest.h>
 

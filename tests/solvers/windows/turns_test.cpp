@@ -69,6 +69,39 @@ TEST(Turns, AreFewForEachFaceOfAFanAndABook) {
   }
 }
 
+// A source at no distance from the hub of a wheel, to rounding: turned about the hub from face to face it would stay
+// before the next spoke, and go round for ever. Shares of a face down to its own last bits, whatever lies around it.
+TEST(Turns, ASourceBesideAVertexDoesNotGoRoundIt) {
+  std::mt19937_64 random(20261130);
+  std::uniform_real_distribution<double> part(0, 1), power(-62, -36);
+  for (int i = 0; i < 4000; ++i) {
+    const Index count = std::array{3U, 4U, 6U, 8U, 17U, 60U, 200U}[static_cast<std::size_t>(i) % 7];
+    const double height = i % 2 ? 0 : 0.3;
+    std::vector<Vec3> p{{0, 0, height}};
+    std::vector<Face> t;
+    for (Index k = 0; k < count; ++k) {
+      const double angle = 2 * kPi * k / count, radius = i % 3 == 0 ? 1 : std::exp2(-6 * part(random));
+      p.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+      t.push_back({0, 1 + k, 1 + (k + 1) % count});
+    }
+    const Mesh mesh(p, t);
+    const double a = std::exp2(power(random)), b = i % 5 == 0 ? 0 : std::exp2(power(random));
+    Source source;
+    const SurfacePoint place{static_cast<Index>(random() % count), {1 - a - b, a, b}};
+    if (i % 2) {
+      source.point = place;
+    } else {
+      source = source_along({{place}});
+    }
+    DistanceOptions options;
+    options.method = i % 4 < 2 ? Method::Exact : Method::Windows;
+    const DistanceField field = distance(mesh, std::span(&source, 1), options);
+    EXPECT_LE(static_cast<double>(field.updates), kTurnsForEachFace * mesh.face_count()) << i;
+    for (Index v = 1; v <= count; ++v)
+      EXPECT_NEAR(field.distance[v], norm(p[v] - p[0]), 1e-9 + field.error_bound[v]) << i;
+  }
+}
+
 // A hub, and around it a rim whose vertices are at random distances and heights: saddles, spikes, needles. With two
 // hubs over one rim, or one; closed or not.
 Mesh random_wheel(std::mt19937_64& random, Index count, double roughness, bool closed, bool two) {

@@ -1,4 +1,4 @@
-// Curves with their positions, as every writer of them is given them; and those that draw them in real size.
+// Curves with their positions, as every writer of curves gets them; and the writers that draw them in real size.
 #pragma once
 
 #include <brushfire/io/detail/output.h>

@@ -16,6 +16,13 @@ class GroupRunner;
 
 namespace brushfire::detail {
 
+// Entries of a sparse row, or of several one after the other.
+template <class T>
+struct SparseEntries {
+  std::vector<Index> column;
+  std::vector<T> value;
+};
+
 class Rows {
  public:
   // Checks all places and options. Throws as distance_matrix() does.
@@ -93,6 +100,11 @@ class Rows {
   // Whether rows of neighbouring vertices are to be run together: for methods that can, where all columns are vertices.
   bool can_group() const;
   void run_group_within(Worker& worker, const Blocks& blocks, std::size_t b, const TakeOfBlock& take);
+  struct Asked;
+  Asked asked_of(std::span<const std::size_t> numbers);
+  template <class T>
+  std::size_t run_group(unsigned worker, std::size_t number, const Asked& asked, const TakeDense<T>& take,
+                        const Claim& claim);
   template <class T>
   void run_grouped(std::span<const std::size_t> numbers, const Progress& progress, const TakeDense<T>& take,
                    const Claim& claim);

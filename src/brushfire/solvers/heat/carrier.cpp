@@ -1,3 +1,4 @@
+// Heat carried from vertices: in one go, or sent on where it has to go farther than doubles reach.
 #include <brushfire/solvers/heat/carrier.h>
 
 #include <algorithm>

@@ -32,7 +32,7 @@ template <class Scalar>
 class Factors {
  public:
   // values[k][e]: entry e of matrix k. Up to three matrices, factored together. Throws Error(InvalidArgument) where one
-  // of them is not positive definite by far. Costs what one sparse factorization costs, and a little.
+  // of them is far from positive definite. Costs little more than one sparse factorization.
   Factors(const Pattern& pattern, std::span<const std::vector<Scalar>> values);
 
   // Solves A_k x = b for `width` right-hand sides: x[width * i + j] is entry i of column j, b before and x after.

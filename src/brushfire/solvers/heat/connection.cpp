@@ -1,3 +1,4 @@
+// Frames at vertices, how directions turn along edges, and the vector Laplacian that is made of them.
 #include <brushfire/solvers/heat/connection.h>
 
 #include <cmath>

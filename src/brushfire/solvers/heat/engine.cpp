@@ -1,3 +1,4 @@
+// From a problem of distance() to right-hand sides of the heat method, and back.
 #include <brushfire/solvers/heat/engine.h>
 
 #include <brushfire/core/error.h>

@@ -1,3 +1,4 @@
+// Which source a vertex belongs to, and the value that its source gives it.
 #include <brushfire/solvers/heat/fronts.h>
 
 #include <brushfire/core/cancel.h>

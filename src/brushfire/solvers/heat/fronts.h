@@ -32,10 +32,10 @@ Sparks sparks_of(const System& system, std::span<const Origin> origins);
 // Writes distance and source of every vertex of components that have a source; the others stay as they are. `potential`
 // has every width-th value, from its first on.
 //
-// Who belongs to whom is found by flooding the function from all sources at once; every source's part is moved so that
-// the source reads its offset. (One constant for a whole component, which is all that the equation leaves open, fits
-// one source only.) A source that another one's front reaches first has no part of its own. No value is below the least
-// offset. O(n), O(n log n) where a component has several sources.
+// Which source a vertex belongs to is found by flooding the function from all sources at once; every source's part is
+// moved so that the source reads its offset. (One constant for a whole component, which is all that the equation leaves
+// open, fits one source only.) A source that another one's front reaches first has no part of its own. No value is
+// below the least offset. O(n), O(n log n) where a component has several sources.
 void read_off(const Mesh& mesh, const System& system, std::span<const Origin> origins,
               std::span<const double> potential, std::size_t width, std::span<double> distance,
               std::span<Index> source);

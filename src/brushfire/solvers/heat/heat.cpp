@@ -1,3 +1,4 @@
+// HeatSolver: sets of sources as right-hand sides, eight at a time.
 #include <brushfire/solvers/heat.h>
 
 #include <brushfire/core/cancel.h>

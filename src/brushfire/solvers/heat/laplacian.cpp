@@ -1,3 +1,4 @@
+// The Laplacian in the caller's terms.
 #include <brushfire/solvers/laplacian.h>
 
 #include <brushfire/solvers/heat/operators.h>

@@ -1,3 +1,4 @@
+// A Poisson equation with constraints: solved without them, then corrected by a dense system as large as they are many.
 #include <brushfire/solvers/heat/level_sets.h>
 
 #include <brushfire/core/error.h>

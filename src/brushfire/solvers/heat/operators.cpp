@@ -1,3 +1,4 @@
+// Cotangents of halfedges, summed edge by edge into a symmetric matrix.
 #include <brushfire/solvers/heat/operators.h>
 
 #include <brushfire/core/cancel.h>

@@ -1,3 +1,4 @@
+// Heat in levels: where it becomes too little for a double, it is begun anew from there.
 #include <brushfire/solvers/heat/relay.h>
 
 #include <cmath>

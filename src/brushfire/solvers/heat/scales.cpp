@@ -1,3 +1,4 @@
+// Mean edges, mollification and times, component by component.
 #include <brushfire/solvers/heat/scales.h>
 
 #include <brushfire/core/detail/text.h>

@@ -1,3 +1,4 @@
+// Curves as normals in faces, spread as vectors, and the function whose gradient follows them.
 #include <brushfire/solvers/signed_heat.h>
 
 #include <brushfire/core/error.h>

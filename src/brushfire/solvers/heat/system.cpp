@@ -1,3 +1,4 @@
+// Factors of both equations, and a field by way of them.
 #include <brushfire/solvers/heat/system.h>
 
 #include <brushfire/core/cancel.h>

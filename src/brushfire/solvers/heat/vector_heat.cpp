@@ -1,3 +1,4 @@
+// Values, vectors and logarithmic maps, read off heat that carries them.
 #include <brushfire/solvers/vector_heat.h>
 
 #include <brushfire/core/error.h>

@@ -52,7 +52,7 @@ struct VertexPartition {
   std::size_t places() const { return first_ghost() + owner.size(); }
   bool is_ghost(Index place) const { return place > vertex_count; }
 
-  // To whom messages about a place go that is a ghost or has some.
+  // Where messages about a place go, which is a ghost or has ghosts.
   std::span<const Link> links_of(Index place) const {
     if (is_ghost(place)) return {&to_owner[place - first_ghost()], 1};
     const Index i = rank(place);

@@ -31,7 +31,7 @@ class Carrying {
     forget_descendants();
     Carried result;
     result.rows = rim();
-    result.kept = known_share();
+    result.kept = match_.is_identity ? kept_share() : known_share();
     result.front = std::move(front_);
     return result;
   }
@@ -43,14 +43,17 @@ class Carrying {
   void match_sources();
   void copy_front();
   std::vector<Index> rows_of_points_before() const;
+  void rename_sources();
   void doubt();
   bool is_doubtful(Index point) const;
+  void lose_point(Index point);
   void lose(Index e, Index i);
   void lose_vertex(Index v);
   void push(Index e);
   void forget_descendants();
   std::vector<Index> rim() const;
   double known_share() const;
+  double kept_share() const;
   template <class Use>
   void for_each_neighbour(Index e, Use use) const;
 
@@ -61,10 +64,12 @@ class Carrying {
   const PointLayout& layout_;
   std::vector<std::uint8_t> change_;    // [edges] kDearer, kCheaper: of a step along it, in a face beside it, over it
   std::vector<Index> source_after_;     // [sources before] kNoIndex: there is none like it
+  bool same_sources_ = true;            // each is what it was, under its number
   Front front_;                         // +inf where nothing is known
   std::vector<Index> lost_;             // rows whose neighbours have not heard of it
   std::vector<std::uint8_t> waits_;     // [edges] in lost_
   std::vector<std::uint8_t> has_lost_;  // [edges]
+  std::uint64_t lost_points_ = 0;
 };
 
 std::uint8_t change_of(double before, double after) {
@@ -131,7 +136,9 @@ void Carrying::match_sources() {
   for (const detail::LocatedSource& s : before_.sources) {
     const auto found =
         known.find(key_of(s, [&](Index v) { return vertex_after[v]; }, [&](Index f) { return match_.face_after[f]; }));
-    source_after_.push_back(found == known.end() ? kNoIndex : found->second);
+    const Index now = found == known.end() ? kNoIndex : found->second;
+    same_sources_ = same_sources_ && now == source_after_.size();
+    source_after_.push_back(now);
   }
 }
 
@@ -176,10 +183,7 @@ bool Carrying::is_doubtful(Index point) const {
   return parent >= kFromSource || change_[layout_.edge_of(parent)] & kDearer;
 }
 
-// What is known by itself not to hold, before what hangs on it.
-void Carrying::doubt() {
-  waits_.assign(layout_edges(), 0);
-  has_lost_.assign(layout_edges(), 0);
+void Carrying::rename_sources() {
   for (std::vector<Index>* parents : {&front_.parent, &front_.vertex_parent}) {
     for (Index& p : *parents) {
       if (p < kFromSource || p == kNoIndex) continue;
@@ -187,12 +191,21 @@ void Carrying::doubt() {
       p = s == kNoIndex ? kNoIndex : kFromSource + s;
     }
   }
+}
+
+// What is known by itself not to hold, before what hangs on it.
+void Carrying::doubt() {
+  const bool all_known = match_.is_identity && same_sources_;  // every value still has its parent
+  waits_.assign(layout_edges(), 0);
+  has_lost_.assign(layout_edges(), 0);
+  if (!same_sources_) rename_sources();
   for (Index v = 0; v < match_.vertex.size(); ++v) {
     if (match_.vertex[v] == kNoIndex || (front_.vertex_parent[v] == kNoIndex && front_.vertex_value[v] < kInfinity)) {
       lose_vertex(v);
     }
   }
   for (Index e = 0; e < layout_edges(); ++e) {
+    if (all_known && !(change_[e] & kDearer)) continue;  // most rows: not to be looked at
     const Index row = layout_.row(e);
     for (Index i = 0; i < layout_.count(e); ++i) {
       if (front_.value[row + i] == kInfinity) continue;
@@ -210,12 +223,17 @@ void Carrying::push(Index e) {
   lost_.push_back(e);
 }
 
+void Carrying::lose_point(Index point) {
+  lost_points_ += front_.value[point] < kInfinity;
+  front_.value[point] = kInfinity;
+  front_.parent[point] = kNoIndex;
+}
+
 void Carrying::lose(Index e, Index i) {
   const Index h = mesh_.edges().halfedge(e);
   if (i == 0) return lose_vertex(mesh_.mesh().from(h));
   if (i + 1 == layout_.count(e)) return lose_vertex(mesh_.mesh().to(h));
-  front_.value[layout_.row(e) + i] = kInfinity;
-  front_.parent[layout_.row(e) + i] = kNoIndex;
+  lose_point(layout_.row(e) + i);
   push(e);
 }
 
@@ -227,8 +245,7 @@ void Carrying::lose_vertex(Index v) {
     for (const bool last : {false, true}) {
       if ((last ? mesh_.mesh().to(h) : mesh_.mesh().from(h)) != v) continue;
       const Index point = layout_.row(e) + (last ? layout_.count(e) - 1 : 0);
-      front_.value[point] = kInfinity;
-      front_.parent[point] = kNoIndex;
+      lose_point(point);
     }
     push(e);
   }
@@ -274,9 +291,10 @@ std::vector<Index> Carrying::rim() const {
   }
   std::vector<Index> rows;
   for (Index e = 0; e < layout_edges(); ++e) {
+    if (!is_asked[e]) continue;
     const double* values = front_.value.data() + layout_.row(e);
     const auto is_known = [](double v) { return v < kInfinity; };
-    if (is_asked[e] && std::any_of(values, values + layout_.count(e), is_known)) rows.push_back(e);
+    if (std::any_of(values, values + layout_.count(e), is_known)) rows.push_back(e);
   }
   return rows;
 }
@@ -289,6 +307,11 @@ double Carrying::known_share() const {
     for (Index i = 0; i < layout_.count(e); ++i) known += values[i] < kInfinity;
   }
   return all > 0 ? static_cast<double>(known) / static_cast<double>(all) : 0;
+}
+
+// Where no row was laid out anew.
+double Carrying::kept_share() const {
+  return layout_.size() > 0 ? 1 - static_cast<double>(lost_points_) / static_cast<double>(layout_.size()) : 0;
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ WeightedMesh::WeightedMesh(const Domain& domain, const Opened& given)
     : domain_(domain),
       barriers_(barriers_of(domain.open(), given.weights)),
       fenced_(fenced(domain.open(), barriers_)),
-      edges_(fenced_.open()) {
+      edges_(std::make_shared<const EdgeTable>(fenced_.open())) {
   set_weights(given.weights);
 }
 
@@ -105,14 +105,14 @@ void WeightedMesh::set_weights(const Weights& opened) {
   }
   mean_weight_ = 1;
   if (sum > 0) mean_weight_ = open.face_count() / sum * (pace_ ? pace_->least() : 1);
-  edge_weight_.assign(edges_.count(), kInfinity);
+  edge_weight_.assign(edges_->count(), kInfinity);
   for (Index h = 0; h < open.halfedge_count(); ++h) {
-    double& w = edge_weight_[edges_.edge(h)];
+    double& w = edge_weight_[edges_->edge(h)];
     w = std::min(w, face_weight_[Mesh::face_of(h)]);
   }
   for (const EdgeCost& e : opened.edges) {
     for (const Index h : open_halfedges(e.vertices[0], e.vertices[1])) {
-      double& w = edge_weight_[edges_.edge(h)];
+      double& w = edge_weight_[edges_->edge(h)];
       w = std::min(w, e.along);
     }
   }
@@ -137,10 +137,10 @@ void WeightedMesh::find_bridges(const std::vector<EdgeCost>& fences) {
     const std::vector<Index> sides = open_halfedges(e.vertices[0], e.vertices[1]);
     for (const Index h : sides) {
       for (const Index g : sides) {
-        const Index from = edges_.edge(h), to = edges_.edge(g);
+        const Index from = edges_->edge(h), to = edges_->edge(g);
         if (from == to) continue;
         const bool mirrored =
-            fenced_.vertex(open.from(edges_.halfedge(from))) != fenced_.vertex(open.from(edges_.halfedge(to)));
+            fenced_.vertex(open.from(edges_->halfedge(from))) != fenced_.vertex(open.from(edges_->halfedge(to)));
         bridges_.push_back({from, to, mirrored, e.crossing / open.unit()});
       }
     }

@@ -52,9 +52,9 @@ class GroupRunner {
 
   // A lane's distances to all vertices of domain.mesh(), in unit()s of the mesh. Valid during the call.
   using Take = std::function<void(int lane, std::span<const float> distances)>;
-  // Hands out all lanes, whose values up to max_distance (in the mesh's units; those beyond may be there, too) are
-  // right, in any order, but those that it returns: they are to be run alone. Where a vertex uses up its turns that is
-  // known in time, and the group is run by halves; a lane by itself is none. Throws Error(Cancelled).
+  // Hands out lanes in any order, their values right up to max_distance (in the mesh's units; those beyond may be
+  // there, too), and returns the lanes that it did not hand out: they are to be run alone. Where a vertex uses up its
+  // turns the group is split and its halves are run, down to single lanes, which are returned. Throws Error(Cancelled).
   std::vector<int> run(const GroupedRows::Group& group, double max_distance, const Take& take);
 
   // What a lane reaches within max_distance: vertices of domain.mesh(), ascending, and distances to them in unit()s of

@@ -101,7 +101,7 @@ struct MarchState {
   void begin_run();  // when all seeds are in
   // Delivers messages and chooses who works in the next round; false where nothing is left.
   bool next_round();
-  void send_news(Index part);  // to those whom they concern
+  void send_news(Index part);  // to the parts that have ghosts of what changed
 
   // Whether going through all vertices of a part costs less than through those that were touched.
   bool touched_most(Index part) const;

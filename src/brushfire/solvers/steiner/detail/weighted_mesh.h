@@ -32,7 +32,7 @@ class WeightedMesh {
 
   const Domain& domain() const { return domain_; }
   const Mesh& mesh() const { return fenced_.open(); }
-  const EdgeTable& edges() const { return edges_; }
+  const EdgeTable& edges() const { return *edges_; }
   double face_weight(Index f) const { return face_weight_[f]; }  // +inf: nothing enters
   // The least of the edge's own and of those of its faces.
   double edge_weight(Index e) const { return edge_weight_[e]; }
@@ -62,7 +62,7 @@ class WeightedMesh {
   Domain domain_;
   Barriers barriers_;  // walls and fences of domain_.open()
   Domain fenced_;      // that with these cut open
-  EdgeTable edges_;
+  std::shared_ptr<const EdgeTable> edges_;
   std::vector<double> face_weight_, edge_weight_;
   std::vector<Bridge> bridges_;  // by `from`
   double mean_weight_ = 1;

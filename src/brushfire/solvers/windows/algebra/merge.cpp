@@ -45,6 +45,31 @@ bool merge_parallel(const Window& a, Window& b, const Joint& joint, Real start, 
   return true;
 }
 
+// The sigma of the merged window of a and b with end values fa and fb; steep: length^2 - (fb - fa)^2 > 0.
+//
+// All windows with these end values form a family, the flatter the smaller sigma. To lie below a near the left end it
+// must not start out steeper: sigma >= that of the member tangent there. The same on the right. Beyond these, the
+// smaller of both sigmas: smaller ones still cost less but compound from merge to merge; a radius of twice the
+// distance is the most.
+template <bool kCircular>
+[[gnu::always_inline]] inline Real merged_sigma(const Window& a, const Window& b, Real fa, Real fb, Real steep) {
+  const Real left = a.b0, right = b.b1, length = right - left, rise = fb - fa;
+  const auto radius = [](const Window& w, Real end_value) {  // what a linear one has is infinite
+    return kCircular || w.kind == WindowKind::Circular ? end_value - w.sigma : Real{1};
+  };
+  const auto run = [](const Window& w, Real end) {  // slope at the end, times the radius
+    return kCircular || w.kind == WindowKind::Circular ? end - w.source.x : -w.source.x;
+  };
+  Real sigma = kCircular ? std::max(std::min(a.sigma, b.sigma), -std::max(fa, fb)) : -std::max(fa, fb);
+  const Real ra = radius(a, fa), rb = radius(b, fb);
+  // With slope run / ra at the left end, the rise beyond the tangent's, times ra; steep / (2 * over) follows.
+  const Real over_a = rise * ra - length * run(a, left);
+  const Real over_b = length * run(b, right) - rise * rb;
+  if (over_a > 0) sigma = std::max(sigma, fa - 0.5 * steep * ra / over_a);
+  if (over_b > 0) sigma = std::max(sigma, fb - 0.5 * steep * rb / over_b);
+  return sigma;
+}
+
 // Into a circular one. Compiled once for the usual case, in which both are circular.
 template <bool kCircular>
 [[gnu::always_inline]] inline bool merge_circular(const Window& a, Window& b, const Joint& joint, Real start,
@@ -61,24 +86,7 @@ template <bool kCircular>
   const Real steep = (length - rise) * (length + rise);
   if (!(steep > 0)) return false;
 
-  // All windows with these end values form a family, the flatter the smaller sigma. To lie below a near the left end it
-  // must not start out steeper: sigma >= that of the member tangent there. The same on the right. Beyond these, the
-  // smaller of both sigmas: smaller ones still cost less but compound from merge to merge; a radius of twice the
-  // distance is the most.
-  const auto radius = [](const Window& w, Real end_value) {  // what a linear one has is infinite
-    return kCircular || w.kind == WindowKind::Circular ? end_value - w.sigma : Real{1};
-  };
-  const auto run = [](const Window& w, Real end) {  // slope at the end, times the radius
-    return kCircular || w.kind == WindowKind::Circular ? end - w.source.x : -w.source.x;
-  };
-  Real sigma = kCircular ? std::max(std::min(a.sigma, b.sigma), -std::max(fa, fb)) : -std::max(fa, fb);
-  const Real ra = radius(a, fa), rb = radius(b, fb);
-  // With slope run / ra at the left end, the rise beyond the tangent's, times ra; steep / (2 * over) follows.
-  const Real over_a = rise * ra - length * run(a, left);
-  const Real over_b = length * run(b, right) - rise * rb;
-  if (over_a > 0) sigma = std::max(sigma, fa - 0.5 * steep * ra / over_a);
-  if (over_b > 0) sigma = std::max(sigma, fb - 0.5 * steep * rb / over_b);
-
+  const Real sigma = merged_sigma<kCircular>(a, b, fa, fb, steep);
   const Real r0 = fa - sigma, r1 = fb - sigma;
   const Real q = heron(length, r0, r1);
   if (!(r0 > 0 && r1 > 0 && q > 0 && r0 + r1 > length)) return false;

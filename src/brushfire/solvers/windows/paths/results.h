@@ -18,7 +18,7 @@ class Results {
  public:
   Results(RunState& run, std::span<Part> parts, DistanceField& field);
 
-  // A target is told of a path; see reach_target().
+  // Keeps the best path to a target; see reach_target().
   void offer_target(Index target, Real value, Real slack, Real lift, const Ray& ray, bool straight = true);
   // The field, and what paths need later where that is wanted. `scratch` is room to work in; `team` may be null.
   void write(std::vector<Index>& scratch, ThreadTeam* team);

@@ -8,7 +8,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 [[gnu::noinline]] void accept(PartState& part, Index v, Real value, const Ray& ray, bool all_around);
 
 // A window or a source sees v. Where paths may bend, light will go on from there (`all_around`: whatever the faces
-// there are like). The ghosts of v are told.
+// there are like). The ghosts of v get a message.
 [[gnu::always_inline]] inline void see_vertex(PartState& part, Index v, Real value, const Ray& ray, bool all_around) {
   if (!(value > part.vertices[v].lower)) accept(part, v, value, ray, all_around);
 }
@@ -17,7 +17,7 @@ namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 void receive(PartState& part, const ArrivalMessage& message);
 
 // Along a ray or, where it is not `straight`, by a detour: a real path, but not one to follow back. Targets may lie on
-// an edge between two parts: they are told when all parts have stopped.
+// an edge between two parts: their values are gathered when all parts have stopped.
 void reach_target(PartState& part, Index target, Real value, Real slack, Real lift, const Ray& ray,
                   bool straight = true);
 

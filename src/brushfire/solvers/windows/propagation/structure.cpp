@@ -6,13 +6,13 @@
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/face_geometry.h>
+#include <brushfire/solvers/windows/propagation/around.h>
 #include <brushfire/solvers/windows/propagation/fan.h>
 #include <brushfire/solvers/windows/store/prefetch.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -147,51 +147,6 @@ Typical typical_of(std::span<const WindowFace> faces) {
   return {0.5 * width, width < edge};
 }
 
-// The sum of angles in (0, pi), as the product of as many turns of the plane: an arc tangent for each would take longer
-// than all the rest.
-struct AngleSum {
-  Real x = 1, y = 0;  // the sum's direction
-  Index turns = 0;    // that are full
-
-  // An angle of these cosine and sine.
-  void add(Real cosine, Real sine) {
-    const Real turned_x = x * cosine - y * sine, turned_y = x * sine + y * cosine;
-    turns += y < 0 && turned_y >= 0 ? 1 : 0;
-    x = turned_x, y = turned_y;
-  }
-  double value() const { return 2 * kPi * (turns + (y < 0 ? 1 : 0)) + std::atan2(to_double(y), to_double(x)); }
-  // By more than kFlat; told by the direction, which knows small angles as well as large ones.
-  bool exceeds_pi() const { return turns > 0 || (y < 0 && (x >= 0 || y < kFlat * x)); }
-  bool exceeds_two_pi() const { return turns > 1 || (turns == 1 && (y < 0 || x <= 0 || y > kFlat * x)); }
-};
-
-// What the corners at a vertex are.
-struct Around {
-  AngleSum angles;
-  Index faces = 0;
-  float shortest = std::numeric_limits<float>::infinity(), longest = 0;  // of their edges
-
-  // Whether a corner's edges may differ by more than kUnevenEdges; also where floats cannot tell.
-  bool is_uneven() const { return !(static_cast<double>(longest) < kUnevenEdges * static_cast<double>(shortest)); }
-
-  // Whether the angles are less than this, whatever rounding has made of them: a side of a face is known to some ten
-  // epsilons of the ratio of its edges (docs/tolerance.md), and so is its angle.
-  bool is_surely_below(double sum, double ratio) const {
-    constexpr double kEachFace = 32 * kEpsilon;
-    return angles.value() + kEachFace * ratio * faces < sum;
-  }
-
-  // Corner k of a face that has an area.
-  void add(const WindowFace& f, Index k) {
-    const Real a = f.length[k], b = f.length[previous3(k)], inverse = 1 / (a * b);
-    const Vec2 opening = opening_at(f, k);
-    angles.add(opening.x * inverse, opening.y * inverse);
-    ++faces;
-    shortest = std::min({shortest, static_cast<float>(a), static_cast<float>(b)});
-    longest = std::max({longest, static_cast<float>(a), static_cast<float>(b)});
-  }
-};
-
 // By how much the angles around a vertex differ from 2 pi, in the median (of a sample): large ones at a few corners and
 // creases say nothing about the rest.
 double typical_deficit_of(std::span<const Around> around, std::span<const VertexType> vertex_type,
@@ -203,6 +158,89 @@ double typical_deficit_of(std::span<const Around> around, std::span<const Vertex
     sample.push_back(abs(2 * kPi - around[v].angles.value()));
   }
   return sample.empty() ? 0 : median(sample);
+}
+
+// Every face's record, and what its corners add to their vertices.
+void fill_faces(WindowStructure& s, std::span<const Index> opposite, std::span<Around> around) {
+  const FacesInOrder outer(s.mesh, s.order);
+  Poll poll;
+  for (Index f = 0; f < s.mesh.face_count(); ++f) {
+    poll();
+    outer.prefetch_after(f);
+    WindowFace& face = s.faces[f];
+    const FaceShape shape = outer.shape(f);
+    face.double_area = shape.double_area;
+    face.set_feet(shape);
+    face.waiting = kNoIndex;
+    face.has_target = false;
+    face.usable = s.mesh.is_face_usable(s.order.faces[f]);
+    const Real base = std::max({shape.length[0], shape.length[1], shape.length[2]});
+    s.unevenness.add(to_double(shape.length[0]), to_double(shape.length[1]), to_double(shape.length[2]),
+                     to_double(shape.double_area));
+    face.thin = face.double_area <= kThin * base * base;
+    for (Index k = 0; k < 3; ++k) {
+      face.length[k] = shape.length[k];
+      face.vertex[k] = s.inner_vertex(outer[f][k]);
+      face.opposite[k] = opposite[3 * f + k];
+    }
+    // No area, no angle: light goes everywhere from there.
+    const bool has_angles = face.usable && face.double_area > kNoArea * base * base;
+    for (Index k = 0; k < 3; ++k) {
+      if (has_angles) {
+        around[face.vertex[k]].add(face, k);
+      } else {
+        s.vertex_type[face.vertex[k]] = VertexType::Full;
+      }
+    }
+  }
+}
+
+// What is beyond every edge, and whether three faces meet at any.
+void find_neighbours(WindowStructure& s, std::span<const Index> opposite) {
+  bool any_several = false;
+  for (Index h = 0; h < s.mesh.halfedge_count(); ++h) {
+    const Beyond there = beyond(s.faces, opposite, h);
+    any_several |= there == Beyond::Several;
+    s.faces[h / 3].beyond[h % 3] = there;
+  }
+  for (Index h = 0; h < s.mesh.halfedge_count() && any_several && !s.has_spines; ++h)
+    s.has_spines = opposite[opposite[h]] != h;
+}
+
+void find_vertex_types(WindowStructure& s, std::span<const Link> links, std::span<const Around> around) {
+  // The vertices of a crowd's rim are as uneven as it has faces, and if all of them sent light everywhere, that would
+  // be as many windows as faces squared.
+  const bool crowded = std::any_of(s.crowds.begin(), s.crowds.end(), is_winding);
+  const auto never_bends = [&](std::size_t v) {
+    const double straight = links[v] == Link::Circle ? 2 * kPi : links[v] == Link::Arc ? kPi : 0;
+    return crowded && around[v].is_surely_below(straight, s.unevenness.ratio());
+  };
+  for (std::size_t v = 0; v < around.size(); ++v) {
+    VertexType& type = s.vertex_type[v];
+    if (around[v].is_uneven() && !never_bends(v)) type = VertexType::Full;
+    if (type == VertexType::Full) continue;
+    if (links[v] == Link::Other) type = VertexType::Fans;
+    if (links[v] == Link::Circle && around[v].angles.exceeds_two_pi()) type = VertexType::Saddle;
+    if (links[v] == Link::Arc && around[v].angles.exceeds_pi()) type = VertexType::Boundary;
+  }
+}
+
+// Corners part by part, and what is done otherwise at vertices of so many faces.
+void settle_crowds(WindowStructure& s) {
+  std::vector<std::tuple<Index, Index, Index>> by_part;
+  for (WindowStructure::Crowd& c : s.crowds) {
+    if (is_winding(c)) {
+      s.has_needles = true;
+      for (const Index h : c.corners) s.faces[h / 3].thin = true;
+      s.wheels.add(s.faces, c.corners.front());
+    }
+    by_part.clear();
+    for (const Index h : c.corners) by_part.emplace_back(s.part_of_face(h / 3), s.outer_halfedge(h), h);
+    std::sort(by_part.begin(), by_part.end());
+    for (std::size_t i = 0; i < by_part.size(); ++i) c.corners[i] = std::get<2>(by_part[i]);
+    VertexType& its = s.vertex_type[s.order.vertex_rank[c.vertex]];
+    if (its == VertexType::Fans && c.corners.size() > kManyFaces) its = VertexType::Full;
+  }
 }
 
 }  // namespace
@@ -277,79 +315,15 @@ std::span<const Index> WindowStructure::corners_of(Index v, Index part, std::vec
 
 WindowStructure::WindowStructure(const Mesh& m, unsigned bits)
     : mesh(m), order(locality_order(m)), partition(m.vertex_count(), m.face_count(), bits) {
-  const Index n = mesh.vertex_count();
   auto [opposite, links, its_crowds] = connectivity_of(mesh, order);
   crowds = std::move(its_crowds);
-  const FacesInOrder outer(mesh, order);
   faces.resize(mesh.face_count());
-  vertex_type.assign(n, VertexType::None);
-  std::vector<Around> around(n);
-  Poll poll;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    poll();
-    outer.prefetch_after(f);
-    WindowFace& face = faces[f];
-    const FaceShape shape = outer.shape(f);
-    face.double_area = shape.double_area;
-    face.set_feet(shape);
-    face.waiting = kNoIndex;
-    face.has_target = false;
-    face.usable = mesh.is_face_usable(order.faces[f]);
-    const Real base = std::max({shape.length[0], shape.length[1], shape.length[2]});
-    unevenness.add(to_double(shape.length[0]), to_double(shape.length[1]), to_double(shape.length[2]),
-                   to_double(shape.double_area));
-    face.thin = face.double_area <= kThin * base * base;
-    for (Index k = 0; k < 3; ++k) {
-      face.length[k] = shape.length[k];
-      face.vertex[k] = inner_vertex(outer[f][k]);
-      face.opposite[k] = opposite[3 * f + k];
-    }
-    // No area, no angle: light goes everywhere from there.
-    const bool has_angles = face.usable && face.double_area > kNoArea * base * base;
-    for (Index k = 0; k < 3; ++k) {
-      if (has_angles) {
-        around[face.vertex[k]].add(face, k);
-      } else {
-        vertex_type[face.vertex[k]] = VertexType::Full;
-      }
-    }
-  }
-  bool any_several = false;
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    const Beyond there = beyond(faces, opposite, h);
-    any_several |= there == Beyond::Several;
-    faces[h / 3].beyond[h % 3] = there;
-  }
-  for (Index h = 0; h < mesh.halfedge_count() && any_several && !has_spines; ++h)
-    has_spines = opposite[opposite[h]] != h;
-  // The vertices of a crowd's rim are as uneven as it has faces, and if all of them sent light everywhere, that would
-  // be as many windows as faces squared.
-  const bool crowded = std::any_of(crowds.begin(), crowds.end(), is_winding);
-  const auto never_bends = [&](Index v) {
-    const double straight = links[v] == Link::Circle ? 2 * kPi : links[v] == Link::Arc ? kPi : 0;
-    return crowded && around[v].is_surely_below(straight, unevenness.ratio());
-  };
-  for (Index v = 0; v < n; ++v) {
-    if (around[v].is_uneven() && !never_bends(v)) vertex_type[v] = VertexType::Full;
-    if (vertex_type[v] == VertexType::Full) continue;
-    if (links[v] == Link::Other) vertex_type[v] = VertexType::Fans;
-    if (links[v] == Link::Circle && around[v].angles.exceeds_two_pi()) vertex_type[v] = VertexType::Saddle;
-    if (links[v] == Link::Arc && around[v].angles.exceeds_pi()) vertex_type[v] = VertexType::Boundary;
-  }
-  std::vector<std::tuple<Index, Index, Index>> by_part;
-  for (Crowd& c : crowds) {
-    if (is_winding(c)) {
-      has_needles = true;
-      for (const Index h : c.corners) faces[h / 3].thin = true;
-      wheels.add(faces, c.corners.front());
-    }
-    by_part.clear();
-    for (const Index h : c.corners) by_part.emplace_back(part_of_face(h / 3), outer_halfedge(h), h);
-    std::sort(by_part.begin(), by_part.end());
-    for (std::size_t i = 0; i < by_part.size(); ++i) c.corners[i] = std::get<2>(by_part[i]);
-    VertexType& its = vertex_type[order.vertex_rank[c.vertex]];
-    if (its == VertexType::Fans && c.corners.size() > kManyFaces) its = VertexType::Full;
-  }
+  vertex_type.assign(mesh.vertex_count(), VertexType::None);
+  std::vector<Around> around(mesh.vertex_count());
+  fill_faces(*this, opposite, around);
+  find_neighbours(*this, opposite);
+  find_vertex_types(*this, links, around);
+  settle_crowds(*this);
   const Typical typical = typical_of(faces);
   bucket_width = typical.bucket;
   has_needles |= typical.needles;

@@ -1,5 +1,5 @@
 // Weights for queries: their walls join the domain's, and a run becomes a DistanceField.
-#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/weighted/weighting.h>
 
 #include <brushfire/solvers/steiner/detail/travel.h>
 #include <brushfire/solvers/steiner/detail/weighted_mesh.h>

@@ -1,14 +1,16 @@
 // A run that is carried over from change to change.
-#include <brushfire/solvers/steiner/replanner.h>
+#include <brushfire/solvers/weighted/replanner.h>
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/solvers/steiner/detail/carry.h>
+#include <brushfire/solvers/weighted/detail/fields.h>
 
 #include <utility>
 
 namespace brushfire {
 
 using namespace steiner;
+using namespace weighted;
 
 struct Replanner::State {
   Domain domain{Mesh()};

@@ -13,8 +13,8 @@
 #include <brushfire/core/progress.h>
 #include <brushfire/mesh/domain.h>
 #include <brushfire/solvers/distance.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
 #include <brushfire/solvers/steiner/weights.h>
+#include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <memory>
 #include <vector>

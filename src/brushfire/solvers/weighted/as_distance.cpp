@@ -1,13 +1,13 @@
 // From WeightedField to DistanceField.
 #include <brushfire/solvers/detail/cost_runs.h>
-#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/weighted/weighting.h>
 
 #include <brushfire/core/error.h>
 
 #include <utility>
 
 namespace brushfire {
-namespace steiner {
+namespace weighted {
 namespace {
 
 void check(const Domain& domain, const DistanceOptions& options) {
@@ -82,8 +82,8 @@ class Runs : public detail::CostRuns {
 };
 
 }  // namespace
-}  // namespace steiner
+}  // namespace weighted
 
-std::unique_ptr<detail::CostRuns> Weighting::runs() const { return std::make_unique<steiner::Runs>(solver()); }
+std::unique_ptr<detail::CostRuns> Weighting::runs() const { return std::make_unique<weighted::Runs>(solver()); }
 
 }  // namespace brushfire

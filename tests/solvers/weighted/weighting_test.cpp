@@ -6,7 +6,7 @@
 #include <brushfire/queries/sampling.h>
 #include <brushfire/queries/voronoi.h>
 #include <brushfire/queries/weighted_path.h>
-#include <brushfire/solvers/steiner/weighting.h>
+#include <brushfire/solvers/weighted/weighting.h>
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #pragma once
 
 #include <brushfire/mesh/domain.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
 #include <brushfire/solvers/steiner/weights.h>
+#include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <memory>
 

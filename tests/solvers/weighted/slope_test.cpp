@@ -1,7 +1,7 @@
 // Costs that depend on the slope, and terrain.
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/terrain.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <gtest/gtest.h>
 

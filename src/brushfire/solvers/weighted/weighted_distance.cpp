@@ -1,10 +1,11 @@
 // From the caller's mesh to the search and back.
-#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/refraction/detail/run.h>
 #include <brushfire/solvers/steiner/detail/run.h>
+#include <brushfire/solvers/weighted/detail/fields.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@ namespace brushfire {
 namespace {
 
 using namespace steiner;
+using namespace weighted;
 
 // Sums of up to 2^20 costs, each off by a unit in the last place, stay below what they stand for.
 constexpr double kBelowSums = 1 - 0x1p-32;

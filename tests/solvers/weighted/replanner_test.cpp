@@ -2,7 +2,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/weighted_path.h>
-#include <brushfire/solvers/steiner/replanner.h>
+#include <brushfire/solvers/weighted/replanner.h>
 
 #include <gtest/gtest.h>
 

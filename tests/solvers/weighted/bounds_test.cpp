@@ -3,7 +3,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/weighted_path.h>
-#include <brushfire/solvers/steiner/weighted_distance.h>
+#include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <gtest/gtest.h>
 
