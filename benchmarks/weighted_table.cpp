@@ -1,10 +1,13 @@
 // How near the bounds of weighted distances are to each other, and what that costs.
 //
-//   weighted_table [--tolerance T]... [--kind NAME]... MESH...
+//   weighted_table [--check] [--tolerance T]... [--kind NAME]... MESH...
 //
-// One line per mesh, kind of weights and tolerance: points per edge, microseconds per vertex of the upper bounds alone
-// and of both, (upper - lower) / lower on average and at most. Kinds: one (1 everywhere, searched all the same, beside
-// exact distances), patches (1 to 4), smooth (1 to 3), random (1 to 10 per face), steep (1 or 1e9 per patch).
+// One line per mesh, kind of weights and tolerance: what answered, points per edge, microseconds per vertex of the
+// upper bounds alone, of both, and of fast marching; (upper - lower) / lower on average and at most, and how far fast
+// marching is from the upper bounds on average. Kinds: one (1 everywhere, searched all the same, beside exact
+// distances), patches (1 to 4), smooth (1 to 3), random (1 to 10 per face), steep (1 or 1e9 per patch). --check: both
+// bounds are held against those of the other search, points on edges, upper ones with up to 64 to an edge; vertices at
+// which they contradict each other.
 #include <brushfire/core/detail/random.h>
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/solvers/weighted/weighted_distance.h>
@@ -66,24 +69,50 @@ Weights weights_of(const Mesh& mesh, const std::string& kind) {
   return weights;
 }
 
-void measure(const std::string& name, const Mesh& mesh, const std::string& kind, double tolerance) {
+// By another search: no lower bound above the upper ones there, and no upper one below the lower ones.
+void check(const Mesh& mesh, const Weights& weights, std::span<const Source> sources, const WeightedField& field) {
+  const std::vector<double> above =
+      weighted_distance(mesh, weights, sources, {.tolerance = 1e-3, .lower = false}).distance;
+  const WeightedField others = weighted_distance(mesh, weights, sources, {.tolerance = 0.01, .keep_paths = true});
+  std::size_t wrong = 0;
+  for (std::size_t v = 0; v < above.size(); ++v) {
+    constexpr double kRounding = 1e-11;
+    wrong += field.lower[v] > above[v] * (1 + kRounding) || field.distance[v] < others.lower[v] * (1 - kRounding);
+  }
+  std::printf("  %zu of %zu wrong", wrong, above.size());
+}
+
+// Microseconds a vertex; the field of the second run.
+double timed(WeightedSolver& solver, std::span<const Source> sources, const WeightedOptions& options,
+             WeightedField& field) {
+  static_cast<void>(solver.distance(sources, options));
+  const double start = cpu_seconds();
+  field = solver.distance(sources, options);
+  return 1e6 * (cpu_seconds() - start) / solver.domain().mesh().vertex_count();
+}
+
+void measure(const std::string& name, const Mesh& mesh, const std::string& kind, double tolerance, bool checks) {
   const std::vector<Source> sources{{vertex_point(mesh, 0)}};
-  WeightedSolver solver(mesh, weights_of(mesh, kind));
-  WeightedOptions options;
-  options.tolerance = tolerance;
-  options.lower = false;
-  static_cast<void>(solver.distance(sources, options));
-  double start = cpu_seconds();
-  static_cast<void>(solver.distance(sources, options));
-  const double upper = cpu_seconds() - start;
-  options.lower = true;
-  start = cpu_seconds();
-  const WeightedField field = solver.distance(sources, options);
-  const double both = cpu_seconds() - start;
-  const double vertices = mesh.vertex_count();
-  std::printf("%-16s %-8s %8g %6.1f %7.2f %7.2f  %8.4f %% %8.3f %%", name.c_str(), kind.c_str(), tolerance,
-              static_cast<double>(field.points) / (1.5 * mesh.face_count()), 1e6 * upper / vertices,
-              1e6 * both / vertices, 100 * field.mean_error_bound, 100 * field.max_error_bound);
+  const Weights weights = weights_of(mesh, kind);
+  WeightedSolver solver(mesh, weights);
+  WeightedField field, marched;
+  const double upper = timed(solver, sources, {.tolerance = tolerance, .lower = false}, field);
+  const double both = timed(solver, sources, {.tolerance = tolerance}, field);
+  double march = 0, off = 0;
+  if (kind != "one") {
+    march = timed(solver, sources, {.marching = Method::NovotniKlein}, marched);
+    double count = 0;
+    for (std::size_t v = 0; v < field.distance.size(); ++v) {
+      if (!(field.distance[v] > 0 && field.distance[v] < kInfinity)) continue;
+      off += std::abs(marched.distance[v] / field.distance[v] - 1);
+      ++count;
+    }
+    off /= count;
+  }
+  std::printf("%-18s %-8s %8g %-8s %6.1f %7.2f %7.2f %7.3f  %8.4f %% %8.3f %% %7.2f %%", name.c_str(), kind.c_str(),
+              tolerance, name_of(field.engine), static_cast<double>(field.points) / (1.5 * mesh.face_count()), upper,
+              both, march, 100 * field.mean_error_bound, 100 * field.max_error_bound, 100 * off);
+  if (checks) check(mesh, weights, sources, field);
   if (kind == "one") {
     const std::vector<double> exact = distance(mesh, sources, {.method = Method::Exact}).distance;
     const RelativeError high = relative_error(field.distance, exact), low = relative_error(field.lower, exact);
@@ -100,25 +129,28 @@ void measure(const std::string& name, const Mesh& mesh, const std::string& kind,
 int run(int count, char** arguments) {
   std::vector<double> tolerances;
   std::vector<std::string> kinds, meshes;
+  bool checks = false;
   for (int i = 1; i < count; ++i) {
     const std::string word = arguments[i];
     if (word == "--tolerance" && i + 1 < count) {
       tolerances.push_back(std::strtod(arguments[++i], nullptr));
     } else if (word == "--kind" && i + 1 < count) {
       kinds.emplace_back(arguments[++i]);
+    } else if (word == "--check") {
+      checks = true;
     } else {
       meshes.push_back(word);
     }
   }
   if (tolerances.empty()) tolerances = {0.1, 0.03, 0.01, 0.003};
   if (kinds.empty()) kinds = {"one", "patches", "smooth", "random", "steep"};
-  std::printf("%-16s %-8s %8s %6s %7s %7s  %10s %10s\n", "mesh", "weights", "wish", "points", "upper", "both", "mean",
-              "max");
+  std::printf("%-18s %-8s %8s %-8s %6s %7s %7s %7s  %10s %10s %9s\n", "mesh", "weights", "wish", "engine", "points",
+              "upper", "both", "march", "mean", "max", "march off");
   for (const std::string& path : meshes) {
     const Mesh mesh = read_mesh(path).mesh;
     for (const std::string& kind : kinds) {
       for (const double tolerance : tolerances) {
-        measure(path.substr(path.rfind('/') + 1), mesh, kind, tolerance);
+        measure(path.substr(path.rfind('/') + 1), mesh, kind, tolerance, checks);
       }
     }
   }

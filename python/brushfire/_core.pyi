@@ -72,8 +72,9 @@ class WeightedSolver:
         slopes: _Floats | None,
         paces: _Floats | None,
         steepest: float,
+        grain: _Floats | None,
     ) -> None: ...
-    def weighting(self, tolerance: float, towards: bool) -> Weighting: ...
+    def weighting(self, tolerance: float, towards: bool, method: str) -> Weighting: ...
     def solve(
         self,
         sources: Sources,
@@ -84,6 +85,7 @@ class WeightedSolver:
         lower: bool,
         towards: bool,
         max_distance: float,
+        method: str,
         progress: _Progress,
     ) -> tuple[_Floats, _Signed, _Floats | None, float, float, str]: ...
     def paths(

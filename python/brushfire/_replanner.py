@@ -64,10 +64,12 @@ class Replanner:
         """The share of the points on edges that the last change made anew; 1 at first."""
         return self._core.renewed
 
-    def change(self, weights: Any = None, edge_weights: Any = None, *, progress: Progress = None) -> None:
-        """Other weights: None leaves those of faces, or of edges, as they are; ``edge_weights=[]`` takes the latter away.
+    def change(
+        self, weights: Any = None, edge_weights: Any = None, *, grain: Any = None, progress: Progress = None
+    ) -> None:
+        """Other weights: None leaves those of faces, of edges, or the grain, as they are; ``edge_weights=[]`` takes the latter away.
 
-        :param weights, edge_weights: as for :meth:`Mesh.weighted`. Slopes cost what they did.
+        :param weights, edge_weights, grain: as for :meth:`Mesh.weighted`. Slopes cost what they did.
         :raises BrushfireError: as there; all is as it was then.
 
         >>> import brushfire as bf
@@ -77,10 +79,12 @@ class Replanner:
         >>> float(planner.distance[2]), planner.renewed < 1
         (5.0, True)
         """
-        faces, edges, slope, steepest = self._weighted._given
+        faces, edges, slope, steepest, old_grain = self._weighted._given
         faces = faces if weights is None else weights
         edges = edges if edge_weights is None else edge_weights
-        weighted = Weighted(self._mesh, faces, edges, slope, steepest, self._weighted._towards)
+        if grain is None and old_grain is not None:
+            grain = old_grain.reshape(-1, 4)
+        weighted = Weighted(self._mesh, faces, edges, slope, steepest, self._weighted._towards, grain)
         with shown(progress, "distance") as report:
             self._core.change(weighted._solver, report)
         self._weighted = weighted

@@ -63,9 +63,13 @@ Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& 
                      const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
                      const Vector<double>& crossing, const std::string& slope,
                      const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces,
-                     double steepest) {
+                     double steepest, const std::optional<Vector<double>>& grain) {
   Weights weights = faces_and_edges(domain, face, edge_vertices, along, crossing);
   weights.pace = pace_from(slope, slopes, paces, steepest);
+  for (std::size_t i = 0; grain && i + 3 < grain->shape(0); i += 4) {
+    const double* g = grain->data() + i;
+    weights.grain.push_back({{g[0], g[1], g[2]}, g[3]});
+  }
   return weights;
 }
 
@@ -88,16 +92,21 @@ namespace {
 
 using OptionalWeights = std::optional<Triples<double>>;
 
-SharedWeighting weighting_of(Weighted& weighted, double tolerance, bool towards) {
+std::optional<Method> marching_by(const std::string& method) {
+  if (method.empty()) return std::nullopt;
+  return method_named(method);
+}
+
+SharedWeighting weighting_of(Weighted& weighted, double tolerance, bool towards, const std::string& method) {
   const nb::gil_scoped_release release;
-  return {weighted.weighting({tolerance, towards})};
+  return {weighted.weighting({tolerance, towards, marching_by(method)})};
 }
 
 // (distance, source, lower bounds or None, greatest and mean relative error bound, engine): of the targets where
 // there are any.
 nb::tuple solve(Weighted& weighted, const Sources& sources, const std::optional<Vector<std::int64_t>>& target_index,
                 const OptionalWeights& target_weights, double tolerance, unsigned refinements, bool lower, bool towards,
-                double max_distance, nb::object progress) {
+                double max_distance, const std::string& method, nb::object progress) {
   Computation computation(std::move(progress));
   WeightedOptions options;
   options.tolerance = tolerance;
@@ -105,6 +114,7 @@ nb::tuple solve(Weighted& weighted, const Sources& sources, const std::optional<
   options.lower = lower;
   options.towards = towards;
   options.max_distance = max_distance;
+  options.marching = marching_by(method);
   options.cancel = computation.cancel();
   options.progress = computation.progress();
   WeightedField field = computation.run(false, [&] {
@@ -197,14 +207,16 @@ void bind_weighted(nb::module_& m) {
   nb::class_<Weighted>(m, "WeightedSolver")
       .def(nb::init<const Domain&, const std::optional<Vector<double>>&, const Vector<std::int64_t>&,
                     const Vector<double>&, const Vector<double>&, const std::string&,
-                    const std::optional<Vector<double>>&, const std::optional<Vector<double>>&, double>(),
+                    const std::optional<Vector<double>>&, const std::optional<Vector<double>>&, double,
+                    const std::optional<Vector<double>>&>(),
            nb::arg("domain"), nb::arg("face").noconvert().none(), nb::arg("edge_vertices").noconvert(),
            nb::arg("along").noconvert(), nb::arg("crossing").noconvert(), nb::arg("slope"),
-           nb::arg("slopes").noconvert().none(), nb::arg("paces").noconvert().none(), nb::arg("steepest"))
-      .def("weighting", weighting_of, nb::arg("tolerance"), nb::arg("towards"))
+           nb::arg("slopes").noconvert().none(), nb::arg("paces").noconvert().none(), nb::arg("steepest"),
+           nb::arg("grain").noconvert().none())
+      .def("weighting", weighting_of, nb::arg("tolerance"), nb::arg("towards"), nb::arg("method"))
       .def("solve", solve, nb::arg("sources"), nb::arg("target_index").noconvert().none(),
            nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("refinements"), nb::arg("lower"),
-           nb::arg("towards"), nb::arg("max_distance"), nb::arg("progress").none())
+           nb::arg("towards"), nb::arg("max_distance"), nb::arg("method"), nb::arg("progress").none())
       .def("paths", paths, nb::arg("sources"), nb::arg("target_index").noconvert(),
            nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("towards"),
            nb::arg("max_distance"));

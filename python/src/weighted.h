@@ -16,15 +16,17 @@ Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& 
                      const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
                      const Vector<double>& crossing, const std::string& slope,
                      const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces,
-                     double steepest);
+                     double steepest, const std::optional<Vector<double>>& grain);
 
 // Calls from several threads wait for each other.
 class Weighted {
  public:
   Weighted(const Domain& domain, const std::optional<Vector<double>>& face, const Vector<std::int64_t>& edge_vertices,
            const Vector<double>& along, const Vector<double>& crossing, const std::string& slope,
-           const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces, double steepest)
-      : solver_(domain, weights_from(domain, face, edge_vertices, along, crossing, slope, slopes, paces, steepest)) {}
+           const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces, double steepest,
+           const std::optional<Vector<double>>& grain)
+      : solver_(domain,
+                weights_from(domain, face, edge_vertices, along, crossing, slope, slopes, paces, steepest, grain)) {}
 
   const Mesh& mesh() const { return solver_.domain().mesh(); }
 
@@ -32,7 +34,7 @@ class Weighted {
   std::shared_ptr<const Weighting> weighting(const WeightingOptions& options) {
     const std::lock_guard lock(mutex_);
     if (!weighting_ || weighting_->options().tolerance != options.tolerance ||
-        weighting_->options().towards != options.towards) {
+        weighting_->options().towards != options.towards || weighting_->options().marching != options.marching) {
       weighting_ = std::make_shared<const Weighting>(solver_.domain(), solver_.weights(), options);
     }
     return weighting_;

@@ -88,7 +88,7 @@ def test_weights_count_in_whatever_reads_a_field(strip: bf.Mesh) -> None:
     assert cells.area.sum() == pytest.approx(8) and cells.area[0] > 4.5
     low, bound = strip.distance(5, weights=W, bound="lower", return_bound=True)
     assert (low + bound == pytest.approx(truth, rel=0.01)) and (low <= truth).all()
-    with pytest.raises(bf.BrushfireError, match="one method"):
+    with pytest.raises(bf.BrushfireError, match="points on edges"):
         strip.distance(5, weights=W, method="exact")
 
 
@@ -113,3 +113,34 @@ def test_a_direction_is_that_of_the_weights_where_a_call_does_not_say() -> None:
     assert (down.distance(0) == up.distance(0, towards=True)).all()
     assert (ground.mesh.distance(0, weights=down) == down.distance(0)).all()
     assert ground.mesh.distance(0, weights=up)[2] > ground.mesh.distance(0, weights=down)[2]
+
+
+def test_marching_is_near_and_fast_and_promises_nothing(strip: bf.Mesh) -> None:
+    weighted = strip.weighted(W)
+    for method in ("novotni-klein", "kimmel-sethian"):
+        near = weighted.distance(5, method=method)
+        assert near == pytest.approx(weighted.distance(5), rel=0.25) and near[9] == pytest.approx(8, rel=0.06)
+        spread = strip.farthest_points(3, weights=weighted, method=method)
+        assert len(spread.vertices) == 3
+    with pytest.raises(bf.BrushfireError, match="novotni-klein"):
+        weighted.distance(5, method="carried-source")
+    with pytest.raises(bf.BrushfireError, match="roads"):
+        strip.weighted(W, [[2, 7, np.inf, 5]]).distance(5, method="novotni-klein")
+
+
+def test_going_across_a_grain_costs_more(strip: bf.Mesh) -> None:
+    grain = np.tile([1.0, 0.0, 0.0, 3.0], (len(F), 1))
+    weighted = strip.weighted(grain=grain)
+    truth = np.hypot(V[:, 0], 3 * V[:, 1])
+    found = weighted.distance(0, tolerance=0.001)
+    assert (found >= truth * (1 - 1e-12)).all() and found == pytest.approx(truth, rel=2e-3)
+    assert weighted.costs(0).lower is None
+    planner = weighted.replanner(0)
+    planner.change(np.full(len(F), 2.0))
+    assert planner.distance == pytest.approx(2 * weighted.distance(0), rel=1e-12)
+    planner.change(grain=np.tile([0.0, 1.0, 0.0, 3.0], (len(F), 1)))
+    assert planner.distance[5] == pytest.approx(2) and planner.distance[1] == pytest.approx(6)
+    with pytest.raises(bf.BrushfireError, match="grain"):
+        strip.weighted(grain=[[1, 0, 0, 3]])
+    with pytest.raises(bf.BrushfireError, match="together"):
+        strip.weighted(grain=grain, slope="tobler")

@@ -61,6 +61,37 @@ TEST_F(WeightFiles, AreArraysToo) {
   EXPECT_NEAR(read_npy(path("d.npy")).values[7], 1, 2e-9);  // rounding of windows
 }
 
+TEST_F(WeightFiles, GrainMakesOneDirectionDear) {
+  std::string rows;
+  for (int f = 0; f < 16; ++f) rows += "0 1 0 3\n";
+  write("grain.txt", rows);
+  const std::string mesh = path("m.off");
+  EXPECT_NEAR(number(run_program({"distance", mesh, "-s", "5", "-t", "9", "--grain", path("grain.txt")})), 12, 1e-9);
+  EXPECT_NEAR(number(run_program({"distance", mesh, "-s", "5", "-t", "10", "--grain", path("grain.txt")})), 1, 1e-9);
+  write("short.txt", "0 1 0 3\n");
+  EXPECT_EQ(run_program({"distance", mesh, "-s", "5", "--grain", path("short.txt")}).code, 2);
+  write("three.txt", "0 1 0\n");
+  EXPECT_EQ(run_program({"distance", mesh, "-s", "5", "--grain", path("three.txt")}).code, 2);
+}
+
+TEST_F(WeightFiles, AreMarchedOverWhereAMethodSaysSo) {
+  const std::vector<std::string> how{"distance", path("m.off"), "-s",          "5",        "-t",
+                                     "9",        "--weights",   path("w.txt"), "--method", "novotni-klein"};
+  EXPECT_NEAR(number(run_program(how)), 8, 0.5);
+  std::vector<std::string> told = how;
+  told.push_back("--json");
+  const auto json = nlohmann::json::parse(run_program(told).out);
+  EXPECT_EQ(json.at("method"), "novotni-klein");
+  EXPECT_EQ(json.at("engine"), "marching");
+  EXPECT_TRUE(json.at("max_error_bound").is_null());
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--bound", "lower"}, {"--edge-weights", path("fence.txt")}}) {
+    std::vector<std::string> words = how;
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run_program(words).code, 2) << more[0];
+  }
+}
+
 TEST_F(WeightFiles, JsonTellsEveryLeg) {
   const Ended ended = run_program({"path", path("m.off"), "--from", "5", "--to", "9", "--weights", path("w.txt"),
                                    "--edge-weights", path("fence.txt"), "--json"});
@@ -184,7 +215,7 @@ TEST_F(WeightFiles, ThatDoNotFitAreRefusedWithTheReason) {
   write("far.txt", "0 99 1\n");
   EXPECT_NE(refused({"--edge-weights", path("far.txt")}).find("there is no vertex 99"), std::string::npos);
   EXPECT_NE(refused({"--weights", path("w.txt"), "--via", "3"}).find("without weights"), std::string::npos);
-  EXPECT_NE(refused({"--weights", path("w.txt"), "--method", "exact"}).find("there is one method"), std::string::npos);
+  EXPECT_NE(refused({"--weights", path("w.txt"), "--method", "exact"}).find("points on edges"), std::string::npos);
 }
 
 TEST_F(WeightFiles, WallsOfWeightsAreNotPassed) {

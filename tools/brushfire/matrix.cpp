@@ -189,8 +189,8 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
   if (talk.json && arguments.more.empty()) {
     Record record;
     record.add("file", arguments.file)
-        .add("method",
-             options.distance.weighting ? std::string("steiner") : std::string(name_of(options.distance.method)))
+        .add("method", options.distance.weighting ? method_of(*options.distance.weighting)
+                                                  : std::string(name_of(options.distance.method)))
         .add("precision", precision_of(options.distance))
         .add("tolerance", options.distance.weighting ? options.distance.weighting->options().tolerance
                                                      : tolerance_of(options.distance))

@@ -145,6 +145,12 @@ const std::vector<Row>& table() {
                      "With labels as --weights: what these cost; others 1; may be repeated");
        },
        [](const SharedArguments& a) { return !a.costs.empty(); }},
+      {Shared::Grain, "--grain", "",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.grain_file, "FILE",
+                     "For each face x y z of a direction, and how many times as much going across it costs");
+       },
+       [](const SharedArguments& a) { return !a.grain_file.empty(); }},
       {Shared::Slope, "--slope", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.slope, "NAME", "What slopes cost: tobler, naismith, energy, or a file of paces");

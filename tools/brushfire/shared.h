@@ -36,6 +36,7 @@ enum class Shared : std::uint8_t {
   Weights,
   EdgeWeights,
   Cost,
+  Grain,
   Slope,
   Steepest,
   Towards,
@@ -55,7 +56,7 @@ struct SharedArguments {
   std::optional<int> threads;
   std::optional<double> weld;
   std::string mask_file, region, faces_file, edges_file;
-  std::string weights_file, edge_weights_file, slope;
+  std::string weights_file, edge_weights_file, grain_file, slope;
   std::vector<std::string> costs;  // of labels
   std::optional<double> steepest;
   bool towards = false;
@@ -85,7 +86,7 @@ inline const std::vector<Shared> kComputing{Shared::Method,    Shared::Tolerance
 inline const std::vector<Shared> kWalls{Shared::Mask, Shared::Region, Shared::BlockFaces, Shared::BlockEdges};
 
 // What going costs; without the last three one costs as much one way as the other.
-inline const std::vector<Shared> kWeights{Shared::Weights, Shared::EdgeWeights, Shared::Cost,
+inline const std::vector<Shared> kWeights{Shared::Weights, Shared::EdgeWeights, Shared::Cost,   Shared::Grain,
                                           Shared::Slope,   Shared::Steepest,    Shared::Towards};
 inline const std::vector<Shared> kSlopes{Shared::Slope, Shared::Steepest, Shared::Towards};
 

@@ -43,12 +43,18 @@ struct Scene {
   std::optional<WeightedSolver> solver;
 };
 
+std::string method_name(const Scene& scene) {
+  if (scene.options.marching) return std::string(name_of(*scene.options.marching));
+  return scene.solver->weights().uniform() > 0 ? "windows" : "steiner";
+}
+
 Record head(const WeightedRequest& request, const Scene& scene) {
   Record record;
   record.add("file", request.file)
-      .add("method", std::string(scene.solver->weights().uniform() > 0 ? "windows" : "steiner"))
+      .add("method", method_name(scene))
       .add("weights", request.shared.weights_file)
       .add("edge_weights", request.shared.edge_weights_file)
+      .add("grain", request.shared.grain_file)
       .add("slope", request.shared.slope)
       .add("towards", request.shared.towards)
       .add("tolerance", scene.options.tolerance)
@@ -93,7 +99,9 @@ std::string in_words(const WeightedRequest& request, const Scene& scene, const W
             " % on average; asked for: " + readable(100 * scene.options.tolerance) + " %\n";
   }
   return text + "solved in " + duration(solve_s) +
-         (field.engine == WeightedEngine::Windows ? ", by windows that refract" : "") +
+         (field.engine == WeightedEngine::Windows    ? ", by windows that refract"
+          : field.engine == WeightedEngine::Marching ? ", by marching: nothing is proven"
+                                                     : "") +
          (field.points > 0 ? ", with " + counted(field.points, "point", "points") + " on edges" : "");
 }
 
@@ -176,6 +184,7 @@ int weighted_distance(const WeightedRequest& request, const Talk& talk) {
 
 int weighted_path(const WeightedRequest& request, LinesOptions drawing, const Talk& talk) {
   Scene scene(request, talk);
+  if (scene.options.marching) refuse("--method: paths of costs come from points on edges");
   const std::vector<WeightedPath> paths =
       weighted_paths(*scene.solver, scene.sources, scene.options.targets, scene.options);
   std::vector<SurfacePath> lines;

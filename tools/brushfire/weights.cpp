@@ -38,8 +38,8 @@ std::vector<double> on_faces(const std::string& file, std::vector<double> values
   const std::vector<Index>& origin = surface.file().face_origin;
   const Index faces = origin.empty() ? count : *std::max_element(origin.begin(), origin.end()) + 1;
   if (values.size() < faces || origin.empty()) {
-    refuse("--weights " + file + ": " + counted(values.size(), "value", "values") + ", but the mesh has " +
-           std::to_string(count) + " faces");
+    refuse(file + ": " + counted(values.size(), "value", "values") + ", but the mesh has " + std::to_string(count) +
+           " faces");
   }
   std::vector<double> on_triangles;
   on_triangles.reserve(count);
@@ -48,7 +48,7 @@ std::vector<double> on_faces(const std::string& file, std::vector<double> values
 }
 
 std::vector<double> face_weights(const std::string& file, const Surface& surface) {
-  return on_faces(file, face_values(file), surface);
+  return on_faces("--weights " + file, face_values(file), surface);
 }
 
 // What labels cost, by their keys.
@@ -80,7 +80,7 @@ std::vector<double> label_weights(const SharedArguments& a, const Surface& surfa
     const auto found = costs.find(value);
     value = found == costs.end() ? 1 : found->second;
   }
-  if (!of_vertices) return on_faces(file, std::move(field.values), surface);
+  if (!of_vertices) return on_faces("--weights " + file, std::move(field.values), surface);
   const std::vector<double> at = surface.on_mesh(std::move(field.values), file);
   std::vector<double> weights;
   for (const Face& f : surface.mesh().faces()) weights.push_back((at[f[0]] + at[f[1]] + at[f[2]]) / 3);
@@ -147,6 +147,25 @@ std::vector<EdgeCost> edge_costs(const std::string& file, const Surface& surface
   return edges;
 }
 
+// Rows of four numbers, one for every face: a direction and the cost across it.
+std::vector<Grain> grain_of(const std::string& file, const Surface& surface) {
+  std::vector<double> place;  // of the row of every triangle
+  const std::vector<std::vector<double>> rows = rows_of(file);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].size() != 4) {
+      refuse("--grain " + file + ": the direction's x y z, and how many times as much going across it costs, not " +
+             counted(rows[i].size(), "number", "numbers"));
+    }
+    place.push_back(static_cast<double>(i));
+  }
+  std::vector<Grain> grain;
+  for (const double i : on_faces("--grain " + file, std::move(place), surface)) {
+    const std::vector<double>& row = rows[static_cast<std::size_t>(i)];
+    grain.push_back({{row[0], row[1], row[2]}, row[3]});
+  }
+  return grain;
+}
+
 // A name, or a file of slopes and paces.
 SlopePace pace_of(const std::string& slope) {
   if (slope == "tobler") return SlopePace::tobler();
@@ -175,16 +194,17 @@ Weights weights_of(const SharedArguments& a, const Surface& surface) {
     weights.face = face_weights(a.weights_file, surface);
   }
   if (!a.edge_weights_file.empty()) weights.edges = edge_costs(a.edge_weights_file, surface);
+  if (!a.grain_file.empty()) weights.grain = grain_of(a.grain_file, surface);
   if (!a.slope.empty()) weights.pace = pace_of(a.slope);
   if (weights.pace && a.steepest) weights.pace = weights.pace->up_to(*a.steepest);
   return weights;
 }
 
 WeightedOptions weighted_computation(const SharedArguments& a) {
-  if (const char* name = given(a, {Shared::Method, Shared::Precision})) {
-    refuse(std::string(name) + ": with --weights there is one method, points on edges");
+  if (given(a, {Shared::Precision})) refuse("--precision: with --weights it is not to be chosen");
+  if ((!a.slope.empty() || !a.grain_file.empty()) && a.bound == "lower") {
+    refuse("--bound lower: with --slope and --grain there are upper bounds only");
   }
-  if (!a.slope.empty() && a.bound == "lower") refuse("--bound lower: with --slope there are upper bounds only");
   DistanceOptions plain = computation(a);
   WeightedOptions options;
   options.tolerance = given(a, {Shared::Tolerance}) ? plain.tolerance : kDefaultTolerance;
@@ -192,14 +212,28 @@ WeightedOptions weighted_computation(const SharedArguments& a) {
   options.lower = plain.bound != Bound::Upper;
   options.max_distance = plain.max_distance;
   options.cancel = plain.cancel;
+  if (given(a, {Shared::Method})) {
+    if (plain.method != Method::NovotniKlein && plain.method != Method::KimmelSethian) {
+      refuse(
+          "--method " + a.methods.front() +
+          ": with --weights there are points on edges, which is what is taken without --method, and novotni-klein and "
+          "kimmel-sethian");
+    }
+    if (a.bound == "lower") refuse("--bound lower: marching has no bounds");
+    options.marching = plain.method;
+  }
   return options;
+}
+
+std::string method_of(const Weighting& weighting) {
+  return weighting.options().marching ? std::string(name_of(*weighting.options().marching)) : "steiner";
 }
 
 void weigh(DistanceOptions& options, const SharedArguments& a, const Surface& surface) {
   if (surface.weights() == nullptr) return;
   const WeightedOptions how = weighted_computation(a);
   options.weighting = std::make_shared<const Weighting>(surface.domain(), *surface.weights(),
-                                                        WeightingOptions{how.tolerance, how.towards});
+                                                        WeightingOptions{how.tolerance, how.towards, how.marching});
 }
 
 }  // namespace brushfire::tool

@@ -17,6 +17,9 @@ Weights weights_of(const SharedArguments& arguments, const Surface& surface);
 // --tolerance, --accuracy, --bound and --radius. Throws Error(InvalidArgument) for options that have no meaning here.
 WeightedOptions weighted_computation(const SharedArguments& arguments);
 
+// What costs are computed by, as results name it.
+std::string method_of(const Weighting& weighting);
+
 // Makes costs of distances where weights were given, in surface.domain(). Throws as weighted_computation() does.
 void weigh(DistanceOptions& options, const SharedArguments& arguments, const Surface& surface);
 

@@ -28,12 +28,16 @@ void Fingerprint::add(const Places& places) {
 void Fingerprint::add(const Weighting& weighting) {
   add(weighting.options().tolerance);
   add(std::uint64_t{weighting.options().towards});
+  if (weighting.options().marching) add(static_cast<std::uint64_t>(*weighting.options().marching));
   const Weights& weights = weighting.weights();
   add(weights.face.data(), weights.face.size() * sizeof(double));
   for (const EdgeCost& e : weights.edges) {
     add(std::uint64_t{e.vertices[0]} << 32 | e.vertices[1]);
     add(e.along);
     add(e.crossing);
+  }
+  for (const Grain& g : weights.grain) {
+    for (const double x : {g.direction.x, g.direction.y, g.direction.z, g.across}) add(x);
   }
   if (!weights.pace) return;
   constexpr int kSamples = 1000;  // on each side of the flat, up to 45 degrees and beyond

@@ -46,6 +46,14 @@ WeightedLeg leg_of(const Run& run, const Strip& strip, std::size_t k) {
     const steiner::Travel travel{weighted.pace(), run.towards};
     result.weight *= travel.cost(result.length, rise) / result.length;
   }
+  if (weighted.stretches().any() && leg.face != kNoIndex && result.length > 0) {
+    const Mesh& mesh = weighted.mesh();
+    const auto a = weights_in(mesh, locate(mesh, point_of(weighted, strip.stops[k])), leg.face);
+    const auto b = weights_in(mesh, locate(mesh, point_of(weighted, strip.stops[k + 1])), leg.face);
+    if (a && b) {
+      result.weight *= weighted.stretches().within(mesh, leg.face, *a, *b) * mesh.unit() / result.length;
+    }
+  }
   Index face = leg.face;
   if (face == kNoIndex) {
     const Index h = weighted.edges().halfedge(leg.edge);
@@ -84,7 +92,7 @@ WeightedPath path_to(const Run& run, std::span<const PointLocation> sides, std::
       std::min_element(values.begin(), values.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   if (best == values.end() || best->value == kInfinity) return {};
   Strip strip = weighted::trace(run, sides[static_cast<std::size_t>(best - values.begin())], *best);
-  if (run.mesh->pace() == nullptr) make_locally_shortest(*run.mesh, strip);
+  if (run.mesh->is_isotropic()) make_locally_shortest(*run.mesh, strip);
   WeightedPath path = path_of(run, strip);
   path.source = run.sources[steiner::source_behind(run, best->parent)].label;
   return path;

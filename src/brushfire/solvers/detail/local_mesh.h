@@ -6,7 +6,10 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 
+#include <cstddef>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace brushfire::detail {
 
@@ -24,6 +27,12 @@ class LocalMesh {
 
   // From numbers of this mesh to the caller's, and back.
   Index vertex(Index local) const { return vertex_.empty() ? local : vertex_[local]; }
+  // What each of the caller's faces has ([face_count]), in the order of this mesh.
+  std::vector<double> of_faces(std::span<const double> values) const {
+    std::vector<double> here(values.begin(), values.end());
+    for (std::size_t f = 0; f < here.size() && !vertex_.empty(); ++f) here[face_rank_[f]] = values[f];
+    return here;
+  }
   PointLocation location(PointLocation at) const {
     if (vertex_.empty()) return at;
     const Index face = at.face;

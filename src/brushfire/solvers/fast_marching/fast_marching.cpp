@@ -9,6 +9,7 @@
 #include <brushfire/solvers/detail/local_mesh.h>
 #include <brushfire/solvers/detail/sheets.h>
 #include <brushfire/solvers/detail/start.h>
+#include <brushfire/solvers/fast_marching/detail/cost_seeds.h>
 #include <brushfire/solvers/fast_marching/detail/fronts.h>
 #include <brushfire/solvers/fast_marching/detail/march.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
@@ -56,8 +57,13 @@ constexpr std::chrono::microseconds kStealAfter{0};
 template <class T>
 class Marcher {
  public:
-  Marcher(const LocalMesh& local, Index part_size)
-      : local_(local), mesh_(local.mesh()), rings_(build_rings<T>(mesh_, part_size)), state_(rings_.layout.parts) {
+  // `weights`: of the faces, in the local order; empty: 1 everywhere. They stay.
+  Marcher(const LocalMesh& local, Index part_size, std::span<const double> weights = {})
+      : local_(local),
+        mesh_(local.mesh()),
+        costs_(mesh_, weights),
+        rings_(build_rings<T>(mesh_, part_size, Variant::Best, costs_)),
+        state_(rings_.layout.parts) {
     // Half a mean edge measured best; the front is that wide, and order inside it does not matter.
     state_.buckets_per_unit = static_cast<T>(2 / rings_.layout.mean_edge);
   }
@@ -103,10 +109,19 @@ class Marcher {
     for (const detail::LocatedSource& s : problem.sources) {
       const double offset = s.offset - base_;
       if (state_.labelled) state_.start[s.label] = static_cast<T>(offset);
-      for (const detail::Seed& seed : seeds_.in_sight(mesh_, s.at, crossings, problem.max_distance - s.offset)) {
+      for (const detail::Seed& seed : first_seeds(s.at, crossings, problem.max_distance - s.offset)) {
         state_.seed(seed.vertex, static_cast<T>(offset + seed.distance), s.label);
       }
     }
+  }
+
+  // With costs those of the faces that the source is in: fronts beyond them are bent.
+  std::span<const detail::Seed> first_seeds(const PointLocation& at, int crossings, double limit) const {
+    return costs_.any() ? seeds_around(at) : seeds_.in_sight(mesh_, at, crossings, limit);
+  }
+
+  std::span<const detail::Seed> seeds_around(const PointLocation& at) const {
+    return costs_.any() ? cost_seeds_.around(mesh_, costs_, at) : seeds_.in_own_faces(mesh_, at);
   }
 
   void march(const detail::Problem& problem) {
@@ -168,7 +183,7 @@ class Marcher {
   // A target is read from the corners of its faces, so these have to be final.
   bool is_final(const PointLocation& at, double front) const {
     if (at.on == PointLocation::On::Vertex) return base_ + value(at.vertex) < front;
-    for (const detail::Seed& seed : seeds_.in_own_faces(mesh_, at)) {
+    for (const detail::Seed& seed : seeds_around(at)) {
       if (!(base_ + value(seed.vertex) < front)) return false;
     }
     return true;
@@ -179,7 +194,7 @@ class Marcher {
     double around = 0;
     for (const PointLocation& at : problem.targets) {
       if (at.on == PointLocation::On::Vertex) continue;
-      for (const detail::Seed& seed : seeds_.in_own_faces(mesh_, at)) around = std::max(around, seed.distance);
+      for (const detail::Seed& seed : seeds_around(at)) around = std::max(around, seed.distance);
     }
     return problem.max_distance + around;
   }
@@ -196,14 +211,15 @@ class Marcher {
     if (at.on == PointLocation::On::Vertex) {
       consider(base_ + value(at.vertex), label(at.vertex));
     } else {
-      for (const detail::Seed& seed : seeds_.in_own_faces(mesh_, at)) {
+      for (const detail::Seed& seed : seeds_around(at)) {
         consider(base_ + value(seed.vertex) + seed.distance, label(seed.vertex));
       }
       if (mesh_.is_face_usable(at.face)) {
         detail::for_edges_around(mesh_, at, [&](Index h, Vec2 p) { through_edge(problem, h, p, consider); });
       }
       for (const detail::LocatedSource& s : problem.sources) {
-        const double d = detail::straight_distance(mesh_, s.at, at);
+        const double d =
+            costs_.any() ? straight_cost(mesh_, costs_, s.at, at) : detail::straight_distance(mesh_, s.at, at);
         consider(s.offset + d, s.label);
       }
     }
@@ -219,7 +235,8 @@ class Marcher {
     if (l == kNoIndex || l != label(v2)) return;
     const double started = state_.labelled ? static_cast<double>(state_.start[l]) : 0.0;
     const FrontModel model = front_model(problem.options->method);
-    const double d = update(model, mesh_.length(h), at, value(v1) - started, value(v2) - started);
+    const double w = costs_.of(Mesh::face_of(h));
+    const double d = update(model, w * mesh_.length(h), w * at, value(v1) - started, value(v2) - started);
     consider(base_ + started + d, l);
   }
 
@@ -268,10 +285,12 @@ class Marcher {
 
   const LocalMesh& local_;
   const Mesh& mesh_;
+  FaceCosts costs_;
   Rings<T> rings_;
   std::vector<detail::LocatedSource> sources_;  // of the run, in local numbers
   std::vector<PointLocation> targets_;
   mutable detail::SeedSearch seeds_;
+  mutable CostSeeds cost_seeds_;
   MarchState<T> state_;
   MarchPart<T> march_part_ = nullptr;  // of this run
   partition::WorkerTeam workers_{kStealAfter};
@@ -281,18 +300,22 @@ class Marcher {
 
 class FastMarching final : public detail::Engine {
  public:
-  FastMarching(Mesh mesh, Index part_size)
-      : mesh_(std::move(mesh)), part_size_(part_size), float_is_enough_(detail::fits_float(mesh_)) {}
+  FastMarching(Mesh mesh, Index part_size, std::vector<double> weights = {})
+      : mesh_(std::move(mesh)),
+        part_size_(part_size),
+        weights_(std::move(weights)),
+        float_is_enough_(detail::fits_float(mesh_) && fit_float(weights_)) {}
 
   bool lists_touched() const override { return true; }
 
   void set_up(const DistanceOptions& options) override {
+    const LocalMesh& mesh = local();  // first: it orders the weights
     if (options.method == Method::NovotniKlein2002) {
-      if (!literal_) literal_.emplace(local(), kNoIndex);
+      if (!literal_) literal_.emplace(mesh, kNoIndex, weights_);
     } else if (options.precision == Precision::Float && float_is_enough_) {
-      if (!in_float_) in_float_.emplace(local(), part_size_);
+      if (!in_float_) in_float_.emplace(mesh, part_size_, weights_);
     } else {
-      if (!in_double_) in_double_.emplace(local(), part_size_);
+      if (!in_double_) in_double_.emplace(mesh, part_size_, weights_);
     }
   }
 
@@ -309,12 +332,21 @@ class FastMarching final : public detail::Engine {
 
  private:
   const LocalMesh& local() {
-    if (!local_) local_.emplace(mesh_);
+    if (!local_) {
+      local_.emplace(mesh_);
+      weights_ = local_->of_faces(weights_);
+    }
     return *local_;
+  }
+
+  // Squares of lengths times weights stay far from where floats end.
+  static bool fit_float(const std::vector<double>& weights) {
+    return std::all_of(weights.begin(), weights.end(), [](double w) { return 0x1p-20 <= w && w <= 0x1p20; });
   }
 
   Mesh mesh_;
   Index part_size_;
+  std::vector<double> weights_;  // of the faces; in the local order once there is one
   bool float_is_enough_;
   std::optional<LocalMesh> local_;
   std::optional<Marcher<float>> in_float_;
@@ -335,6 +367,11 @@ std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh) {
   std::shared_ptr<const detail::Sheets> sheets = detail::Sheets::where_likely(mesh);
   const auto make = [](const Mesh& m) { return make_engine(m, usual_part_size(m)); };
   return sheets ? detail::make_on_one_sheet(std::move(sheets), make) : make(mesh);
+}
+
+std::unique_ptr<detail::Engine> make_weighted_engine(const Mesh& mesh, std::span<const double> weights) {
+  return std::make_unique<FastMarching>(mesh, usual_part_size(mesh),
+                                        std::vector<double>(weights.begin(), weights.end()));
 }
 
 std::unique_ptr<detail::Engine> make_engine(const Mesh& mesh, Index part_size) {

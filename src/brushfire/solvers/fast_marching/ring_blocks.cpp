@@ -24,8 +24,9 @@ namespace {
 template <class T>
 class RingBuilder {
  public:
-  RingBuilder(const Mesh& mesh, Index part_size, Variant variant)
+  RingBuilder(const Mesh& mesh, Index part_size, Variant variant, const FaceCosts& costs)
       : mesh_(mesh),
+        costs_(costs),
         variant_(variant),
         faces_(mesh.faces()),
         shape_{mesh.positions(),
@@ -34,10 +35,10 @@ class RingBuilder {
                mesh.all_corners(),
                1 / mesh.unit(),
                mesh.vertex_count(),
-               mesh.has_positions() && !mesh.has_slits()},
+               mesh.has_positions() && !mesh.has_slits() && !costs.any()},
         part_shift_(partition::part_shift(part_size)),
         lanes_(mesh.vertex_count()),
-        unfolded_(mesh, variant) {}
+        unfolded_(mesh, variant, costs) {}
 
   Rings<T> build() {
     fill();
@@ -57,7 +58,8 @@ class RingBuilder {
     regular_sides_.resize(mesh_.vertex_count());
     fill_rings();
     lanes_.take(rings_);
-    if (sum_of_lengths_ > 0) rings_.layout.mean_edge = sum_of_lengths_ / static_cast<double>(mesh_.halfedge_count());
+    if (!(sum_of_lengths_ > 0)) return;
+    rings_.layout.mean_edge = costs_.mean() * sum_of_lengths_ / static_cast<double>(mesh_.halfedge_count());
   }
 
   void fill_rings() {
@@ -139,9 +141,10 @@ class RingBuilder {
       const Index f = Mesh::face_of(h), next = Mesh::next(h), previous = Mesh::previous(h);
       const Face& t = faces_[f];
       const Index a = t[next % 3], b = t[previous % 3];
-      const auto [length, area] = unfolded_.unfolder().geometry(f);
-      const double la = length[h % 3], lb = length[previous % 3], lab = length[next % 3];
-      sum_of_lengths_ += la;
+      const auto [length, double_area] = unfolded_.unfolder().geometry(f);
+      const double w = costs_.of(f), la = w * length[h % 3], lb = w * length[previous % 3], lab = w * length[next % 3];
+      const double area = w * w * double_area;
+      sum_of_lengths_ += length[h % 3];
       differ |= (a ^ v) | (b ^ v);
       if (a == b || a == v || b == v) {
         lanes_.add_edge(v, a, la);
@@ -154,13 +157,13 @@ class RingBuilder {
       ends_.insert(ends_.end(), {a, b});
       if (dot < 0) obtuse_.push_back(h);
       deficit -= portable::quick_angle(dot, area);
-      around += area / 6;
+      around += double_area / 6;
     }
     const bool inner = is_inner(v), flat = !inner || std::abs(deficit) < kFlat<T>;
     deficits_[v] = {flat ? 0.0f : static_cast<float>(deficit), static_cast<float>(around)};
     regular_sides_[v] = 0;
     if (differ >> part_shift_ != 0) at_border_.push_back(v);
-    add_fans(v, inner);
+    add_fans(v, inner && !costs_.any());
   }
 
   // Whether every edge at v has two faces.
@@ -189,7 +192,7 @@ class RingBuilder {
       take(inner ? 0 : first_of_fan());
       while (continue_fan()) {
       }
-      const bool closed = fan_.size() > 2 && fan_.back().b == fan_.front().a;
+      const bool closed = fan_.size() > 2 && goes_on(fan_.back(), fan_.front());
       lanes_.add_fan(v, fan_, closed);
     }
   }
@@ -199,13 +202,19 @@ class RingBuilder {
     loose_.erase(loose_.begin() + static_cast<std::ptrdiff_t>(at));
   }
 
+  // Whether the next one begins on the side where the first one ends.
+  bool goes_on(const Corner& first, const Corner& next) const {
+    return next.a == first.b && (!costs_.any() || next.length_a == first.length_b);
+  }
+
   // One with a side that no other one has, if there is any.
   std::size_t first_of_fan() {
     for (std::size_t i = 0; i < loose_.size(); ++i) {
       Index at_a = 0, at_b = 0;
       for (const Corner& c : loose_) {
-        at_a += (c.a == loose_[i].a) + (c.b == loose_[i].a);
-        at_b += (c.a == loose_[i].b) + (c.b == loose_[i].b);
+        const Corner& own = loose_[i];
+        at_a += goes_on(own.mirrored(), c) + goes_on(own.mirrored(), c.mirrored());
+        at_b += goes_on(own, c) + goes_on(own, c.mirrored());
       }
       if (at_a > 1 && at_b > 1) continue;
       if (at_a > 1) loose_[i] = loose_[i].mirrored();
@@ -216,8 +225,9 @@ class RingBuilder {
 
   bool continue_fan() {
     for (std::size_t i = 0; i < loose_.size(); ++i) {
-      if (loose_[i].a != fan_.back().b && loose_[i].b != fan_.back().b) continue;
-      if (loose_[i].a != fan_.back().b) loose_[i] = loose_[i].mirrored();
+      const bool as_is = goes_on(fan_.back(), loose_[i]);
+      if (!as_is && !goes_on(fan_.back(), loose_[i].mirrored())) continue;
+      if (!as_is) loose_[i] = loose_[i].mirrored();
       take(i);
       return true;
     }
@@ -233,7 +243,8 @@ class RingBuilder {
       poll_();
       if (v + kAhead < shape_.none) brushfire::prefetch(&rings_.blocks[v + kAhead]);
       const AngleDeficit around = regular_sides_[v] > 0 ? regular_sum(v) : any_sum(v);
-      rings_.heads[v].correction = static_cast<T>(curvature_correction(deficits_[v], around));
+      const double w = costs_.around(v);  // what bends fronts where weights differ is not the surface alone
+      rings_.heads[v].correction = w > 0 ? static_cast<T>(curvature_correction(deficits_[v], around) / w) : T(0);
     }
   }
 
@@ -347,6 +358,7 @@ class RingBuilder {
   }
 
   const Mesh& mesh_;
+  FaceCosts costs_;
   Variant variant_;
   std::span<const Face> faces_;
   Poll poll_{256};  // a step may be a vertex of many faces
@@ -374,11 +386,11 @@ class RingBuilder {
 }  // namespace
 
 template <class T>
-Rings<T> build_rings(const Mesh& mesh, Index part_size, Variant variant) {
-  return RingBuilder<T>(mesh, part_size, variant).build();
+Rings<T> build_rings(const Mesh& mesh, Index part_size, Variant variant, const FaceCosts& costs) {
+  return RingBuilder<T>(mesh, part_size, variant, costs).build();
 }
 
-template Rings<float> build_rings<float>(const Mesh& mesh, Index part_size, Variant variant);
-template Rings<double> build_rings<double>(const Mesh& mesh, Index part_size, Variant variant);
+template Rings<float> build_rings<float>(const Mesh& mesh, Index part_size, Variant variant, const FaceCosts& costs);
+template Rings<double> build_rings<double>(const Mesh& mesh, Index part_size, Variant variant, const FaceCosts& costs);
 
 }  // namespace brushfire::fast_marching

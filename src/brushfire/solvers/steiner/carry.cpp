@@ -39,6 +39,7 @@ class Carrying {
  private:
   Index layout_edges() const { return mesh_.edges().count(); }
   void find_changes();
+  bool has_same_grain(Index old, Index f) const;
   void find_changed_bridges();
   void match_sources();
   void copy_front();
@@ -82,8 +83,9 @@ void Carrying::find_changes() {
   change_.assign(layout_edges(), 0);
   for (Index f = 0; f < mesh_.mesh().face_count(); ++f) {
     const Index old = match_.face[f];
-    const std::uint8_t c =
-        old == kNoIndex ? std::uint8_t{kBoth} : change_of(before_.mesh->face_weight(old), mesh_.face_weight(f));
+    const std::uint8_t c = old == kNoIndex || !has_same_grain(old, f)
+                               ? std::uint8_t{kBoth}
+                               : change_of(before_.mesh->face_weight(old), mesh_.face_weight(f));
     if (c == 0) continue;
     for (Index k = 0; k < 3; ++k) change_[mesh_.edges().edge(3 * f + k)] |= c;
   }
@@ -95,6 +97,14 @@ void Carrying::find_changes() {
     }
   }
   find_changed_bridges();
+}
+
+bool Carrying::has_same_grain(Index old, Index f) const {
+  const Stretches &before = before_.mesh->stretches(), &after = mesh_.stretches();
+  if (!before.any() && !after.any()) return true;
+  bool same = before.area(old) == after.area(f);
+  for (Index k = 0; k < 3; ++k) same = same && before.along(3 * old + k) == after.along(3 * f + k);
+  return same;
 }
 
 void Carrying::find_changed_bridges() {

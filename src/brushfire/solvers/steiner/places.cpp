@@ -25,10 +25,13 @@ FaceOver Places::over(Index h) const {
   over.end = end_of(over.edge, true);
   over.length = mesh.lengths()[h];
   const bool same_way = mesh.from(h) == over.start;
-  const double from_start = mesh.lengths()[same_way ? Mesh::previous(h) : Mesh::next(h)];
-  const double from_end = mesh.lengths()[same_way ? Mesh::next(h) : Mesh::previous(h)];
-  over.apex = over.length > 0 ? apex_over_edge(over.length, from_start, from_end, mesh.double_areas()[over.face])
-                              : Vec2{from_start, 0};
+  const Stretches& stretches = mesh_.stretches();
+  over.stretch = stretches.along(h);
+  const auto length = [&](Index g) { return mesh.lengths()[g] * (stretches.along(g) / over.stretch); };
+  const double from_start = length(same_way ? Mesh::previous(h) : Mesh::next(h));
+  const double from_end = length(same_way ? Mesh::next(h) : Mesh::previous(h));
+  const double area = mesh.double_areas()[over.face] * (stretches.area(over.face) / (over.stretch * over.stretch));
+  over.apex = over.length > 0 ? apex_over_edge(over.length, from_start, from_end, area) : Vec2{from_start, 0};
   if (travel_.pace != nullptr) {
     const Index apex = mesh.from(Mesh::previous(h));
     over.gradient.x = gradient_along(over.edge);
@@ -71,7 +74,7 @@ void Places::add_beside(Index h, const PointLocation& place, std::vector<RowBesi
     if (v == o.end) at = at + (*weights)[k] * Vec2{o.length, 0};
     if (v != o.end && v != o.start) at = at + (*weights)[k] * o.apex;
   }
-  rows.push_back({o.edge, mesh_.face_weight(f), at, o.gradient, false, rounding_of(o)});
+  rows.push_back({o.edge, mesh_.face_weight(f) * o.stretch, at, o.gradient, false, rounding_of(o)});
 }
 
 // Along the place's own edge a lowered cost is the distance from the interval that holds it.
@@ -102,7 +105,9 @@ ValueAt Places::straight_from(std::span<const detail::LocatedSource> sources, co
     for (const Index f : faces_at(mesh, source)) {
       const auto a = weights_in(mesh, source, f), b = weights_in(mesh, place, f);
       if (!a || !b) continue;
+      const double straight = distance_within(mesh, f, *a, *b);
       double weight = mesh_.face_weight(f);
+      if (mesh_.stretches().any() && straight > 0) weight *= mesh_.stretches().within(mesh, f, *a, *b) / straight;
       for (Index k = 0; k < 3; ++k) {  // on one edge
         const Index across = (k + 2) % 3;
         if ((*a)[across] == 0 && (*b)[across] == 0) {
@@ -114,7 +119,7 @@ ValueAt Places::straight_from(std::span<const detail::LocatedSource> sources, co
       for (std::size_t k = 0; k < 3 && travel_.pace != nullptr; ++k) {
         rise += ((*b)[k] - (*a)[k]) * mesh_.height(mesh.faces()[f][k]);
       }
-      const double value = sources[s].offset + weight * travel_.cost(distance_within(mesh, f, *a, *b), rise);
+      const double value = sources[s].offset + weight * travel_.cost(straight, rise);
       if (value < best.value) best = {value, kFromSource + static_cast<Index>(s)};
     }
   }

@@ -43,6 +43,7 @@ struct Shapes {
 Shapes shapes_of(const WeightedMesh& weighted) {
   const Mesh& mesh = weighted.mesh();
   const EdgeTable& edges = weighted.edges();
+  const Stretches& stretches = weighted.stretches();
   Shapes shapes{std::vector<EdgeShape>(edges.count()), std::vector<double>(mesh.vertex_count(), kInfinity)};
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     const Index e = edges.edge(h), f = Mesh::face_of(h);
@@ -50,8 +51,11 @@ Shapes shapes_of(const WeightedMesh& weighted) {
     shape.length = mesh.lengths()[h];
     if (!mesh.is_face_usable(f) || weighted.face_weight(f) == kInfinity) continue;
     const bool same_way = mesh.from(h) == mesh.from(edges.halfedge(e));
-    const double area = mesh.double_areas()[f], next = mesh.lengths()[Mesh::next(h)],
-                 previous = mesh.lengths()[Mesh::previous(h)], squares = shape.length * shape.length;
+    // With a grain: as the face is laid out, where lengths are costs, but for the edge, which keeps its own.
+    const auto length = [&](Index g) { return mesh.lengths()[g] * (stretches.along(g) / stretches.along(h)); };
+    const double area = mesh.double_areas()[f] * (stretches.area(f) / (stretches.along(h) * stretches.along(h)));
+    const double next = length(Mesh::next(h)), previous = length(Mesh::previous(h)),
+                 squares = shape.length * shape.length;
     // Beyond a right angle the vertex itself is what is nearest of the other edge.
     const auto sine = [&](double beside, double across) {
       if (squares + beside * beside <= across * across) return 1.0;

@@ -215,7 +215,7 @@ void Search::send_to_row(const FaceOver& over, Index target, Index first, Index 
                layout_.room(target)};
   const double length = to.at[layout_.count(target) - 1];
   if (length > 0) to.direction = (1 / length) * (place(end_of(target, true)) - to.start);
-  const double weight = mesh_.face_weight(over.face);
+  const double weight = mesh_.face_weight(over.face) * over.stretch;
   bool lower;
   if (travel_.pace != nullptr) {
     lower = relax_sloped_rows(from, to, weight, over.gradient, travel_, offers_);

@@ -71,7 +71,11 @@ Domain fenced(const Mesh& mesh, const Barriers& barriers) {
 }  // namespace
 
 Weights weights_on_open(const Domain& domain, const Weights& weights) {
-  return {on_open(domain, weights.face), on_open(domain, merged(weights.edges)), weights.pace};
+  Weights open{on_open(domain, weights.face), on_open(domain, merged(weights.edges)), weights.pace};
+  for (Index f = 0; f < domain.open().face_count() && !weights.grain.empty(); ++f) {
+    open.grain.push_back(weights.grain[domain.face(f)]);
+  }
+  return open;
 }
 
 WeightedMesh::WeightedMesh(const Domain& domain, const Weights& weights)
@@ -91,12 +95,17 @@ std::shared_ptr<const WeightedMesh> WeightedMesh::reweighted(const Weights& weig
   if (barriers.faces != barriers_.faces || barriers.edges != barriers_.edges) return nullptr;
   auto result = std::make_shared<WeightedMesh>(*this);
   result->set_weights(open);
-  return result;
+  return result->stretches_ == stretches_ ? result : nullptr;  // points lie by the grain
 }
 
 void WeightedMesh::set_weights(const Weights& opened) {
   pace_ = opened.pace;
   const Mesh& open = mesh();
+  std::vector<Grain> grain;
+  for (Index f = 0; f < open.face_count() && !opened.grain.empty(); ++f) {
+    grain.push_back(opened.grain[fenced_.face(f)]);
+  }
+  stretches_ = Stretches(open, grain);
   face_weight_.resize(open.face_count());
   double sum = 0;
   for (Index f = 0; f < open.face_count(); ++f) {
@@ -108,7 +117,7 @@ void WeightedMesh::set_weights(const Weights& opened) {
   edge_weight_.assign(edges_->count(), kInfinity);
   for (Index h = 0; h < open.halfedge_count(); ++h) {
     double& w = edge_weight_[edges_->edge(h)];
-    w = std::min(w, face_weight_[Mesh::face_of(h)]);
+    w = std::min(w, face_weight_[Mesh::face_of(h)] * stretches_.along(h));
   }
   for (const EdgeCost& e : opened.edges) {
     for (const Index h : open_halfedges(e.vertices[0], e.vertices[1])) {

@@ -5,6 +5,7 @@
 #include <brushfire/core/error.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace brushfire {
@@ -21,6 +22,28 @@ void check_faces(const Mesh& mesh, const std::vector<double>& weights) {
     throw Error(ErrorCode::InvalidArgument,
                 "weight " + number_as_text(weights[f]) + " of face " + std::to_string(f) + " is not > 0" +
                     (weights[f] == 0 ? ": where going costs next to nothing, give a small weight" : ""));
+  }
+}
+
+void check_grain(const Mesh& mesh, const Weights& weights) {
+  const std::vector<Grain>& grain = weights.grain;
+  if (grain.empty()) return;
+  const auto fail = [](const std::string& what) { throw Error(ErrorCode::InvalidArgument, what); };
+  if (grain.size() != mesh.face_count()) {
+    fail("a grain for " + std::to_string(grain.size()) + " faces of " + std::to_string(mesh.face_count()) +
+         ": one per face is needed");
+  }
+  if (!mesh.has_positions()) fail("a grain needs positions, and this mesh has lengths only");
+  if (weights.pace) fail("a grain and slopes do not go together");
+  for (std::size_t f = 0; f < grain.size(); ++f) {
+    const auto& [x, y, z] = grain[f].direction;
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+      fail("the grain of face " + std::to_string(f) + " has no finite direction");
+    }
+    if (!(grain[f].across > 0 && grain[f].across < kInfinity)) {
+      fail("the cost across the grain of face " + std::to_string(f) + ", " + number_as_text(grain[f].across) +
+           ", is not > 0 and finite");
+    }
   }
 }
 
@@ -57,7 +80,7 @@ void check_edge(const Mesh& mesh, const EdgeCost& edge, const std::vector<double
 }  // namespace
 
 double Weights::uniform() const {
-  if (!edges.empty() || pace) return 0;
+  if (!edges.empty() || !is_isotropic()) return 0;
   if (face.empty()) return 1;
   const bool same =
       face.front() < kInfinity && std::all_of(face.begin(), face.end(), [&](double w) { return w == face.front(); });
@@ -69,6 +92,7 @@ void check(const Mesh& mesh, const Weights& weights) {
   if (weights.pace && !mesh.has_positions()) {
     throw Error(ErrorCode::InvalidArgument, "slopes need positions, and this mesh has lengths only");
   }
+  check_grain(mesh, weights);
   for (const EdgeCost& edge : weights.edges) check_edge(mesh, edge, weights.face);
 }
 

@@ -22,6 +22,15 @@ struct EdgeCost {
   double crossing = 0;
 };
 
+// A metric in a face that is not the same in all directions: a unit of length along `direction` (as far as that lies in
+// the face's plane) costs the face's weight, one at right angles to it `across` times as much, and one at an angle a to
+// it sqrt(cos^2 a + across^2 sin^2 a) times as much. Every symmetric metric of a plane is one of these. Both ways cost
+// the same.
+struct Grain {
+  Vec3 direction{};   // of any length; at right angles to the face, or 0: no grain
+  double across = 1;  // > 0
+};
+
 // The cost of a path is the sum over its pieces of length times weight, plus what crossings cost. Weights of 1 and no
 // edges are distances.
 struct Weights {
@@ -32,7 +41,13 @@ struct Weights {
   // length on the map. z is up, and the mesh must have positions. Paths from a to b and from b to a then differ.
   std::optional<SlopePace> pace = std::nullopt;
 
-  // The weight of all faces where they have one and the same, no edge is special and no slope counts; else 0.
+  // [face_count], or empty: 1 in all directions. Upper bounds only, and not together with `pace`; the mesh must have
+  // positions.
+  std::vector<Grain> grain = {};
+
+  // Whether directions make no difference. Only then there are lower bounds, and paths that are straightened.
+  bool is_isotropic() const { return !pace && grain.empty(); }
+  // The weight of all faces where they have one and the same, no edge is special and no direction counts; else 0.
   double uniform() const;
 };
 

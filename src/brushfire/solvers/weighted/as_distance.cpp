@@ -24,8 +24,11 @@ void check(const Domain& domain, const DistanceOptions& options) {
                 "costs have no windows to keep, which exact arcs, signs and paths of distances are read from; paths of "
                 "costs are weighted_paths()");
   }
-  if (options.bound == Bound::Lower && options.weighting->weights().pace) {
-    throw Error(ErrorCode::InvalidArgument, "lower bounds: where slopes count there are upper ones only");
+  if (options.bound == Bound::Lower && options.weighting->options().marching) {
+    throw Error(ErrorCode::InvalidArgument, "lower bounds: marching has none");
+  }
+  if (options.bound == Bound::Lower && !options.weighting->weights().is_isotropic()) {
+    throw Error(ErrorCode::InvalidArgument, "lower bounds: where slopes or a grain count there are upper ones only");
   }
 }
 
@@ -35,6 +38,7 @@ DistanceField run_as_distance(WeightedSolver& solver, const Domain& domain, std:
   WeightedOptions how;
   how.tolerance = options.weighting->options().tolerance;
   how.towards = options.weighting->options().towards;
+  how.marching = options.weighting->options().marching;
   how.lower = options.bound == Bound::Lower;
   how.max_distance = options.max_distance;
   how.targets = options.targets;

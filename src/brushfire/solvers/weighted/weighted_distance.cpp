@@ -6,6 +6,7 @@
 #include <brushfire/solvers/refraction/detail/run.h>
 #include <brushfire/solvers/steiner/detail/run.h>
 #include <brushfire/solvers/weighted/detail/fields.h>
+#include <brushfire/solvers/weighted/detail/marching.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,7 @@ void bring_back(const WeightedMesh& mesh, std::vector<double>& values) {
 
 const char* name_of(WeightedEngine engine) noexcept {
   if (engine == WeightedEngine::Uniform) return "uniform";
+  if (engine == WeightedEngine::Marching) return "marching";
   return engine == WeightedEngine::Windows ? "windows" : "points";
 }
 
@@ -61,6 +63,7 @@ struct WeightedSolver::Workspace {
   };
   LaidOut for_real, for_below;  // the last ones: upper bounds need fewer points
   std::unique_ptr<refraction::Medium> medium;
+  std::unique_ptr<detail::Engine> marching;
 
   std::shared_ptr<const PointLayout> points_for(Costs costs, const WeightedOptions& options, unsigned doublings);
   WeightedField run_uniform(std::span<const Source> sources, const WeightedOptions& options);
@@ -214,7 +217,7 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
   if (lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
   run->layout = points_for(Costs::Real, options, doublings);
   std::shared_ptr<const PointLayout> below;
-  if (lower && !weights.pace) below = points_for(Costs::Below, options, doublings);
+  if (lower && weights.is_isotropic()) below = points_for(Costs::Below, options, doublings);
   search(*run, options, below.get(), field);
   field.points = run->layout->size() + (below ? below->size() : 0);
   field.run = std::move(run);
@@ -299,6 +302,12 @@ WeightedSolver WeightedSolver::twin() const {
 WeightedField WeightedSolver::distance(std::span<const Source> sources, const WeightedOptions& options) {
   const CancelScope listen(options.cancel);
   check(options);
+  if (options.marching) {
+    Workspace& w = *workspace_;
+    if (!w.mesh) w.mesh = std::make_shared<WeightedMesh>(w.domain, w.weights);
+    if (!w.marching) w.marching = make_march(*w.mesh, w.weights);
+    return march(w.mesh, *w.marching, sources, options);
+  }
   if (workspace_->uniform > 0) return workspace_->run_uniform(sources, options);
   WeightedField field = workspace_->run(sources, options, 0);
   for (unsigned k = 1; k <= options.refinements && !field.lower.empty() && field.max_error_bound > options.tolerance;

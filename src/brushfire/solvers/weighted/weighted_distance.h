@@ -18,6 +18,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +43,10 @@ struct WeightedOptions {
   bool towards = false;
   // false: upper bounds only, those of a search over points on edges.
   bool lower = true;
+  // Fast marching in place of bounds: nothing is promised, in a fraction of the time. Method::NovotniKlein, or where
+  // weights beside each other differ by more than ten times Method::KimmelSethian. Weights of faces only; from points.
+  // Tolerance, lower, towards and keep_paths do not count.
+  std::optional<Method> marching = std::nullopt;
   bool keep_paths = false;                 // WeightedField::run, for weighted_path(): by points on edges
   double max_distance = kInfinity;         // vertices that cost more read +inf; >= 0, may be +inf
   std::vector<SurfacePoint> targets = {};  // where there are any, it stops once all of them are final
@@ -49,10 +54,10 @@ struct WeightedOptions {
   const CancelToken* cancel = nullptr;  // null: what the thread listens to
 };
 
-// What answered: Method::Windows, since the weight is one and the same everywhere; windows that refract; or a search
-// over points on edges, for fences, slopes and paths, and where windows would take longer.
-enum class WeightedEngine { Uniform, Windows, Points };
-const char* name_of(WeightedEngine engine) noexcept;  // uniform, windows, points
+// What answered: Method::Windows, since the weight is one and the same everywhere; windows that refract; a search over
+// points on edges, for fences, slopes and paths, and where windows would take longer; or WeightedOptions::marching.
+enum class WeightedEngine { Uniform, Windows, Points, Marching };
+const char* name_of(WeightedEngine engine) noexcept;  // uniform, windows, points, marching
 
 // Costs are those of the cheapest paths, plus the sources' offsets. [vertex_count] unless said otherwise. From curves
 // there are upper bounds only, from points along them that lie as dense as those on edges.
@@ -96,8 +101,9 @@ class WeightedSolver {
   WeightedSolver twin() const;
 
   // Throws Error(InvalidArgument) for no sources, an offset that is not finite, a tolerance that is out of range, a
-  // negative max_distance and a source behind a wall; Error(TooLarge) where the points need more memory than there is;
-  // Error(Cancelled). About 0.5 to 2 microseconds for every point on an edge.
+  // negative max_distance, a source behind a wall, and marching by another method, over roads, fences or slopes or from
+  // curves; Error(TooLarge) where the points need more memory than there is; Error(Cancelled). About 0.5 to 2
+  // microseconds for every point on an edge.
   WeightedField distance(std::span<const Source> sources, const WeightedOptions& options = {});
 
  private:

@@ -72,7 +72,7 @@ Weighting::Weighting(const Domain& domain, Weights weights, const WeightingOptio
       weights_(std::move(weights)),
       options_(options),
       prototype_(domain_, weights_) {
-  prototype_.prepare(options.tolerance);
+  if (!options.marching) prototype_.prepare(options.tolerance);
 }
 
 std::shared_ptr<const Weighting> Weighting::on_open() const {
@@ -84,6 +84,9 @@ double Weighting::along(Index face, Index from, Index to) const {
   const double weight = weights_.face.empty() ? 1 : weights_.face[face];
   const Index h = 3 * face + ((from + 1) % 3 == to ? from : to);
   const double length = mesh.lengths()[h] * mesh.unit();
+  if (!weights_.grain.empty()) {
+    return weight * length * steiner::stretch_of(mesh, face, weights_.grain[face]).along[h % 3];
+  }
   if (!weights_.pace) return weight * length;
   const auto height = [&](Index k) { return mesh.positions()[mesh.faces()[face][k]].z; };
   const steiner::Travel travel{&*weights_.pace, options_.towards};

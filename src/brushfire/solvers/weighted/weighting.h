@@ -14,6 +14,7 @@
 #include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <memory>
+#include <optional>
 
 namespace brushfire {
 
@@ -22,8 +23,9 @@ class CostRuns;
 }
 
 struct WeightingOptions {
-  double tolerance = 0.01;  // as WeightedOptions::tolerance
-  bool towards = false;     // as WeightedOptions::towards
+  double tolerance = 0.01;                        // as WeightedOptions::tolerance
+  bool towards = false;                           // as WeightedOptions::towards
+  std::optional<Method> marching = std::nullopt;  // as WeightedOptions::marching
 };
 
 // A domain and what it costs to go there, prepared once: a run reads it and changes nothing, so that any number of

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/detail/planar.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/fast_marching/detail/face_costs.h>
 #include <brushfire/solvers/fast_marching/detail/lane_writer.h>
 #include <brushfire/solvers/fast_marching/detail/unfold.h>
 #include <brushfire/solvers/fast_marching/detail/unfolded_corner.h>
@@ -17,15 +18,15 @@ namespace brushfire::fast_marching {
 template <class T>
 class CornerUnfolder {
  public:
-  CornerUnfolder(const Mesh& mesh, Variant variant)
-      : mesh_(mesh), unfolder_(mesh), variant_(variant), scale_(1 / mesh.unit()) {}
+  CornerUnfolder(const Mesh& mesh, Variant variant, const FaceCosts& costs)
+      : mesh_(mesh), costs_(costs), unfolder_(mesh), variant_(variant), scale_(1 / mesh.unit()) {}
 
   // Unfolds those of some corners that are obtuse. rings.add_unfolded(v, Corner): a triangle over which v updates the
   // corner; its sides at v go to that (a) and to the third vertex (b). rings.prefetch(v): the former will soon be
   // called for v. The order does not depend on the variant.
   template <class Rings>
   void unfold(std::span<const Index> corners, Rings& rings) {
-    if (!unfolder_.is_plain()) {
+    if (!unfolder_.is_plain() || costs_.any()) {
       for (const Index h : corners) unfold_any(h, rings);
       return;
     }
@@ -72,8 +73,19 @@ class CornerUnfolder {
     const Unfolding result = unfolder_.unfold(h, triangles_);
     if (!result.obtuse) return;
     most_crossed_ = std::max(most_crossed_, result.crossed);
-    if (!result.split) unsplit_.push_back(h);
-    for (const UnfoldedTriangle& t : triangles_) add(t, rings);
+    if (!costs_.any()) {
+      if (!result.split) unsplit_.push_back(h);
+      for (const UnfoldedTriangle& t : triangles_) add(t, rings);
+      return;
+    }
+    const Index f = Mesh::face_of(h), edge = Mesh::next(h);
+    const Index behind = result.crossed == 1 ? unfolder_.face_over(f, mesh_.from(edge), mesh_.to(edge)) : kNoIndex;
+    const double w = costs_.of(f);
+    if (!result.split || behind == kNoIndex || costs_.of(behind) != w) return unsplit_.push_back(h);
+    for (UnfoldedTriangle& t : triangles_) {
+      t.at_first = w * t.at_first, t.at_second = w * t.at_second;
+      add(t, rings);
+    }
   }
 
   template <class Rings>
@@ -86,6 +98,7 @@ class CornerUnfolder {
   }
 
   const Mesh& mesh_;
+  FaceCosts costs_;
   Unfolder unfolder_;
   Variant variant_;
   double scale_;

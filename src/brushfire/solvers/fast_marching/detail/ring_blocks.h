@@ -5,6 +5,7 @@
 #include <brushfire/core/detail/targets.h>
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/fast_marching/detail/face_costs.h>
 #include <brushfire/solvers/partition/vertex_partition.h>
 
 #include <cstddef>
@@ -68,11 +69,14 @@ struct Rings {
 };
 
 // O(vertices + faces), and what the unfolding of obtuse corners takes. The mesh should be in a local order. Results
-// depend on the size of the parts, a power of two; kNoIndex: the whole mesh.
+// depend on the size of the parts, a power of two; kNoIndex: the whole mesh. With costs corners are unfolded into a
+// face of the same weight only, and each weight around a vertex has sides of its own.
 template <class T>
-Rings<T> build_rings(const Mesh& mesh, Index part_size, Variant variant = Variant::Best);
+Rings<T> build_rings(const Mesh& mesh, Index part_size, Variant variant = Variant::Best, const FaceCosts& costs = {});
 
-extern template Rings<float> build_rings<float>(const Mesh& mesh, Index part_size, Variant variant);
-extern template Rings<double> build_rings<double>(const Mesh& mesh, Index part_size, Variant variant);
+extern template Rings<float> build_rings<float>(const Mesh& mesh, Index part_size, Variant variant,
+                                                const FaceCosts& costs);
+extern template Rings<double> build_rings<double>(const Mesh& mesh, Index part_size, Variant variant,
+                                                  const FaceCosts& costs);
 
 }  // namespace brushfire::fast_marching

@@ -45,7 +45,7 @@ Medium::Medium(const steiner::WeightedMesh& weighted) : structure(weighted.mesh(
   if (least > 0) rounding.density /= least;  // faces by cost: where the cheapest is paid, a path is the longest
   rounding.relative +=
       kRefractions * std::numeric_limits<double>::epsilon() * farthest_source(most > 0 ? least / most : 1);
-  followable = faces > 0 && weighted.all_bridges().empty() && weighted.pace() == nullptr && most < kInfinity &&
+  followable = faces > 0 && weighted.all_bridges().empty() && weighted.is_isotropic() && most < kInfinity &&
                rounding.doubt <= kDoubtAllowed;
 }
 

@@ -38,7 +38,9 @@ struct FaceOver {
   Index edge = kNoIndex, face = kNoIndex;
   Index start = kNoIndex, end = kNoIndex;  // the edge's vertices
   double length = 0;
+  // With a grain the face is laid out so that lengths in it, times `stretch`, are costs.
   Vec2 apex;
+  double stretch = 1;
   Vec2 gradient;  // of the height, where slopes count
 };
 

@@ -3,6 +3,7 @@
 
 #include <brushfire/mesh/domain.h>
 #include <brushfire/solvers/steiner/detail/edge_table.h>
+#include <brushfire/solvers/steiner/detail/stretches.h>
 #include <brushfire/solvers/steiner/weights.h>
 
 #include <memory>
@@ -38,6 +39,8 @@ class WeightedMesh {
   double edge_weight(Index e) const { return edge_weight_[e]; }
   std::span<const Bridge> bridges(Index edge) const;
   std::span<const Bridge> all_bridges() const { return bridges_; }
+  const Stretches& stretches() const { return stretches_; }
+  bool is_isotropic() const { return !pace_ && !stretches_.any(); }
   double mean_weight() const { return mean_weight_; }  // harmonic, so that walls and marshes do not count
   // Where slopes count: null elsewhere.
   const SlopePace* pace() const { return pace_ ? &*pace_ : nullptr; }
@@ -65,6 +68,7 @@ class WeightedMesh {
   std::shared_ptr<const EdgeTable> edges_;
   std::vector<double> face_weight_, edge_weight_;
   std::vector<Bridge> bridges_;  // by `from`
+  Stretches stretches_;
   double mean_weight_ = 1;
   std::optional<SlopePace> pace_;
 };
