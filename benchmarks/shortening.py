@@ -6,16 +6,22 @@
 Both start from the same ways along edges, through the same random vertices; they take turns, and what is timed is the
 processor's time in this process. Loops that can be pulled together end in a point here; there they go on for ever, which
 is why a limit is set, and are left out of the lengths.
+
+Of every one that ends longer here: whether both go the same way around the handles (homology.py), and whether theirs is
+another locally shortest curve, which pulling it straight leaves as long as it is. Both are then right answers: a class has
+many, and which one is reached depends on the order in which corners are pulled.
 """
 
 import argparse
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import potpourri3d
 
 import brushfire as bf
 import brushfire.compat.potpourri3d as ours
+from homology import Homology
 
 SAME = 1e-9  # relative; what rounding makes of two sums of a thousand lengths
 LIMIT = 20_000  # flips of theirs
@@ -34,6 +40,24 @@ def timed(call, *arguments):
     return points, time.process_time() - begin
 
 
+def on_surface(mesh: bf.Mesh, positions: np.ndarray, closed: bool):
+    """Their curve as points of faces: each lies on an edge or is a vertex."""
+    points, _ = mesh.nearest(positions[:-1] if closed else positions)
+    weights = np.array(points.weights)
+    weights[weights < SAME] = 0
+    return SimpleNamespace(points=bf.Points(points.face, weights / weights.sum(axis=1, keepdims=True)), closed=closed)
+
+
+def explained(mesh: bf.Mesh, homology: Homology | None, here: np.ndarray, there: np.ndarray, closed: bool) -> str:
+    mine, theirs = on_surface(mesh, here, closed), on_surface(mesh, there, closed)
+    same = "of a surface that is not closed"
+    if homology is not None:
+        equal = np.allclose(homology.numbers(mine), homology.numbers(theirs), atol=1e-6)
+        same = "the same way around the handles" if equal else "another way around the handles"
+    left = mesh.shorten(theirs.points, closed=closed).length / length(there) - 1
+    return f"{same}; theirs is {'locally shortest, too' if abs(left) <= SAME else f'not locally shortest: {left:.1e}'}"
+
+
 def measure(name: str, runs: int, seed: int) -> bool:
     mesh = bf.read(name)
     vertices, faces = np.array(mesh.vertices), np.array(mesh.faces)
@@ -41,15 +65,19 @@ def measure(name: str, runs: int, seed: int) -> bool:
     here, there = ours.EdgeFlipGeodesicSolver(vertices, faces), potpourri3d.EdgeFlipGeodesicSolver(vertices, faces)
     counts = dict.fromkeys(("shorter", "same", "longer", "failed here", "failed there", "to a point"), 0)
     spent, ratios = np.zeros(2), []
+    try:
+        homology = Homology(mesh)
+    except ValueError:
+        homology = None
     for run in range(runs):
         stops = [int(v) for v in random.choice(len(vertices), 2 + run % 4, replace=False)]
-        if run % 2:
-            a, t = timed(here.find_geodesic_path_poly, stops), timed(there.find_geodesic_path_poly, stops)
-        else:
+        if loop := run % 2 == 0:
             stops += [] if len(stops) > 2 else [int(v) for v in random.choice(len(vertices), 1)]
             if len(set(stops)) < 3:
                 continue
             a, t = timed(here.find_geodesic_loop, stops), timed(there.find_geodesic_loop, stops, LIMIT)
+        else:
+            a, t = timed(here.find_geodesic_path_poly, stops), timed(there.find_geodesic_path_poly, stops)
         if a[0] is None or t[0] is None:
             counts["failed here" if a[0] is None else "failed there"] += 1
             continue
@@ -60,6 +88,8 @@ def measure(name: str, runs: int, seed: int) -> bool:
         la, lt = length(a[0]), length(t[0])
         ratios.append(la / lt)
         counts["same" if abs(la - lt) <= SAME * lt else "shorter" if la < lt else "longer"] += 1
+        if la > lt * (1 + SAME):
+            print(f"  run {run}, {stops}: {la / lt - 1:.1e} longer, {explained(mesh, homology, a[0], t[0], loop)}")
     together = ", ".join(f"{counts[key]} {key}" for key in counts)
     print(
         f"{name}, seed {seed}, {runs} runs: {together}; lengths by theirs: mean {np.mean(ratios):.6f}, most "

@@ -13,7 +13,7 @@ from brushfire import _arrays, _core
 from brushfire._arrays import Floats, Ints, Labels, number, radius_of
 from brushfire._errors import BrushfireError
 from brushfire._places import Places, Points
-from brushfire._sources import Sources, sources_of
+from brushfire._sources import Sources, sources_of, without_points
 from brushfire._surface import Surface
 
 
@@ -196,6 +196,8 @@ def length_of(mesh: Surface, path: Path | Points | Sequence[Places], *, closed: 
 def _polyline(mesh: Surface, path: Any, closed: bool | None) -> tuple[Ints, Floats | None, bool]:
     if isinstance(path, Path):
         closed = path.closed if closed is None else closed
+        if len(path.points) == 0:
+            raise BrushfireError(f"path: {without_points(path)}")
         path = path.points
     arrays = mesh._arrays(path, "path")
     return arrays.index, arrays.weights, bool(closed)

@@ -64,6 +64,13 @@ Sources: TypeAlias = "Places | Curve | Path | Isoline | Border | Boundary | Iter
 """Places, or curves (a :class:`Curve`, :class:`Path`, :class:`Isoline`, :class:`Border`, :class:`Boundary`), or several."""
 
 
+def without_points(path: Any) -> str:
+    """What a path is that has none: for messages."""
+    if len(getattr(path, "positions", ())):
+        return "a path in space alone: read_lines() with its mesh says where on the surface it lies"
+    return "a path without points, where no way leads"
+
+
 def curve_of(item: Any) -> Curve | None:
     """What of the package's objects is a curve; None for everything else."""
     if isinstance(item, Curve):
@@ -72,7 +79,7 @@ def curve_of(item: Any) -> Curve | None:
     points, closed = getattr(item, "points", None), getattr(item, "closed", None)
     if isinstance(points, Points) and isinstance(closed, bool):
         if len(points) == 0:
-            raise BrushfireError("sources: a path without points, where no way leads")
+            raise BrushfireError(f"sources: {without_points(item)}")
         return Curve(points, closed)
     vertices = getattr(item, "vertices", None)
     if isinstance(vertices, np.ndarray) and isinstance(closed, bool):  # a Boundary

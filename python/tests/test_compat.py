@@ -265,6 +265,36 @@ class TestPygeodesicArguments:
             our_pygeodesic.PyGeodesicAlgorithmExact(V, F + 0.5)
 
 
+@pytest.mark.skipif("heat" not in bf.methods(), reason="this build has no Eigen")
+class TestIglHeat:
+    @staticmethod
+    def distance(module, sources, delaunay, *arguments, **named):
+        data = module.HeatGeodesicsData()
+        data.use_intrinsic_delaunay = delaunay
+        module.heat_geodesics_precompute(V, F.astype(np.int64), *arguments, data=data, **named)
+        return np.ravel(module.heat_geodesics_solve(data, np.array(sources, dtype=np.int64)))
+
+    @pytest.mark.parametrize("delaunay", [False, True])
+    def test_it_is_the_original_s_to_a_per_cent(self, delaunay):
+        igl = pytest.importorskip("igl", reason="the original igl is not installed")
+        for time in ({}, {"t": 2.0}):
+            theirs, ours = (self.distance(m, [7], delaunay, **time) for m in (igl, our_igl))
+            assert np.abs(ours - (theirs - theirs[7])).max() < 0.01 * ours.max()
+
+    def test_every_source_reads_zero_and_arguments_come_by_place_and_name(self):
+        ours = self.distance(our_igl, [3, 90, 150], True, t=2.0)
+        assert ours[[3, 90, 150]].tolist() == [0, 0, 0]
+        data = our_igl.HeatGeodesicsData()
+        data.use_intrinsic_delaunay = True
+        our_igl.heat_geodesics_precompute(V, F, 2.0, data)
+        assert np.array_equal(our_igl.heat_geodesics_solve(data, [3, 90, 150]), ours)
+        for wrong in ([], [1.0], [1.0, 2.0, data], [data, data]):
+            with pytest.raises(TypeError, match="V, F"):
+                our_igl.heat_geodesics_precompute(V, F, *wrong)
+        with pytest.raises(bf.BrushfireError, match="precompute"):
+            our_igl.heat_geodesics_solve(our_igl.HeatGeodesicsData(), [0])
+
+
 class TestIglBefore26:
     expected = staticmethod(lambda **places: our_igl.exact_geodesic(V, F, **places))
 

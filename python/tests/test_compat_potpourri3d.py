@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
+
 import numpy as np
 import pytest
 
@@ -31,6 +33,15 @@ class TestLikeTheOriginal:
         theirs = {name for name in dir(original) if not name.startswith("_") and name not in ("np", "scipy", "pp3db")}
         modules = {"core", "io", "mesh", "point_cloud"}
         assert theirs - modules <= set(ours.__all__)
+
+    def test_every_argument_is_there_in_its_place(self, original):
+        for name in ours.__all__:
+            theirs, mine = getattr(original, name), getattr(ours, name)
+            methods = [m for m in dir(theirs) if callable(getattr(theirs, m)) and (m == "__init__" or m[0] != "_")]
+            for method in methods if inspect.isclass(theirs) else [None]:
+                a, b = (getattr(x, method) if method else x for x in (theirs, mine))
+                expected = list(inspect.signature(a).parameters)
+                assert list(inspect.signature(b).parameters)[: len(expected)] == expected, (name, method)
 
     def test_operators(self, original):
         assert np.array_equal(ours.edges(V, F), original.edges(V, F))

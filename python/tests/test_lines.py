@@ -27,6 +27,15 @@ def test_curves_come_back_from_every_format_that_is_read(bumpy, tmp_path, extens
     assert len(bf.read_lines(file)) == 2  # and without one
 
 
+def test_a_curve_read_without_its_mesh_says_so_where_its_points_are_needed(bumpy, tmp_path):
+    file = tmp_path / "path.obj"
+    bf.write(file, bumpy.path(0, 130))
+    (alone,) = bf.read_lines(file)
+    for use in (bumpy.distance, bumpy.shorten, bumpy.length_of):
+        with pytest.raises(bf.BrushfireError, match="read_lines\\(\\) with its mesh"):
+            use(alone)
+
+
 def test_isolines_come_back_with_their_levels_and_closed(bumpy, tmp_path):
     lines = bumpy.isolines(bumpy.distance(77), [1.0, 2.0])
     bf.write(tmp_path / "l.json", lines)

@@ -45,6 +45,7 @@ constexpr Once kWrongOnce[] = {
     {"zoo", 20261201, 88, "paths", "the same, at lengths of 1e5 and a value of 1e-12"},
     {"curves-far-point", 10, 9, "paths", "the same, before a curve"},
     {"curves-integer-grid", 12, 48, "exact", "a curve's end beside a vertex, whose light went round it for ever"},
+    {"curves-far-point", 14, 55, "exact", "a curve from an edge, whose grazing light began behind it"},
     {"curves-doubled", 9, 13, "paths", "a point at no distance from its curve, in another face: the judge's"},
     {"curves-lattice", 10, 33, "paths", "a value beside a source that is less than nothing by rounding"},
     {"curves-collinear", 7, 41, "exact", "parallel light of less than nothing at a place of the curve"},

@@ -25,6 +25,8 @@ try:
 except ImportError:
     enter_environment(sys.argv[2], PACKAGES, "BRUSHFIRE_COMPARE_READERS", "nibabel, meshio and trimesh")
 
+from plain_off import faces_of_off  # needs what has been made sure of above
+
 probe = os.path.abspath(sys.argv[1])
 folder = tempfile.TemporaryDirectory()
 checks = 0
@@ -147,19 +149,6 @@ def compare_writers(positions, faces):
     check("w.curv", np.array_equal(nibabel.freesurfer.read_morph_data(at("w.curv")), x.astype(np.float32)))
     run("write", at("in.ply"), at("w.npy"))
     check("w.npy", np.array_equal(np.load(at("w.npy")), x))
-
-
-def faces_of_off(path):
-    """Positions and faces of an OFF file by a few lines of Python: the packages pass over polygons."""
-    with open(path, encoding="latin-1") as file:
-        lines = [line.split("#")[0].split() for line in file]
-    lines = [line for line in lines if line]
-    words = lines[0][1:] if lines[0][0].endswith("OFF") else lines[0]
-    first = 1 if words else 2
-    counts = [int(w) for w in (words or lines[1])]
-    positions = [[float(w) for w in line[:3]] for line in lines[first:first + counts[0]]]
-    faces = [[int(w) for w in line[1:1 + int(line[0])]] for line in lines[first + counts[0]:first + counts[0] + counts[1]]]
-    return np.array(positions), faces
 
 
 def compare_file(path):

@@ -83,5 +83,41 @@ TEST(DistanceSparse, ARunThatIsCancelledLeavesNothingBehind) {
   }
 }
 
+TEST(DistanceSparse, DijkstraStopsAtItsTargetsAndLeavesNothingHalfDone) {
+  const Mesh mesh = grid(30);
+  DistanceSolver solver(mesh);
+  const std::vector<Source> sources{{vertex_point(mesh, 435)}, {vertex_point(mesh, 12)}};
+  DistanceOptions options;
+  options.method = Method::Dijkstra;
+  const DistanceField whole = solver.distance(sources, options);
+  options.targets = {vertex_point(mesh, 497), SurfacePoint{900, {0.5, 0.25, 0.25}}};
+  const DistanceField field = solver.distance(sources, options);
+  EXPECT_LT(field.reached, whole.reached / 2);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (field.distance[v] == kInfinity) continue;
+    EXPECT_EQ(field.distance[v], whole.distance[v]);
+    EXPECT_EQ(field.source[v], whole.source[v]);
+  }
+  EXPECT_EQ(field.target_distance[0], whole.distance[497]);
+  EXPECT_LT(field.target_distance[1], kInfinity);
+  expect_same(solver.distance_sparse(sources, options), field);
+  // From one source to one vertex the front spreads that way first.
+  options.targets.clear();
+  const DistanceField all = solver.distance(std::span(sources).first(1), options);
+  for (const Index v : {0u, 31u, 434u, 899u}) {
+    options.targets = {vertex_point(mesh, v)};
+    const DistanceField one = solver.distance(std::span(sources).first(1), options);
+    EXPECT_EQ(one.target_distance[0], all.distance[v]);
+    for (Index u = 0; u < mesh.vertex_count(); ++u) {
+      EXPECT_TRUE(one.distance[u] == kInfinity || one.distance[u] == all.distance[u]);
+    }
+    options.max_distance = all.distance[v];
+    EXPECT_EQ(solver.distance(std::span(sources).first(1), options).target_distance[0], all.distance[v]);
+    options.max_distance = kInfinity;
+  }
+  options.targets = {SurfacePoint{}};  // nowhere: there is nothing to wait for
+  EXPECT_EQ(solver.distance(sources, options).reached, whole.reached);
+}
+
 }  // namespace
 }  // namespace brushfire

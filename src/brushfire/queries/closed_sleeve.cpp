@@ -77,14 +77,14 @@ double slope(const Mesh& mesh, const std::vector<Step>& ring, FrameCache& frames
 // Where to cut the ring's first edge. The length is convex and has no corners within the edge, so this is where its
 // slope vanishes, to the rounding of cosines, or an end of the edge.
 double best_cut(const Mesh& mesh, const std::vector<Step>& ring, FrameCache& frames) {
-  constexpr double kEnd = 1e-9;  // what the length gains between here and the end of the edge is the square of that
-  constexpr double kLevel = 8 * std::numeric_limits<double>::epsilon();
+  constexpr double kEnd = 1e-9;     // what the length gains between here and the end of the edge is the square of that
+  constexpr double kLevel = 1e-12;  // well above what cosines are rounded by; the bend that is left costs its square
   double low = kEnd, high = 1 - kEnd, at_low = slope(mesh, ring, frames, low), at_high = 0;
   if (at_low >= 0) return 0;
   if ((at_high = slope(mesh, ring, frames, high)) <= 0) return 1;
-  // False position; the end that stays is halved in weight (Dowell and Jarratt 1971, "Illinois"), and every fourth time
-  // the bracket itself, for slopes that change in a small part of it.
-  double weight_low = at_low, weight_high = at_high, t = 0.5;
+  // False position; an end that stays twice is halved in weight (Dowell and Jarratt 1971, "Illinois"), and every fourth
+  // time the bracket itself, for slopes that change in a small part of it.
+  double weight_low = at_low, weight_high = at_high, before = 0, t = 0.5;
   for (int i = 1; high - low > 2 * std::numeric_limits<double>::epsilon(); ++i) {
     t = i % 4 == 0 ? 0.5 * (low + high) : low + (high - low) * (weight_low / (weight_low - weight_high));
     if (!(t > low && t < high)) t = 0.5 * (low + high);
@@ -94,12 +94,13 @@ double best_cut(const Mesh& mesh, const std::vector<Step>& ring, FrameCache& fra
     if (here < 0) {
       low = t;
       weight_low = here;
-      weight_high *= 0.5;
+      if (before < 0) weight_high *= 0.5;
     } else {
       high = t;
       weight_high = here;
-      weight_low *= 0.5;
+      if (before > 0) weight_low *= 0.5;
     }
+    before = here;
   }
   return t;
 }

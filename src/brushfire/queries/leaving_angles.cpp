@@ -1,12 +1,10 @@
 // Angles at a point by the first pieces of paths.
 #include <brushfire/queries/detail/leaving_angles.h>
 
-#include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace brushfire::detail {
 namespace {
@@ -19,14 +17,6 @@ double wrapped(double angle, double turn) {
 }
 
 }  // namespace
-
-SurfacePoint only_side(const Domain& domain, const SurfacePoint& point) {
-  const std::vector<SurfacePoint> sides = domain.on_open(point);
-  if (sides.size() == 1) return sides.front();
-  throw Error(ErrorCode::InvalidArgument, sides.empty() ? "the point lies behind a wall"
-                                                        : "the point lies on a wall that parts the surface there: its "
-                                                          "directions have no common angles");
-}
 
 LeavingAngles::LeavingAngles(const Mesh& mesh, const SurfacePoint& source)
     : mesh_(mesh), source_(locate(mesh, source)) {

@@ -1,7 +1,8 @@
-// The logarithmic map, by where shortest paths start.
+// The logarithmic map: how far every vertex is, and in which direction its shortest path starts.
 #include <brushfire/core/cancel.h>
 #include <brushfire/queries/detail/leaving_angles.h>
 #include <brushfire/queries/detail/lengths_only.h>
+#include <brushfire/queries/detail/only_side.h>
 #include <brushfire/queries/straightest.h>
 #include <brushfire/solvers/windows/paths/departures.h>
 

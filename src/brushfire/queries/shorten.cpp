@@ -134,7 +134,7 @@ class Shortener {
     std::vector<StraightPiece> pieces =
         whole ? free_ring(a.sleeve, corner.way.steps) : straight(detail::joined(a.sleeve, corner.way.steps, b.sleeve));
     // Going round shortens; less than rounding means that the rest is rounding: of 106 bits, so that the smallest
-    // corner counts, or, where a closed curve is cut at a point that is known to half the digits of a double, of 53.
+    // corner counts, or, where a closed curve is cut at a point whose place is a double, of 53.
     const double progress = whole ? 4 * std::numeric_limits<double>::epsilon() : 1e-28;
     const DoubleDouble before = whole ? a.length : a.length + b.length;
     if (!(total_length(pieces) < before * (DoubleDouble(1) - DoubleDouble(progress)))) return;

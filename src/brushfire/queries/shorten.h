@@ -14,11 +14,13 @@ namespace brushfire {
 // together becomes a single point of length 0.
 //
 // `points`: consecutive ones share a face. Throws Error(InvalidArgument) where they do not or where there is none; what
-// locate() throws. Every round shortens the path or is the last one; the cost is about (rounds) x (faces crossed).
+// locate() throws. Vertices are gone round one by one, those with the sharpest corners first; each such step shortens
+// the path, or is the last at that corner, and costs what the two pieces that meet there cross.
 //
 // Based on: Mitchell, Mount, Papadimitriou, "The discrete geodesic problem", 1987 (what a locally shortest path is);
 // Xin, Wang, "Efficiently determining a locally exact shortest path on polyhedral surfaces", 2007 (going round a vertex
-// on its other side); the same for arbitrary triangle complexes, where "side" is a way through the vertex's link.
+// on its other side); Sharp, Crane, "You can find geodesic paths in triangle meshes by just flipping edges", 2020
+// (sharpest corners first); the same for arbitrary triangle complexes, where "side" is a way through the vertex's link.
 SurfacePath shorten(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed = false);
 
 // The same within walls, which hold it up. Throws Error(InvalidArgument) for a polyline that goes through one.

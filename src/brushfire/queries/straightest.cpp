@@ -3,13 +3,12 @@
 
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
-#include <brushfire/queries/detail/leaving_angles.h>
+#include <brushfire/queries/detail/only_side.h>
 #include <brushfire/queries/detail/tangent_fan.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 
 namespace brushfire {
 namespace {
@@ -274,6 +273,14 @@ Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, doub
     throw Error(ErrorCode::InvalidArgument, "length " + std::to_string(length) + " is not finite and >= 0");
   }
   return Tracer(mesh, length).run(locate(mesh, from), angle);
+}
+
+SurfacePoint detail::only_side(const Domain& domain, const SurfacePoint& point) {
+  const std::vector<SurfacePoint> sides = domain.on_open(point);
+  if (sides.size() == 1) return sides.front();
+  throw Error(ErrorCode::InvalidArgument, sides.empty() ? "the point lies behind a wall"
+                                                        : "the point lies on a wall that parts the surface there: its "
+                                                          "directions have no common angles");
 }
 
 Trace straightest(const Domain& domain, const SurfacePoint& from, double angle, double length) {

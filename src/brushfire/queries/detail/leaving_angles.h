@@ -2,7 +2,6 @@
 #pragma once
 
 #include <brushfire/core/types.h>
-#include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/queries/detail/tangent_fan.h>
@@ -13,10 +12,6 @@
 #include <utility>
 
 namespace brushfire::detail {
-
-// The point of domain.open() that a point of the whole mesh is. Throws Error(InvalidArgument) where there is none, or
-// one on each side of a wall.
-SurfacePoint only_side(const Domain& domain, const SurfacePoint& point);
 
 class LeavingAngles {
  public:

@@ -16,6 +16,7 @@ constexpr double kNowhere = 1e-60;
 }  // namespace
 
 std::vector<double> mean_edge_lengths(const Triangulation& t, const detail::Components& components) {
+  if (components.count == 1) return {mean_edge_length(t)};  // the same sums, in registers
   std::vector<double> sum(components.count, 0.0), edges(components.count, 0.0);
   for (Index h = 0; h < t.tail.size(); ++h) {
     if (t.twin[h] < h) continue;

@@ -31,8 +31,8 @@ class FacePartition {
   Index end_vertex(Index part) const { return first_vertex_[part + 1]; }
   bool is_in(Index part, Index v) const { return first_vertex_[part] <= v && v < first_vertex_[part + 1]; }
   bool has_ghosts() const { return !ghosts_.empty(); }
-  // The same vertex in the next part that has it, and in the first one after the last; kNoIndex where there is one
-  // only. O(log ghosts).
+  // The number of the same vertex in the next part that has it, after the last part in the first; kNoIndex where one
+  // part only has it. O(log ghosts).
   Index next_ghost(Index v) const;
   // v's number in a part, found from ghost to ghost; kNoIndex: it has none there.
   Index ghost_in(Index part, Index v) const;

@@ -24,7 +24,7 @@ class alignas(64) MessageBuffer {
   std::size_t sent() const { return halves_[writes_].size(); }
   std::int64_t lowest_bucket() const { return lowest_; }  // of what was sent
 
-  // True where the receiver has not been told yet that something waits for it.
+  // True the first time: the receiver then has to be told that something waits for it.
   bool announce() { return !std::exchange(announced_, true); }
   void flip() { writes_ ^= 1; }
   const std::vector<Message>& received() const { return halves_[1 - writes_]; }

@@ -6,8 +6,8 @@
 
 namespace brushfire::partition {
 
-// A part sends while it works; when all parts have stopped, whoever delivers reads the messages type by type, in the
-// order of the types and, within one, as they were sent. So what is received depends on who sent it and on nothing
+// A part sends while it works; when all parts have stopped, one thread reads and delivers the messages type by type, in
+// the order of the types and, within one, as they were sent. So what is received depends on who sent it and on nothing
 // else. Keeps its memory when it is cleared.
 template <class... Messages>
 class Outbox {

@@ -17,12 +17,12 @@ struct Due {
 };
 
 // A part that changes hands takes all its windows from one processor's cache to the other's, which costs about as much
-// as working on them. So every thread has parts of its own; some are given away where the loads differ, and who is done
-// early helps out.
+// as working on them. So every thread has parts of its own; some are given away where the loads differ, and a thread
+// that is done early helps out.
 class Scheduler {
  public:
-  // Who is done early waits this long for the owner of the last part that is left before stealing it: about what
-  // working on a part takes.
+  // A thread that is done early waits this long for the owner of the last part that is left before stealing it: about
+  // what working on a part takes.
   explicit Scheduler(std::chrono::microseconds steal_after) : steal_after_(steal_after) {}
 
   // Before the first round of a run.

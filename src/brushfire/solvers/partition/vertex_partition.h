@@ -2,7 +2,7 @@
 //
 // A part is a run of consecutive places of a local order. Where its blocks name a vertex of another part they name a
 // ghost of it: a place of the part's own, beyond the vertices. So a part reads and writes its own places only, and
-// parts can work side by side; what concerns others is sent through channels and received when all are done.
+// parts can work side by side; what other parts need is sent through channels and received when all are done.
 #pragma once
 
 #include <brushfire/core/detail/inline.h>
@@ -28,7 +28,7 @@ struct VertexPartition {
   struct Channel {
     Index sender, receiver;
   };
-  // Which ones of 64 vertices have ghosts, and how many vertices before these have some.
+  // Which of 64 vertices have ghosts, and how many of the vertices before these have any.
   struct Shared {
     std::uint64_t bits = 0;
     Index before = 0;
@@ -89,7 +89,8 @@ struct VertexPartition {
 // Parts of 2^shift vertices or the whole mesh (shift kWholeMesh).
 int part_shift(Index part_size);
 
-// Collects which vertices of a part name which ones of other parts, part by part, in ascending order of the vertices.
+// Collects which vertices of a part name which vertices of other parts, part by part, in ascending order of the
+// vertices.
 class VertexPartitionBuilder {
  public:
   VertexPartitionBuilder(Index vertex_count, int shift);

@@ -11,14 +11,14 @@
 
 namespace brushfire::partition {
 
-// Whoever works on a part in a round must not care who does: the results are then the same for any number of threads.
+// The work on a part must not depend on which thread does it: the results are then the same for any number of threads.
 class WorkerTeam {
  public:
   // `steal_after`: see Scheduler.
   explicit WorkerTeam(std::chrono::microseconds steal_after) : scheduler_(steal_after) {}
 
-  // As many threads as are asked for (0: one per processor), but not more than there are parts. Before every run: who
-  // has which parts begins anew.
+  // As many threads as are asked for (0: one per processor), but not more than there are parts. Called before every
+  // run: parts are then given to threads anew.
   void assemble(unsigned requested, std::size_t parts);
 
   unsigned size() const { return team_ ? team_->size() : 1; }  // threads, the caller counted

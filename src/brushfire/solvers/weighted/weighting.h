@@ -8,6 +8,7 @@
 //     std::printf("all is within a cost of %g\n", spread.covering_radius);
 #pragma once
 
+#include <brushfire/mesh/cut.h>
 #include <brushfire/mesh/domain.h>
 #include <brushfire/solvers/steiner/weights.h>
 #include <brushfire/solvers/weighted/weighted_distance.h>

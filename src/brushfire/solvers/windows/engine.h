@@ -17,8 +17,8 @@ inline constexpr unsigned kPartBits = 15;
 // always: then the proof of the tolerance can be put to the test on small meshes, too.
 enum class Merging : std::uint8_t { WherePays, Always };
 
-// Throws Error(TooLarge) for meshes of 2^31 vertices. Works in doubles, and in wider numbers where doubles would not do
-// for the mesh and what is asked for.
+// Throws Error(TooLarge) for meshes of 2^31 vertices. Works in doubles, and in wider numbers where doubles are not
+// enough for the mesh and the options.
 std::unique_ptr<detail::Engine> make_windows(const Mesh& mesh, unsigned part_bits = kPartBits,
                                              Merging merging = Merging::WherePays);
 

@@ -6,7 +6,7 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // A window is dropped where another path is shorter by more than this share: far more than rounding, so that a window
-// is never dropped for the sake of a value that it made itself.
+// is never dropped because of a value that it made itself.
 inline constexpr Real kDominated = Real{1} - Real{1e-12 * kFiner};
 
 // What is known of an edge: its length, and the lengths of real paths to its ends.

@@ -86,8 +86,11 @@ struct Interval {
       high = std::min(high, x);
     }
   }
-  // Where the line through p in this direction, which is not that of the edge, crosses the edge.
-  static Real where_ray_leaves(Vec2 p, Vec2 direction) { return p.x - p.y * (direction.x / direction.y); }
+  // Where the ray from p in this direction, which is not that of the edge, crosses the edge. A place of the edge may be
+  // rounded to below it; then a ray that grazes it would begin far behind.
+  static Real where_ray_leaves(Vec2 p, Vec2 direction) {
+    return p.x - std::max(Real{0}, p.y) * (direction.x / direction.y);
+  }
 };
 
 // The parallel light on one side as it leaves through the edge of the frame, seen from beyond: in the frame from the

@@ -48,7 +48,7 @@ class TracedRays {
 };
 
 // Of one field; the legs that have to be traced are given to `angle_of`, which says their angles. (Where a leg begins
-// at a bend, of which the angle is not asked, anything.)
+// at a bend, whose angle nobody asks for, it may say anything.)
 class Departures {
  public:
   using AngleOf = std::function<TracedRays::Angle(const WindowField::Leg&)>;

@@ -1,4 +1,4 @@
-// From where a leg may be looked for: the point, and vertices and edges that cannot be told from it.
+// Where the search for a leg may begin: at the point, and at vertices and edges that cannot be told from it.
 #pragma once
 
 #include <brushfire/mesh/mesh.h>

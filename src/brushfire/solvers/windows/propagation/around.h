@@ -24,7 +24,7 @@ struct AngleSum {
     x = turned_x, y = turned_y;
   }
   double value() const { return 2 * kPi * (turns + (y < 0 ? 1 : 0)) + std::atan2(to_double(y), to_double(x)); }
-  // By more than kFlat; told by the direction, which knows small angles as well as large ones.
+  // By more than kFlat; judged by the direction, which is as precise for small angles as for large ones.
   bool exceeds_pi() const { return turns > 0 || (y < 0 && (x >= 0 || y < kFlat * x)); }
   bool exceeds_two_pi() const { return turns > 1 || (turns == 1 && (y < 0 || x <= 0 || y > kFlat * x)); }
 };

@@ -21,7 +21,7 @@ void receive(PartState& part, const ArrivalMessage& message);
 void reach_target(PartState& part, Index target, Real value, Real slack, Real lift, const Ray& ray,
                   bool straight = true);
 
-// To be sent before what comes from this pseudo-source.
+// Must be sent before what comes from this pseudo-source.
 void send_label(PartState& part, Index to, Index pseudo_source);
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

@@ -1,4 +1,4 @@
-// Trimming of whole lists: windows lose what others on the same edge reach on a shorter way.
+// Trimming of whole lists: windows lose the parts that others on the same edge reach by a shorter way.
 #pragma once
 
 #include <brushfire/solvers/windows/algebra/dominance.h>

@@ -7,7 +7,7 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // The part of a face at its corner `corner` between two directions. Directions at a corner have x along the edge that
-// leaves it (halfedge 3 * face + corner) and y into the face; their length is of no account.
+// leaves it (halfedge 3 * face + corner) and y into the face; their length does not matter.
 struct Sector {
   Index face;
   Index corner;

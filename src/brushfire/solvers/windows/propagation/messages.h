@@ -8,11 +8,11 @@
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
-// The label of a pseudo-source: to be known before what comes from there. Of runs with several sources.
+// The label of a pseudo-source, which must be known before what comes from there. In runs with several sources.
 struct LabelMessage {
   Index part, pseudo_source, label;
 };
-// The upper bound of a vertex fell: its ghosts are to know what it is now.
+// The upper bound of a vertex fell: its new value, for the ghosts.
 struct FallenMessage {
   Index vertex;
 };

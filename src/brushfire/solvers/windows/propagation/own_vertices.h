@@ -32,7 +32,7 @@ class OwnVertices {
     VertexValues& at = run_->values[own(v)];
     if (at.upper == kInfinity) touch(v, length);
     fallen_.push_if((length < at.upper) & at.has_ghosts(), v);
-    at.upper = std::min(at.upper, length);  // without a branch: nobody could guess it
+    at.upper = std::min(at.upper, length);  // without a branch: it could not be predicted
   }
   // A window that sees v expects this distance.
   [[gnu::always_inline]] void expect(Index v, Real value, Real lift) {
@@ -77,7 +77,7 @@ class OwnVertices {
     fallen_.clear();
   }
 
-  // Those whose entries have changed, each once.
+  // Vertices whose entries have changed, each once.
   Index touched_count() const { return touched_; }
   template <class Visit>
   void for_each_touched(Visit&& visit) const {

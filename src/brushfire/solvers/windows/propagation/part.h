@@ -22,7 +22,7 @@ class Part {
   std::unique_ptr<Activity> retire() { return std::move(state_.activity); }
   bool is_idle() const { return state_.activity->queue.empty(); }
   partition::Outlook outlook() const { return state_.activity->queue.outlook(); }
-  // What it has to tell the others; the caller sees to it and clears it.
+  // Messages to other parts; the caller delivers and clears them.
   Outbox& outbox() {
     collect_fallen();
     return state_.activity->outbox;

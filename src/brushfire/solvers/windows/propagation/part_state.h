@@ -64,7 +64,7 @@ struct alignas(kApart) PartState {
   Index number;
   OwnVertices vertices;
   std::unique_ptr<Activity> activity;  // null: nothing waits
-  Workbench* bench = nullptr;          // of whoever works on the part
+  Workbench* bench = nullptr;          // of the thread that works on the part
   WindowMemory memory;
   Trails trails;  // of windows that cross thin faces (of all, in wide numbers)
   SpineMemory spines;

@@ -14,7 +14,7 @@ class Prefetching {
  public:
   explicit Prefetching(const PartState& part) : part_(part), queue_(part.activity->queue) {}
 
-  // The first events of a round: nobody has looked ahead to them.
+  // The first events of a round: nothing has been fetched ahead for them.
   void first() const {
     for (std::size_t i = 0; i < kFacesAhead; ++i) fetch_face(queue_.peek_list(i));
     for (std::size_t i = 0; i < kAroundAhead; ++i) fetch_around(queue_.peek_list(i));
@@ -100,7 +100,7 @@ class Prefetching {
   const EventQueue& queue_;
 };
 
-// Messages come to places where nobody has been for a while: all are fetched at once.
+// Messages come to places that have not been touched for a while: all are fetched at once.
 inline void prefetch_receivers(const RunState& run, const Outbox& messages) {
   for (const FallenMessage& m : messages.all<FallenMessage>()) prefetch(&run.values[run.values[m.vertex].next_ghost]);
   for (const WindowMessage& m : messages.all<WindowMessage>()) prefetch(&run.structure.faces[m.halfedge / 3]);

@@ -19,7 +19,7 @@ struct SegmentEnd {
 };
 
 // A source at a vertex, or in a face or on an edge (from each of the faces that hold it); `sigma` is the value there.
-// Where segments of a curve end in the point (`ends`, at most two), it sends out what they do not.
+// Where segments of a curve end in the point (`ends`, at most two), it sends out the light that they do not.
 void start_at_vertex(PartState& part, Index v, Real sigma, Index pseudo_source);
 void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pseudo_source,
                    std::span<const SegmentEnd> ends = {});

@@ -39,7 +39,7 @@ class BlockPool {
   std::array<std::vector<std::byte*>, 32> free_;
 };
 
-// From where windows come to a halfedge: in this order they lie from its start to its end, because shortest paths do
+// Where windows come to a halfedge from: in this order they lie from its start to its end, because shortest paths do
 // not cross.
 enum class Origin : std::uint8_t {
   Start,     // over the other edge at the halfedge's start
@@ -82,7 +82,7 @@ class ExactLists {
     if (first != kNoIndex) prefetch(&links_[first]);
   }
   void prefetch_windows(Index first) const;
-  // The caller sees to the heads.
+  // The heads are left to the caller.
   void clear();
 
  private:

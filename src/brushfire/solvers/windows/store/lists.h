@@ -61,7 +61,7 @@ class WindowLists {
     prefetch(place + 64);
   }
 
-  // The caller sees to the heads.
+  // The heads are left to the caller.
   void clear() {
     pool_.clear();
     free_ = kNoIndex;

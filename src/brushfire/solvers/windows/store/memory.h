@@ -12,7 +12,7 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
 // Around a needle, or through two faces without area over the same vertices, light comes back to where it was hardly
-// longer or no longer at all, as often as you like; nothing that compares with vertices would stop it. Over the edges
+// longer or no longer at all, any number of times; no comparison with vertices would stop it. Over the edges
 // of thin faces, therefore, every window is remembered, and a later one loses what earlier ones reach on no longer
 // way: trimming (L5), only that the earlier ones may have moved on. (Among windows that tie, the first stays, so it is
 // safe.) Every window that goes on is then the shortest so far at both of its ends.

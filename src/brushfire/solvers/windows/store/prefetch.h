@@ -6,8 +6,7 @@ namespace brushfire::windows {
 [[gnu::always_inline]] inline void prefetch([[maybe_unused]] const void* address) {
 #if defined(__GNUC__)
   __builtin_prefetch(address);
-  // Without this, GCC takes functions that do nothing but prefetch for functions without effect and drops calls of
-  // them.
+  // Without this, GCC takes functions that only prefetch to be without effect and drops calls of them.
   __asm__ volatile("" : : "r"(address));
 #endif
 }
