@@ -158,8 +158,9 @@ class Weighted:
         method: str | None = None,
         progress: Progress = None,
     ) -> Floats:
-        """What the cheapest path from the nearest of the sources costs: upper bounds, without lower ones in a fraction of
-        the time of :meth:`costs`. Arguments as there; float64 (vertex_count,) or (targets,), +inf where there is no path.
+        """What the cheapest path from the nearest of the sources costs: upper bounds alone, by points on edges, where
+        :meth:`costs` may be quicker by windows. Arguments as there; float64 (vertex_count,) or (targets,), +inf where there is
+        no path.
 
         :param method: ``"kimmel-sethian"``: fast marching, which promises nothing, in a twentieth of the time; weights of
             faces only.
