@@ -1,4 +1,4 @@
-"""Where values are below a level, as polygons on the map."""
+"""Isochrones: what can be reached within a cost, as polygons on the map."""
 
 from __future__ import annotations
 
