@@ -22,6 +22,7 @@ from brushfire import (
     _extent,
     _fields,
     _files,
+    _isochrones,
     _matrices,
     _panel,
     _regions,
@@ -89,7 +90,7 @@ class Mesh:
     distance_matrix, distances_within = _matrices.distance_matrix, _matrices.distances_within
     write_distance_matrix = _matrices.write_distance_matrix
     certify = _certify.certify
-    weighted, isochrones = _weighted.weighted, _weighted.isochrones
+    weighted, isochrones = _weighted.weighted, _isochrones.isochrones
 
     path, paths, edge_path = _curves.path, _curves.paths, _curves.edge_path
     shorten, length_of = _curves.shorten, _curves.length_of

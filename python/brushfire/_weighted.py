@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -391,21 +390,3 @@ def weighted(
     (2.5, [[2, 0]])
     """
     return Weighted(mesh, weights, edge_weights, slope, steepest, towards, grain)
-
-
-def isochrones(mesh: Mesh, values: npt.ArrayLike, levels: npt.ArrayLike) -> dict[str, Any]:
-    """Where the values are below each level, as polygons on the map: a GeoJSON FeatureCollection of MultiPolygons.
-
-    :param values: one per vertex, +inf where there is none, (vertex_count,): what it takes to get there.
-    :param levels: (k,); each one's polygons have it as their property ``level``.
-    :return: what ``json.dump`` writes; in the mesh's x and y. For terrain: no two faces over one another.
-
-    >>> import brushfire as bf
-    >>> ground = bf.terrain([[0, 0], [0, 0]])
-    >>> region = ground.mesh.isochrones([0, 1, 0, 1], [0.5])["features"][0]
-    >>> region["properties"], region["geometry"]["type"]
-    ({'level': 0.5}, 'MultiPolygon')
-    """
-    field = floats(values, "values").ravel()
-    found: dict[str, Any] = json.loads(_core.isochrones(mesh._mesh, field, np.atleast_1d(floats(levels, "levels"))))
-    return found
