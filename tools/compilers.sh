@@ -26,6 +26,7 @@ for compiler in "${compilers[@]}"; do
   build=$logs/$compiler log=$logs/$compiler.log start=$SECONDS
   cmake -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_BUILD_TYPE=Release \
     -DBRUSHFIRE_BUILD_TESTS=ON -DBRUSHFIRE_WERROR=OFF -DCMAKE_CXX_COMPILER_LAUNCHER= >"$log"
+  cmake --build "$build" --target examples/header_examples.cpp >>"$log"  # the one source that a build makes
   commands "$build" >"$build/commands"
   (cd "$build" && xargs -P "$(nproc)" -d '\n' -n 1 sh -c <commands) >"$log" 2>&1 || status=1
   warnings=$(grep -cE '(warning|error):' "$log" || true)
