@@ -76,7 +76,7 @@ TEST(Turns, ASourceBesideAVertexDoesNotGoRoundIt) {
   std::uniform_real_distribution<double> part(0, 1), power(-62, -36);
   for (int i = 0; i < 4000; ++i) {
     const Index count = std::array{3U, 4U, 6U, 8U, 17U, 60U, 200U}[static_cast<std::size_t>(i) % 7];
-    const double height = i % 2 ? 0 : 0.3;
+    const double height = std::array{0.0, 0.3, 3.0, 30.0, 200.0}[static_cast<std::size_t>(i / 7) % 5];
     std::vector<Vec3> p{{0, 0, height}};
     std::vector<Face> t;
     for (Index k = 0; k < count; ++k) {
@@ -97,8 +97,27 @@ TEST(Turns, ASourceBesideAVertexDoesNotGoRoundIt) {
     options.method = i % 4 < 2 ? Method::Exact : Method::Windows;
     const DistanceField field = distance(mesh, std::span(&source, 1), options);
     EXPECT_LE(static_cast<double>(field.updates), kTurnsForEachFace * mesh.face_count()) << i;
-    for (Index v = 1; v <= count; ++v)
-      EXPECT_NEAR(field.distance[v], norm(p[v] - p[0]), 1e-9 + field.error_bound[v]) << i;
+    // No farther from the source than from the hub, or nearer, than these are apart.
+    const double apart = (a + b) * (1 + height);
+    for (Index v = 1; v <= count; ++v) {
+      EXPECT_NEAR(field.distance[v], norm(p[v] - p[0]), apart + field.error_bound[v]) << i;
+    }
+  }
+}
+
+// The same where the faces around the vertex are in several parts.
+TEST(Turns, ASourceBesideAnyVertexOfALargeMeshDoesNotGoRoundIt) {
+  const Mesh mesh = shapes::icosphere(5).mesh();
+  std::mt19937_64 random(20261130);
+  std::uniform_real_distribution<double> power(-56, -40);
+  DistanceSolver solver(mesh);
+  DistanceOptions options;
+  options.method = Method::Exact;
+  options.max_distance = 0.05;
+  for (int i = 0; i < 2000; ++i) {
+    const double a = std::exp2(power(random)), b = std::exp2(power(random));
+    const Source source{{static_cast<Index>(random() % mesh.face_count()), {a, 1 - a - b, b}}};
+    EXPECT_LE(solver.distance(std::span(&source, 1), options).updates, 2000U) << i;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "store/exact_lists.cpp"
 
 #include "propagation/arrivals.cpp"
+#include "propagation/circled_faces.cpp"
 #include "propagation/exact_trim.cpp"
 #include "propagation/links.cpp"
 #include "propagation/own_vertices.cpp"

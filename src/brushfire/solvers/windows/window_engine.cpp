@@ -11,6 +11,7 @@
 #include <brushfire/solvers/windows/engine.h>
 #include <brushfire/solvers/windows/paths/results.h>
 #include <brushfire/solvers/windows/propagation/arrivals.h>
+#include <brushfire/solvers/windows/propagation/circled_faces.h>
 #include <brushfire/solvers/windows/propagation/least_budget.h>
 #include <brushfire/solvers/windows/propagation/part.h>
 #include <brushfire/solvers/windows/propagation/prefetching.h>
@@ -78,6 +79,7 @@ class WindowEngine final : public NumberedEngine {
     }
     active_.clear();
     run_.targets.clear(run_.structure);
+    circled_.clear(run_.structure);
   }
 
   void prepare(const detail::Problem& problem) {
@@ -93,6 +95,7 @@ class WindowEngine final : public NumberedEngine {
     run_.in_lists = !kWide && !run_.merges() && run_.radius > kShort * run_.structure.bucket_width;
     run_.bucket_width = run_.in_lists ? kExactBucket * run_.structure.bucket_width : run_.structure.bucket_width;
     run_.targets.place(problem.targets, run_.structure);
+    circled_.mark(problem.sources, run_.structure);
     next_target_check_ = problem.targets.empty() ? std::numeric_limits<std::uint64_t>::max() : 0;
     bucket_ = 0;
     updates_ = 0;
@@ -270,6 +273,7 @@ class WindowEngine final : public NumberedEngine {
   RunState run_;
   Merging merging_;
   std::vector<Part> parts_;
+  CircledFaces circled_;
   std::vector<Index> active_;        // parts in which something waits
   std::vector<partition::Due> due_;  // those with something to do in this round
   std::vector<std::unique_ptr<Activity>> spare_;

@@ -27,18 +27,6 @@ bool is_near(const PartState& part, Index v, Index face, Real distance) {
                      [&](Index h) { return is_short(longest_edge(structure.faces[h / 3])); });
 }
 
-// A source so near to v that turning faces about v rounds it to either side of their edges there, on and on, until it
-// has gone round v and begins again: a turn by 2 pi / n moves it by that share of its distance, and rounding by an
-// epsilon of the longest edge.
-bool is_lost_in_rounding(const PartState& part, Index v, Real distance) {
-  const WindowStructure& structure = part.run->structure;
-  if (!(distance < kNear * structure.unevenness.longest())) return false;
-  const std::span<const Index> corners = structure.corners_of(v, part.bench->corners);
-  Real longest = 0;
-  for (const Index h : corners) longest = std::max(longest, longest_edge(structure.faces[h / 3]));
-  return distance <= std::max(4.0, static_cast<double>(corners.size())) * kEpsilon * longest;
-}
-
 // A path from v along an edge to w.
 void reach_along(PartState& part, Index v, Index w, Real length, const Ray& ray) {
   const Real value = part.vertices[v].lower + length;
@@ -169,8 +157,6 @@ void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pse
                    std::span<const SegmentEnd> ends) {
   const WindowFace& f = part.run->structure.faces[at.face];
   const std::array<Real, 3> distance = corner_distances_of(part.run->structure, at);
-  std::array<bool, 3> is_lost{};
-  for (Index k = 0; k < 3; ++k) is_lost[k] = is_lost_in_rounding(part, f.vertex[k], distance[k]);
   for (Index k = 0; k < 3; ++k) {
     const Index h = 3 * at.face + next3(k);  // opposite of corner k
     Ray ray{{}, kNoIndex, pseudo_source, WindowKind::Circular};
@@ -184,8 +170,7 @@ void start_in_face(PartState& part, const FaceWeights& at, Real sigma, Index pse
     see_vertex(part, f.vertex[k], value, ray,
                ray.halfedge == kNoIndex || is_near(part, f.vertex[k], at.face, distance[k]));
     if (part.vertices[f.vertex[k]].lower == value) part.vertices.mark_direct(f.vertex[k]);
-    // What leaves beside a vertex at no distance is the vertex's own light, to what rounding does to places anyway.
-    if (ray.halfedge == kNoIndex || is_lost[next3(k)] || is_lost[previous3(k)]) continue;
+    if (ray.halfedge == kNoIndex) continue;
     Window w;
     w.b1 = f.length[next3(k)];
     w.source = from_beyond(frame_of(f, next3(k)), next3(k), at.weights);
