@@ -29,7 +29,7 @@ const packed = (names) => names.reduce((sum, name) => sum + gzipSync(readFileSyn
 const scripts = readdirSync(lib).filter((name) => name.endsWith('.js'));
 
 // What they may not grow beyond. The aims, 450 and 250 kB, are not reached: docs/decisions/web.md.
-const MOST = { whole: 790e3, core: 475e3 };
+const MOST = { whole: 796e3, core: 478e3 };
 
 test('the package has not grown', (t) => {
   const whole = packed(['brushfire.wasm', ...scripts]);
