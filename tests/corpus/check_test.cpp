@@ -48,6 +48,7 @@ constexpr Once kWrongOnce[] = {
     {"curves-far-point", 14, 55, "exact", "a curve from an edge, whose grazing light began behind it"},
     {"curves-bipyramids", 14, 59, "upper",
      "a curve whose end is beside a tip, round which its light went thousands of times"},
+    {"mutilated", 20261130, 641, "paths", "vertices at one place, by feet on edges that round"},
     {"curves-doubled", 9, 13, "paths", "a point at no distance from its curve, in another face: the judge's"},
     {"curves-lattice", 10, 33, "paths", "a value beside a source that is less than nothing by rounding"},
     {"curves-collinear", 7, 41, "exact", "parallel light of less than nothing at a place of the curve"},

@@ -20,6 +20,13 @@ constexpr double kNoDistance = 64 * std::numeric_limits<double>::epsilon();
 // And those that are nearer than this share of the longest edge of a face of both: the weights of a point do not tell
 // them apart.
 constexpr double kNoPlace = 2 * std::numeric_limits<double>::epsilon();
+// And what ways of 106 bits are rounded by, as a share of that edge: the foot of a vertex on an edge that it lies on.
+constexpr double kNoWay = 0x1p-98;
+
+double longest_edge(const Mesh& mesh, Index face) {
+  const auto l = mesh.lengths().subspan(3 * std::size_t{face}, 3);
+  return std::max({l[0], l[1], l[2]});
+}
 
 }  // namespace
 
@@ -44,6 +51,7 @@ LegOrigins::LegOrigins(const Mesh& mesh, const PointLocation& at, double value) 
   for (Index i = 0; i < size(); ++i) {
     const LegOrigin from = origins_[i];
     for (const PointInFace& f : names_of(mesh_, from.at)) {
+      rounding_ = std::max(rounding_, kNoWay * longest_edge(mesh_, f.face));
       PointLocation here;
       here.face = f.face;
       here.weights = f.weights;
@@ -58,13 +66,12 @@ LegOrigins::LegOrigins(const Mesh& mesh, const PointLocation& at, double value) 
 }
 
 // Values beside a source may be rounded to less than nothing.
-double LegOrigins::no_distance() const { return std::max(0.0, kNoDistance * value_); }
+double LegOrigins::no_distance() const { return std::max(kNoDistance * value_, rounding_); }
 
 // A point of an edge is known to an epsilon of the edge, whatever the value; a vertex is where it is.
 double LegOrigins::no_distance(const PointLocation& from, Index face) const {
   if (from.on == On::Vertex) return no_distance();
-  const auto l = mesh_.lengths().subspan(3 * std::size_t{face}, 3);
-  return std::max(no_distance(), kNoPlace * std::max({l[0], l[1], l[2]}));
+  return std::max(no_distance(), kNoPlace * longest_edge(mesh_, face));
 }
 
 void LegOrigins::add(Index v, Index corner, double way, Index previous) {

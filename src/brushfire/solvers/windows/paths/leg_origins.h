@@ -35,6 +35,8 @@ class LegOrigins {
 
   Index size() const { return static_cast<Index>(origins_.size()); }
   const LegOrigin& operator[](Index i) const { return origins_[i]; }
+  // Of the ways to them.
+  double rounding() const { return rounding_; }
   // Whether vertex v is one that has the point's value, as far as anyone knows: no leg ends there.
   bool has_value_of(Index v) const;
 
@@ -48,6 +50,7 @@ class LegOrigins {
 
   const Mesh& mesh_;
   double value_;
+  double rounding_ = 0;
   std::vector<LegOrigin> origins_;
 };
 

@@ -100,7 +100,9 @@ class LegSearch {
   bool is_explained() const { return best_.total <= value_ + room_of(best_); }
   double room_of(const LegGoal& goal) const {
     if (goal.source == kNoIndex) return room_;
-    return std::min(room_, kAgreement * (goal.length + origins_[goal.origin].before) + ask_.rounding);
+    const LegOrigin& origin = origins_[goal.origin];
+    const double same = std::min(room_, kAgreement * (goal.length + origin.before) + ask_.rounding);
+    return origin.before > 0 ? std::max(same, origins_.rounding()) : same;
   }
 
   void start_from(Index origin) {
