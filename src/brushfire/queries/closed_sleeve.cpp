@@ -79,9 +79,11 @@ double slope(const Mesh& mesh, const std::vector<Step>& ring, FrameCache& frames
 double best_cut(const Mesh& mesh, const std::vector<Step>& ring, FrameCache& frames) {
   constexpr double kEnd = 1e-9;     // what the length gains between here and the end of the edge is the square of that
   constexpr double kLevel = 1e-12;  // well above what cosines are rounded by; the bend that is left costs its square
-  double low = kEnd, high = 1 - kEnd, at_low = slope(mesh, ring, frames, low), at_high = 0;
+  double low = kEnd, high = 1 - kEnd;
+  const double at_low = slope(mesh, ring, frames, low);
   if (at_low >= 0) return 0;
-  if ((at_high = slope(mesh, ring, frames, high)) <= 0) return 1;
+  const double at_high = slope(mesh, ring, frames, high);
+  if (at_high <= 0) return 1;
   // False position; an end that stays twice is halved in weight (Dowell and Jarratt 1971, "Illinois"), and every fourth
   // time the bracket itself, for slopes that change in a small part of it.
   double weight_low = at_low, weight_high = at_high, before = 0, t = 0.5;

@@ -232,7 +232,8 @@ class WindowEngine final : public NumberedEngine {
   void deliver(Results& results) {
     for (bool any = true; any;) {
       any = false;
-      for (std::size_t i = 0; i < active_.size(); ++i) {  // it may grow
+      // It may grow. NOLINTNEXTLINE(modernize-loop-convert)
+      for (std::size_t i = 0; i < active_.size(); ++i) {
         Outbox& messages = parts_[active_[i]].outbox();
         if (messages.empty()) continue;
         any = true;

@@ -342,8 +342,8 @@ class LegSearch {
     WindowField::Leg leg;
     std::vector<Index> way;
     for (Index o = goal.origin; o != kStart; o = origins_[o].previous) way.push_back(o);
-    for (auto o = way.rbegin(); o != way.rend(); ++o)
-      leg.points.push_back({origins_[*o].at.face, origins_[*o].at.weights});
+    std::reverse(way.begin(), way.end());
+    for (const Index o : way) leg.points.push_back({origins_[o].at.face, origins_[o].at.weights});
     std::vector<Index> chain;
     for (Index w = goal.wedge; w != kStart; w = wedges_[w].before) chain.push_back(w);
     std::reverse(chain.begin(), chain.end());
