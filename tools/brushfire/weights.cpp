@@ -215,7 +215,7 @@ WeightedOptions weighted_computation(const SharedArguments& a) {
   if (given(a, {Shared::Method})) {
     if (plain.method != Method::KimmelSethian) {
       refuse("--method " + a.methods.front() +
-             ": with --weights there are points on edges, which is what is taken without --method, and kimmel-sethian");
+             ": costs are found without --method (bounds on both sides), or by kimmel-sethian (fast, without a bound)");
     }
     if (a.bound == "lower") refuse("--bound lower: marching has no bounds");
     options.marching = plain.method;
