@@ -10,28 +10,13 @@
 #include <random>
 #include <vector>
 
+#include "support/sheets.h"
+
 namespace {
 
 using namespace brushfire;
 
-Mesh hills(Index n) {
-  std::vector<Vec3> positions;
-  std::vector<Face> faces;
-  for (Index y = 0; y <= n; ++y) {
-    for (Index x = 0; x <= n; ++x) {
-      positions.push_back(
-          {double(x), double(y), 6 * std::sin(0.05 * x) * std::cos(0.07 * y) + std::sin(0.31 * x + 0.2 * y)});
-    }
-  }
-  for (Index y = 0; y < n; ++y) {
-    for (Index x = 0; x < n; ++x) {
-      const Index v = y * (n + 1) + x;
-      faces.push_back({v, v + 1, v + n + 2});
-      faces.push_back({v, v + n + 2, v + n + 1});
-    }
-  }
-  return Mesh(positions, faces);
-}
+double height(Index x, Index y) { return 6 * std::sin(0.05 * x) * std::cos(0.07 * y) + std::sin(0.31 * x + 0.2 * y); }
 
 // Of one thread, on a machine that others use, too.
 template <class Work>
@@ -55,7 +40,7 @@ void scale(std::vector<double>& weights, Index n, double x, double y, double fac
 
 int main(int count, char** arguments) {
   const auto n = static_cast<Index>(std::sqrt(count > 1 ? std::atof(arguments[1]) : 140000.0)) - 1;
-  const Mesh mesh = hills(n);
+  const Mesh mesh = test::squares(n, height);
   std::mt19937 random(1);
   Weights weights;
   for (Index f = 0; f < mesh.face_count(); ++f)

@@ -94,5 +94,16 @@ struct SharedWeighting {
 nb::tuple points_to_numpy(std::span<const SurfacePoint> points);
 // (face, weights, length, closed).
 nb::tuple path_to_numpy(const SurfacePath& path);
+// Of paths to several targets: at which source each begins, and what `arrays_of` makes of each.
+template <class Path, class ArraysOf>
+nb::tuple paths_to_numpy(const std::vector<Path>& paths, ArraysOf&& arrays_of) {
+  nb::list list;
+  std::vector<Index> nearest;
+  for (const Path& path : paths) {
+    list.append(arrays_of(path));
+    nearest.push_back(path.source);
+  }
+  return nb::make_tuple(to_numpy_signed(std::move(nearest)), list);
+}
 
 }  // namespace brushfire::python

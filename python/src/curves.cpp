@@ -71,13 +71,7 @@ nb::tuple paths(Solver& solver, const Sources& sources, const Vector<std::int64_
     const std::vector<SurfacePoint> targets = targets_from(mesh, {target_index, target_weights});
     return solver.with([&](DistanceSolver& s) { return paths_to(s, sources.list, targets, how); });
   });
-  nb::list list;
-  std::vector<Index> nearest;
-  for (const SourcePath& p : found) {
-    list.append(path_to_numpy(p));
-    nearest.push_back(p.source);
-  }
-  return nb::make_tuple(to_numpy_signed(std::move(nearest)), list);
+  return paths_to_numpy(found, [](const SourcePath& path) { return path_to_numpy(path); });
 }
 
 // Along edges, from the nearest source's vertex.

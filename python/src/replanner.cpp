@@ -56,13 +56,7 @@ class Planner {
       const std::lock_guard lock(mutex_);
       return weighted_paths(planner_->field(), targets_from(planner_->domain().mesh(), {index, weights}));
     });
-    nb::list list;
-    std::vector<Index> nearest;
-    for (const WeightedPath& path : found) {
-      list.append(path_arrays(path));
-      nearest.push_back(path.source);
-    }
-    return nb::make_tuple(to_numpy_signed(std::move(nearest)), list);
+    return paths_to_numpy(found, path_arrays);
   }
 
  private:

@@ -142,13 +142,7 @@ nb::tuple paths(Weighted& weighted, const Sources& sources, const Vector<std::in
     const std::vector<SurfacePoint> targets = targets_from(weighted.mesh(), {target_index, target_weights});
     return weighted.with([&](WeightedSolver& s) { return weighted_paths(s, sources.list, targets, options); });
   });
-  nb::list list;
-  std::vector<Index> nearest;
-  for (const WeightedPath& p : found) {
-    list.append(path_arrays(p));
-    nearest.push_back(p.source);
-  }
-  return nb::make_tuple(to_numpy_signed(std::move(nearest)), list);
+  return paths_to_numpy(found, path_arrays);
 }
 
 // placement: origin, to the right, down; x and y each.

@@ -17,14 +17,16 @@ using test::front;
 using test::render_one;
 using test::square;
 
+detail::Layout layout_of(const Panel& panel, const RenderOptions& options) {
+  const std::span<const Panel> panels(&panel, 1);
+  return detail::lay_out(panels, options, detail::ranges_of(panels, options), detail::Font(""));
+}
+
 TEST(Render, TheBarHasAPointAndSaysHowFarValuesGoBeyondItsRange) {
   Panel panel = square();
   RenderOptions options = front(240);
   options.colour_bar = true;
-  const auto layout = [&] {
-    const std::span<const Panel> panels(&panel, 1);
-    return detail::lay_out(panels, options, detail::ranges_of(panels, options), detail::Font(""));
-  };
+  const auto layout = [&] { return layout_of(panel, options); };
   const auto says = [&](const std::string& text) {
     const detail::Layout laid = layout();
     return std::any_of(laid.texts.begin(), laid.texts.end(), [&](const auto& t) { return t.text == text; });
@@ -94,10 +96,7 @@ TEST(Render, WhatHasNoValueIsInTheLegend) {
   Panel panel = square();
   RenderOptions options = front(240);
   options.colour_bar = true;
-  const auto swatches = [&] {
-    const std::span<const Panel> panels(&panel, 1);
-    return detail::lay_out(panels, options, detail::ranges_of(panels, options), detail::Font("")).swatches;
-  };
+  const auto swatches = [&] { return layout_of(panel, options).swatches; };
   EXPECT_TRUE(swatches().empty());
   panel.scalar[40] = kInfinity;
   ASSERT_EQ(swatches().size(), 1u);

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/relative_errors.h"
+
 namespace brushfire {
 namespace {
 
@@ -20,23 +22,6 @@ DistanceField field_of(const Mesh& mesh, Method method, Index source, Precision 
   return distance(mesh, {&from, 1}, options);
 }
 
-struct Errors {
-  double mean = 0, largest = 0;
-};
-
-Errors errors_of(const std::vector<double>& distance, const std::vector<double>& truth) {
-  Errors e;
-  double count = 0;
-  for (std::size_t v = 0; v < truth.size(); ++v) {
-    if (!(truth[v] > 0) || !std::isfinite(truth[v])) continue;
-    const double error = std::abs(distance[v] - truth[v]) / truth[v];
-    e.mean += error, ++count;
-    e.largest = std::max(e.largest, error);
-  }
-  e.mean /= count;
-  return e;
-}
-
 bool is_plane(const std::string& name) { return name.rfind("grid", 0) == 0 || name.rfind("square", 0) == 0; }
 
 TEST(CarriedSource, IsNearerToTheTruthThanNovotniKleinOnEverySharedMesh) {
@@ -44,8 +29,9 @@ TEST(CarriedSource, IsNearerToTheTruthThanNovotniKleinOnEverySharedMesh) {
   for (const auto& [name, source] : test::shared_truths()) {
     const Mesh mesh = test::shared_mesh(name);
     const std::vector<double> truth = test::shared_truth(name, source);
-    const Errors nk = errors_of(field_of(mesh, Method::NovotniKlein, source).distance, truth);
-    const Errors own = errors_of(field_of(mesh, Method::CarriedSource, source).distance, truth);
+    const test::RelativeErrors nk = test::relative_errors(field_of(mesh, Method::NovotniKlein, source).distance, truth);
+    const test::RelativeErrors own =
+        test::relative_errors(field_of(mesh, Method::CarriedSource, source).distance, truth);
     if (is_plane(name)) {
       EXPECT_LE(own.largest, 1e-4) << name << "." << source;
     } else {
@@ -92,7 +78,7 @@ TEST(CarriedSource, OpensSlitsAndGoesAroundThem) {
   const Mesh mesh = whole.with_slits(slit);
   const DistanceField own = field_of(mesh, Method::CarriedSource, 24 * 25, Precision::Double);
   const DistanceField exact = field_of(mesh, Method::Exact, 24 * 25);
-  const Errors e = errors_of(own.distance, exact.distance);
+  const test::RelativeErrors e = test::relative_errors(own.distance, exact.distance);
   EXPECT_LT(e.mean, 2e-3);
   EXPECT_LT(e.largest, 0.02);
 }

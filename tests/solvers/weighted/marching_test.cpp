@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "random_weighted.h"
+#include "support/relative_errors.h"
 #include "support/sheets.h"
 
 namespace brushfire {
@@ -33,23 +34,6 @@ WeightedField march(const Domain& mesh, const Weights& weights, const SurfacePoi
                            {.marching = method, .targets = std::move(targets)});
 }
 
-struct Deviation {
-  double mean = 0, most = 0;
-};
-Deviation deviation(const std::vector<double>& found, const std::vector<double>& truth) {
-  Deviation d;
-  double count = 0;
-  for (std::size_t v = 0; v < found.size(); ++v) {
-    if (truth[v] == 0) continue;
-    const double off = std::abs(found[v] / truth[v] - 1);
-    d.mean += off;
-    d.most = std::max(d.most, off);
-    ++count;
-  }
-  d.mean /= count;
-  return d;
-}
-
 TEST(WeightedMarching, OneWeightEverywhereIsThatTimesTheDistance) {
   const Mesh mesh = shapes::icosphere(4).mesh();
   Weights weights{.face = std::vector<double>(mesh.face_count(), 3.0)};
@@ -58,9 +42,9 @@ TEST(WeightedMarching, OneWeightEverywhereIsThatTimesTheDistance) {
   EXPECT_TRUE(field.lower.empty());
   std::vector<double> truth = distance(mesh, std::vector<Source>{{vertex_point(mesh, 0)}}).distance;
   for (double& d : truth) d *= 3;
-  const Deviation off = deviation(field.distance, truth);
+  const test::RelativeErrors off = test::relative_errors(field.distance, truth);
   EXPECT_LT(off.mean, 2e-2);
-  EXPECT_LT(off.most, 0.2);
+  EXPECT_LT(off.largest, 0.2);
 }
 
 // Where one is as fast as 1 + x, a path is an arc of a circle, and takes arcosh(1 + |p - q|^2 / (2 v(p) v(q))).
@@ -77,7 +61,7 @@ TEST(WeightedMarching, ConvergesWhereSpeedGrowsAlongAnAxis) {
       truth.push_back(std::acosh(1 + dot(p - from, p - from) / (2 * speed(p) * speed(from))));
     }
     const WeightedField field = march(mesh, weights, vertex_point(mesh, 0));
-    mean.push_back(deviation(field.distance, truth).mean);
+    mean.push_back(test::relative_errors(field.distance, truth).mean);
   }
   EXPECT_LT(mean[2], 1.5e-2) << mean[0] << " " << mean[1];
   EXPECT_LT(mean[1], 0.8 * mean[0]);  // the error that straight fronts make around a point goes like h log h
@@ -90,9 +74,9 @@ TEST(WeightedMarching, LiesNearTheBoundsWhereFrontsRefract) {
     const Weights weights = by_place(mesh, [&](Vec3 p) { return p.x > 3 ? n : 1.0; });
     for (const SurfacePoint& from : {vertex_point(mesh, 8), SurfacePoint{20, {0.2, 0.3, 0.5}}}) {
       const WeightedField truth = weighted_distance(mesh, weights, std::vector<Source>{{from}}, {.tolerance = 1e-4});
-      const Deviation off = deviation(march(mesh, weights, from).distance, truth.distance);
+      const test::RelativeErrors off = test::relative_errors(march(mesh, weights, from).distance, truth.distance);
       EXPECT_LT(off.mean, 0.05) << n;
-      EXPECT_LT(off.most, 0.5) << n;
+      EXPECT_LT(off.largest, 0.5) << n;
     }
   }
 }
@@ -147,7 +131,7 @@ TEST(WeightedMarching, NearAndFarWeightsEnd) {
   const WeightedField field = march(mesh, weights, vertex_point(mesh, 0));
   const WeightedField truth = weighted_distance(mesh, weights, std::vector<Source>{{vertex_point(mesh, 0)}});
   EXPECT_EQ(field.reached, mesh.vertex_count());
-  EXPECT_LT(deviation(field.distance, truth.distance).mean, 0.05);
+  EXPECT_LT(test::relative_errors(field.distance, truth.distance).mean, 0.05);
 }
 
 // Round fronts fell below what they came from, and then below nothing.
