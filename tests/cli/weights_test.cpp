@@ -215,7 +215,7 @@ TEST_F(WeightFiles, ThatDoNotFitAreRefusedWithTheReason) {
   write("far.txt", "0 99 1\n");
   EXPECT_NE(refused({"--edge-weights", path("far.txt")}).find("there is no vertex 99"), std::string::npos);
   EXPECT_NE(refused({"--weights", path("w.txt"), "--via", "3"}).find("without weights"), std::string::npos);
-  EXPECT_NE(refused({"--weights", path("w.txt"), "--method", "exact"}).find("points on edges"), std::string::npos);
+  EXPECT_NE(refused({"--weights", path("w.txt"), "--method", "exact"}).find("bounds on both sides"), std::string::npos);
 }
 
 TEST_F(WeightFiles, WallsOfWeightsAreNotPassed) {
