@@ -21,7 +21,7 @@ class TextOfOptions : public InFolder {
   const std::vector<Case> cases{{"--sources", {"0", "5@0.5 # with a value"}},
                                 {"--block-edges", {"1 4", "4 7"}},
                                 {"--block-faces", {"0", "5"}},
-                                {"--mask", {"1", "1", "1", "1", "0", "1", "1", "1", "1"}},
+                                {"--mask", {"1", "1", "1", "1", "1", "1", "0", "1", "1"}},
                                 {"--weights", {"1", "2", "3", "4", "5", "6", "7", "8"}},
                                 {"--edge-weights", {"0 1 0.5", "1,4,2,0.25"}},
                                 {"--grain", std::vector<std::string>(8, "1 0 0 2.5")},
