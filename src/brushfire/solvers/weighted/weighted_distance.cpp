@@ -4,6 +4,7 @@
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/refraction/detail/run.h>
+#include <brushfire/solvers/steiner/detail/apex_costs.h>
 #include <brushfire/solvers/steiner/detail/run.h>
 #include <brushfire/solvers/weighted/detail/fields.h>
 #include <brushfire/solvers/weighted/detail/marching.h>
@@ -27,6 +28,9 @@ constexpr double kWidestWindows = 0.02;
 // As many for a vertex as take about as long as the search over points, measured: half a microsecond each, beside 6 +
 // 0.6 / tolerance.
 double windows_worth_it(double tolerance) { return 20 + 0.8 / tolerance; }
+
+// Costs to a vertex next to a source, as a share of those across its faces, of which windows know little in comparison.
+constexpr double kBeside = 1e-3;
 
 void check(const WeightedOptions& options) {
   check_tolerance(options.tolerance);
@@ -117,6 +121,8 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
   // What is not final may still fall, but not below the horizon.
   const auto value = [&](double v) { return std::min(v, horizon) * kBelowSums * unit + run.base; };
   field.lower = below.front().vertex_value;
+  const NearVertices near(*mesh, run.sources);
+  for (const NearVertex& n : near.bounds) field.lower[n.vertex] = std::max(field.lower[n.vertex], n.lower);
   bring_back(*mesh, field.lower);
   double sum = 0, most = 0;
   std::size_t count = 0;
@@ -133,7 +139,10 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
   }
   for (std::size_t t = 0; t < run.targets.size(); ++t) {
     double least = kInfinity;
-    for (const PointLocation& p : run.targets[t]) least = std::min(least, below.at(p).value);
+    for (const PointLocation& p : run.targets[t]) {
+      const NearVertex* n = p.on == PointLocation::On::Vertex ? near.at(p.vertex) : nullptr;
+      least = std::min(least, std::max(below.at(p).value, n ? n->lower : 0));
+    }
     const double upper = field.target_distance[t];
     field.target_lower.push_back(upper < kInfinity ? std::min(value(least), upper) : kInfinity);
     compare(upper, field.target_lower.back());
@@ -151,10 +160,19 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
   const double unit = mesh->mesh().unit();
   double farthest = (options.max_distance - run.base) / unit;
   if (!options.targets.empty() && places.empty()) farthest = -1;  // all targets are nowhere
+  const NearVertices near(*mesh, run.sources);
   refraction::Run windows(*medium, run.sources,
                           {std::min(options.tolerance, kWidestWindows), farthest, windows_worth_it(options.tolerance),
-                           places, options.progress});
+                           places, options.progress, near.of_source});
   if (!windows()) return false;
+  const auto at_vertex = [&](Index v) {
+    refraction::Known known = windows.at_vertex(v);
+    if (const NearVertex* n = near.at(v); n && n->upper <= kBeside * n->beyond) {
+      known.lower = std::max(known.lower, n->lower);
+      known.upper = std::min(known.upper, n->upper);
+    }
+    return known;
+  };
   const double horizon = std::min(farthest, windows.horizon());
   double sum = 0, most = 0;
   std::size_t count = 0;
@@ -179,7 +197,7 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
   };
   std::vector<refraction::Known> known(domain.mesh().vertex_count());
   for (Index v = 0; v < mesh->mesh().vertex_count(); ++v) {
-    known[mesh->vertex(v)] = better(known[mesh->vertex(v)], windows.at_vertex(v));
+    known[mesh->vertex(v)] = better(known[mesh->vertex(v)], at_vertex(v));
   }
   field.distance.resize(known.size());
   field.lower.resize(known.size());
@@ -188,11 +206,15 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
     give(known[v], options.targets.empty(), field.distance[v], field.lower[v], field.source[v]);
     field.reached += field.distance[v] < kInfinity;
   }
-  fill_sides(run, horizon, [&](Index v) { return windows.at_vertex(v).upper; }, options.max_distance, field);
+  fill_sides(run, horizon, [&](Index v) { return at_vertex(v).upper; }, options.max_distance, field);
   std::size_t place = 0;
   for (const auto& sides : run.targets) {
     refraction::Known there;
-    for (std::size_t i = 0; i < sides.size(); ++i) there = better(there, windows.at_target(place++));
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const PointLocation& p = sides[i];
+      there = better(there, p.on == PointLocation::On::Vertex ? at_vertex(p.vertex) : windows.at_target(place));
+      ++place;
+    }
     give(there, true, field.target_distance.emplace_back(), field.target_lower.emplace_back(),
          field.target_source.emplace_back());
   }
