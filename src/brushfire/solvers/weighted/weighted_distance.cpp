@@ -8,6 +8,7 @@
 #include <brushfire/solvers/steiner/detail/run.h>
 #include <brushfire/solvers/weighted/detail/fields.h>
 #include <brushfire/solvers/weighted/detail/marching.h>
+#include <brushfire/solvers/weighted/detail/needs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +73,8 @@ struct WeightedSolver::Workspace {
   std::shared_ptr<const PointLayout> points_for(Costs costs, const WeightedOptions& options, unsigned doublings);
   WeightedField run_uniform(std::span<const Source> sources, const WeightedOptions& options);
   WeightedField run(std::span<const Source> sources, const WeightedOptions& options, unsigned doublings);
-  bool follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field);
+  WeightedField run_refined(std::span<const Source> sources, const WeightedOptions& options);
+  bool follow_windows(const Run& run, const WeightedOptions& options, unsigned refinements, WeightedField& field);
   void search(Run& run, const WeightedOptions& options, const PointLayout* below, WeightedField& field) const;
   void fill_lower(const Search& below, const Run& run, const WeightedOptions& options, WeightedField& field) const;
 };
@@ -152,9 +154,11 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
 }
 
 // Both bounds by windows. False, and the field is empty, where they cannot be followed.
-bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field) {
+bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOptions& options, unsigned refinements,
+                                               WeightedField& field) {
   if (!medium) medium = std::make_unique<refraction::Medium>(*mesh);
-  if (!medium->is_followable(options.tolerance)) return false;
+  const double tolerance = std::ldexp(options.tolerance, -2 * static_cast<int>(refinements));
+  if (!medium->is_followable(tolerance)) return false;
   std::vector<PointLocation> places;
   for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
   const double unit = mesh->mesh().unit();
@@ -162,8 +166,8 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
   if (!options.targets.empty() && places.empty()) farthest = -1;  // all targets are nowhere
   const NearVertices near(*mesh, run.sources);
   refraction::Run windows(*medium, run.sources,
-                          {std::min(options.tolerance, kWidestWindows), farthest, windows_worth_it(options.tolerance),
-                           places, options.progress, near.of_source});
+                          {std::min(tolerance, kWidestWindows), farthest, windows_worth_it(tolerance), places,
+                           options.progress, near.of_source});
   if (!windows()) return false;
   const auto at_vertex = [&](Index v) {
     refraction::Known known = windows.at_vertex(v);
@@ -236,7 +240,7 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
   if (from_curves) run->layout = points_for(Costs::Real, options, doublings);
   locate(sources, options.targets, *run);
   WeightedField field;
-  if (lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
+  if (lower && !options.keep_paths && follow_windows(*run, options, doublings, field)) return field;
   run->layout = points_for(Costs::Real, options, doublings);
   std::shared_ptr<const PointLayout> below;
   if (lower && weights.is_isotropic()) below = points_for(Costs::Below, options, doublings);
@@ -287,6 +291,31 @@ WeightedField WeightedSolver::Workspace::run_uniform(std::span<const Source> sou
   return field;
 }
 
+// Until the tolerance is met, or as long as what is allowed may do it.
+WeightedField WeightedSolver::Workspace::run_refined(std::span<const Source> sources, const WeightedOptions& options) {
+  WeightedField field = run(sources, options, 0);
+  field.needed = needs_of(field, options.tolerance, kInfinity);
+  for (unsigned k = 1; k <= options.refinements; ++k) {
+    const unsigned more = field.needed.refinements;
+    if (more == 0 || !field.needed.is_reachable || more > options.refinements - field.refinements) break;
+    try {
+      WeightedField finer = run(sources, options, k);
+      const bool same_kind = finer.engine == field.engine;
+      finer.needed = needs_of(finer, options.tolerance, same_kind ? field.max_error_bound : kInfinity);
+      if (finer.max_error_bound < field.max_error_bound) {
+        field = std::move(finer);
+      } else {  // points after windows, where these have given up
+        field.needed = finer.needed;
+      }
+      field.refinements = k;
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::TooLarge) throw;
+      break;  // what is known is worth more than nothing
+    }
+  }
+  return field;
+}
+
 WeightedSolver::WeightedSolver(Domain domain, Weights weights) : workspace_(std::make_unique<Workspace>()) {
   brushfire::check(domain.mesh(), weights);
   workspace_->domain = std::move(domain);
@@ -331,13 +360,7 @@ WeightedField WeightedSolver::distance(std::span<const Source> sources, const We
     return march(w.mesh, *w.marching, sources, options);
   }
   if (workspace_->uniform > 0) return workspace_->run_uniform(sources, options);
-  WeightedField field = workspace_->run(sources, options, 0);
-  for (unsigned k = 1; k <= options.refinements && !field.lower.empty() && field.max_error_bound > options.tolerance;
-       ++k) {
-    field = workspace_->run(sources, options, k);
-    field.refinements = k;
-  }
-  return field;
+  return workspace_->run_refined(sources, options);
 }
 
 WeightedField weighted_distance(const Domain& domain, const Weights& weights, std::span<const Source> sources,
