@@ -72,6 +72,7 @@ class WeightedSolver:
         slopes: _Floats | None,
         paces: _Floats | None,
         steepest: float,
+        tacking: bool,
         grain: _Floats | None,
     ) -> None: ...
     def weighting(self, tolerance: float, towards: bool, method: str) -> Weighting: ...
@@ -87,7 +88,7 @@ class WeightedSolver:
         max_distance: float,
         method: str,
         progress: _Progress,
-    ) -> tuple[_Floats, _Signed, _Floats | None, float, float, str]: ...
+    ) -> tuple[_Floats, _Signed, _Floats | None, float, float, str, tuple[int, int, float]]: ...
     def paths(
         self,
         sources: Sources,

@@ -181,8 +181,8 @@ SlopePace pace_of(const std::string& slope) {
 }  // namespace
 
 Weights weights_of(const SharedArguments& a, const Surface& surface) {
-  if (a.slope.empty() && (a.steepest || a.towards)) {
-    refuse(std::string(a.towards ? "--towards" : "--steepest") + ": without --slope it makes no difference");
+  if (const char* steep = given(a, {Shared::Steepest, Shared::Tacking, Shared::Towards}); steep && a.slope.empty()) {
+    refuse(std::string(steep) + ": without --slope it makes no difference");
   }
   if (!a.costs.empty() && a.weights_file.empty()) refuse("--cost: of which labels? give them by --weights");
   Weights weights;
@@ -195,6 +195,7 @@ Weights weights_of(const SharedArguments& a, const Surface& surface) {
   if (!a.grain_file.empty()) weights.grain = grain_of(a.grain_file, surface);
   if (!a.slope.empty()) weights.pace = pace_of(a.slope);
   if (weights.pace && a.steepest) weights.pace = weights.pace->up_to(*a.steepest);
+  if (weights.pace && a.tacking) weights.pace = weights.pace->tacking();
   return weights;
 }
 
