@@ -117,8 +117,8 @@ class DifferentiableDistance:
         [0.8, 0.6, 0.0]
         """
         path = self._field.path_length(integer(target, "target"))
-        one_sided = path.is_one_sided or bool(self.one_sided(tie)[target])
-        return PathLength(path.length, path.vertices, path.gradient, one_sided, path)
+        one_sided = path.is_one_sided() or bool(self.one_sided(tie)[target])
+        return PathLength(path.length(), path.vertices(), path.gradient(), one_sided, path)
 
 
 def distance_vjp(

@@ -94,10 +94,10 @@ void bind_derivatives(nb::module_& m) {
       .def("one_sided", one_sided, nb::arg("tie"))
       .def("path_length", length_to, nb::arg("target"));
   nb::class_<PathLength>(m, "PathLength")
-      .def_prop_ro("length", &PathLength::length)
-      .def_prop_ro("vertices", vertices_of)
-      .def_prop_ro("gradient", gradient_of)
-      .def_prop_ro("is_one_sided", &PathLength::is_one_sided)
+      .def("length", &PathLength::length)
+      .def("vertices", vertices_of)
+      .def("gradient", gradient_of)
+      .def("is_one_sided", &PathLength::is_one_sided)
       .def("hessian_times", hessian_times, nb::arg("moves").noconvert())
       .def("hessian", hessian);
   m.def("traced_field", traced_field, nb::arg("solver"), nb::arg("index").noconvert(),
