@@ -306,18 +306,6 @@ class LegSearch {
     offer(goal, start_of(c.source) + offset);
   }
 
-  // From `from` to `to`, of the place where offset and way to the origin are least together: LineSource::sight_of().
-  static DoubleDouble best_share(const SegmentInFace& s, WideVec2 from, WideVec2 to) {
-    const WideVec2 step = to - from;
-    const DoubleDouble length = norm(step), slope = (DoubleDouble(s.to_value) - DoubleDouble(s.from_value)) / length;
-    const DoubleDouble ahead = -dot(from, step) / length, aside = cross(from, step) / length;
-    const DoubleDouble rise2 = (DoubleDouble(1) - slope) * (DoubleDouble(1) + slope);
-    const DoubleDouble away = aside.high < 0 ? -aside : aside;
-    if (!(rise2.high > 0)) return slope.high > 0 ? 0.0 : 1.0;
-    const DoubleDouble share = (ahead - away * slope / sqrt(rise2)) / length;
-    return share.high > 0 ? (share < 1.0 ? share : DoubleDouble(1)) : DoubleDouble(0);
-  }
-
   void offer_corner(LegGoal goal, Index k, WideVec2 place) {
     const Index vertex = mesh_.faces()[goal.face][k];
     goal.place = place;
