@@ -91,9 +91,8 @@ struct Run {
   }
 };
 
-// Signs are read off exact paths, of the whole mesh.
+// Signs are read off exact paths.
 void check_signed(const Arguments& arguments) {
-  if (const char* walls = given(arguments.shared, kWalls)) refuse("--signed: not with " + std::string(walls));
   if (!arguments.targets.empty()) refuse("--signed: not with --target: the field has the signs");
   if (given(arguments.shared, kWeights)) refuse("--signed: not with weights: costs have no sides");
   if (const char* accuracy = given(arguments.shared, kAccuracy)) {
@@ -215,7 +214,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
 
   const Stopwatch solving;
   run.field = solver.distance(run.sources, options);
-  if (arguments.is_signed) run.field.distance = signed_distance(run.field, run.sources);
+  if (arguments.is_signed) run.field.distance = signed_distance(surface.domain(), run.field, run.sources);
   run.solve_s = solving.seconds();
   talk.end_progress();
   run.reached = Reached(surface.domain(), run.sources, options, run.field);

@@ -29,7 +29,8 @@ Surface::Surface(const std::string& file, const SharedArguments& arguments)
   Walls walls;
   if (given(arguments, kWalls)) {
     walls = walls_of(arguments, loaded_.mesh, mesh(), vertex_map_);
-    domain_ = Domain(mesh(), walls.barriers);
+    barriers_ = walls.barriers;
+    domain_ = Domain(mesh(), barriers_);
   }
   if (given(arguments, kWeights)) {
     weights_ = weights_of(arguments, *this);
