@@ -78,6 +78,7 @@ OTHERWISE = {
     "distance --labels": ("return_source", "write(labels=) puts them into the file"),
     "voronoi --borders": ("", "Voronoi.borders, for write()"),
     "render --label-file": ("labels", "an array in place of a file"),
+    "render --signed": ("values", "what signed_distance() returns"),
     "render --error": ("", "a panel of the difference of two arrays"),
     "render --error-range": ("scales", "each scale has its own range"),
     "render --path": ("paths", "those that are there, in place of ends to compute one to"),

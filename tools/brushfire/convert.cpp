@@ -78,7 +78,7 @@ std::string convert_mesh(const Arguments& a) {
   const Surface surface(a.input, a.shared);
   const Domain& domain = surface.domain();
   if (a.shared.scalar_file.empty()) {
-    write_mesh(a.output, domain.open(), "", surface.file().structure);
+    write_mesh(a.output, surface.open_for_file(), "", surface.file().structure);
     return surface.file().format;
   }
   const LoadedField field = read_field(a.shared.scalar_file, a.shared.array_name);
@@ -88,7 +88,7 @@ std::string convert_mesh(const Arguments& a) {
   view.structure = surface.file().structure;
   const std::vector<std::uint8_t> not_visited = not_visited_of(field, surface.file().mesh.vertex_count());
   if (!surface.is_welded() && !domain.has_walls()) view.not_visited = not_visited;
-  write_field(a.output, domain.open(), view);
+  write_field(a.output, surface.open_for_file(), view);
   return surface.file().format;
 }
 

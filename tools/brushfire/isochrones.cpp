@@ -57,7 +57,7 @@ void add_isochrones(CommandLine& command_line) {
                {.without = {{kWeights, "costs are what the field holds: brushfire distance computes them"},
                             {kStarting, "nothing starts here: distances or costs are read"},
                             {kComputing, "nothing is computed here: distances or costs are read"},
-                            {{Shared::Scalar}, "the values are FIELD"},
+                            {{Shared::Scalar}, "the values are those of FIELD"},
                             {{Shared::Unit}, "GeoJSON has the mesh's own coordinates"}}});
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return isochrones_verb(*arguments, talk); });

@@ -50,6 +50,10 @@ class Surface {
     for (const Index v : vertex_map_) out.push_back(values[v]);
     return out;
   }
+  // What walls leave open, for a file. Throws Error(InvalidArgument) where a wall is a single edge, whose ends stay
+  // whole: files tell the sides of an edge apart by its vertices.
+  const Mesh& open_for_file() const;
+
   // Vertices that a mask leaves open, and none of their faces.
   Index left_alone() const { return left_alone_; }
 

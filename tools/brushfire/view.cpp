@@ -86,7 +86,7 @@ int view_verb(const Arguments& a, const Talk& talk) {
   PlaceFinder finder(surface.mesh(), a.shared.snap_within);
   const std::vector<SurfacePoint> sources = open_points(surface.domain(), sources_on(surface, finder, places));
   finder.tell(talk);
-  const Mesh& open = surface.domain().open();
+  const Mesh& open = surface.open_for_file();
   if (open.face_count() == 0) refuse(a.file + ": walls leave no face to show");
   const std::vector<std::uint8_t> mesh = encode_mesh(open, "ply");
   const std::string_view bytes(reinterpret_cast<const char*>(mesh.data()), mesh.size());
