@@ -127,6 +127,27 @@ TEST(WildPaths, AreNotShorterThanTheEdgeThatTheyRunAlong) {
   EXPECT_DOUBLE_EQ(PathFinder(mesh).between(vertex_point(mesh, 3), vertex_point(mesh, 0)).length, std::sqrt(2.0));
 }
 
+// Legs so short that the path's length does not tell where they cross an edge: the last 7e-11 of 2e5 turned by 1.4.
+TEST(WildPaths, AreStraightAtEdgesAlsoWhereLengthDoesNotTell) {
+  struct Case {
+    Wild family;
+    std::uint32_t seed;
+    int pair;
+  };
+  for (const auto& [family, seed, wanted] : {Case{Wild::PowerLaw, 1008, 2}, Case{Wild::FarPoint, 1008, 0},
+                                             Case{Wild::FarPoint, 1047, 0}, Case{Wild::Clusters, 1008, 2}}) {
+    SCOPED_TRACE(std::string(name_of(family)) + ", seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    const Mesh mesh = wild_complex(family, random);
+    for (int pair = 0; pair <= wanted; ++pair) {
+      const SurfacePoint from = wild_point(mesh, random), to = wild_point(mesh, random);
+      if (pair == wanted) {
+        EXPECT_EQ(judge_path(mesh, from, to, false).complaint, "");
+      }
+    }
+  }
+}
+
 // Every face twice, the other way round: between the sheets over one edge a way may go to and fro.
 TEST(WildPaths, OverDoubledSheetsOfAPrismAreFound) {
   constexpr Index kSides = 8;

@@ -27,11 +27,10 @@ double distance_between(const Mesh& mesh, const PointLocation& a, const PointLoc
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace
-
-double length_of(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed) {
-  double length = 0;
-  if (points.empty()) return length;
+// Calls leg(length) for each straight piece, in mesh.unit().
+template <class Leg>
+void measure(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed, Leg&& leg) {
+  if (points.empty()) return;
   const PointLocation first = locate(mesh, points.front(), 0);
   PointLocation before = first;
   for (std::size_t i = 1; i < points.size() + (closed ? 1 : 0); ++i) {
@@ -41,10 +40,24 @@ double length_of(const Mesh& mesh, std::span<const SurfacePoint> points, bool cl
       throw Error(ErrorCode::InvalidArgument, "points " + std::to_string(i - 1) + " and " +
                                                   std::to_string(i % points.size()) + " of a path share no face");
     }
-    length += step;
+    leg(step);
     before = here;
   }
+}
+
+}  // namespace
+
+double length_of(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed) {
+  double length = 0;
+  measure(mesh, points, closed, [&](double leg) { length += leg; });
   return length * mesh.unit();
+}
+
+std::vector<double> leg_lengths(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed) {
+  std::vector<double> lengths;
+  lengths.reserve(points.size());
+  measure(mesh, points, closed, [&](double leg) { lengths.push_back(leg * mesh.unit()); });
+  return lengths;
 }
 
 }  // namespace brushfire

@@ -21,4 +21,7 @@ struct SurfacePath {
 // names the first pair of consecutive points that share no face, and what locate() throws.
 double length_of(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed = false);
 
+// The lengths of its straight pieces, one fewer than points (as many where it is closed), which sum to that.
+std::vector<double> leg_lengths(const Mesh& mesh, std::span<const SurfacePoint> points, bool closed = false);
+
 }  // namespace brushfire

@@ -12,13 +12,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace brushfire {
 namespace {
 
 using On = PointLocation::On;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Whether two points are one: a point of an edge or a vertex may be named in several faces. No distance is too small.
 bool same_point(const Mesh& mesh, const SurfacePoint& a, const SurfacePoint& b) {
@@ -45,7 +50,7 @@ Error lost(double length) {
 }
 
 // Whether a path could be shorter on one side of a vertex that it goes through.
-bool is_bent(const Mesh& mesh, const SurfacePoint& before, const PointLocation& at, const SurfacePoint& after) {
+bool is_bent_around(const Mesh& mesh, const SurfacePoint& before, const PointLocation& at, const SurfacePoint& after) {
   const auto direction = [&](const SurfacePoint& p) {
     const PointLocation there = locate(mesh, p, 0);
     const Index f = common_face(mesh, at, there, p.face);
@@ -55,22 +60,74 @@ bool is_bent(const Mesh& mesh, const SurfacePoint& before, const PointLocation& 
          kPi - detail::kStraightAngle;
 }
 
+// A turn that nobody takes for straight.
+constexpr double kSeenTurn = 1e-7;
+
+// Whether a path turns where it crosses an edge, by more than the weights of its points are rounded.
+bool is_bent_across(const Mesh& mesh, const SurfacePoint& before, const PointLocation& at, const SurfacePoint& after) {
+  const Index end = std::max(mesh.from(at.halfedge), mesh.to(at.halfedge));
+  double angles = 0, room = kSeenTurn;
+  for (const SurfacePoint& p : {before, after}) {
+    const PointLocation there = locate(mesh, p, 0);
+    const Index f = common_face(mesh, at, there, p.face);
+    const std::array<Vec2, 3> corners = flat_corners(mesh, f);
+    const std::array<double, 3> here = *weights_in(mesh, at, f);
+    std::array<double, 3> ahead{};
+    for (std::size_t k = 0; k < 3; ++k) ahead[k] = mesh.faces()[f][k] == end ? 1 : 0;
+    const Vec2 edge = flat_difference(corners, here, ahead);
+    const Vec2 leg = flat_difference(corners, here, *weights_in(mesh, there, f));
+    angles += std::atan2(std::abs(cross(edge, leg)), dot(edge, leg));
+    const std::span<const double> lengths = mesh.lengths().subspan(3 * static_cast<std::size_t>(f), 3);
+    room += 8 * kEpsilon * *std::max_element(lengths.begin(), lengths.end()) / norm(leg);
+  }
+  return std::abs(angles - kPi) > room;
+}
+
+// How many of the weights of a point on the path are zero: 2 at a vertex, 1 on an edge.
+auto zeros(const SurfacePoint& p) { return std::count(p.weights.begin(), p.weights.end(), 0.0); }
+
+// The edge that a point with one weight of zero lies on.
+Index halfedge_of(const SurfacePoint& p) {
+  const auto opposite = std::find(p.weights.begin(), p.weights.end(), 0.0) - p.weights.begin();
+  return Mesh::next(3 * p.face + static_cast<Index>(opposite));
+}
+
+// Rounding turns the plane of a face by epsilons of the path's length over that of an edge that it is unfolded over,
+// and moves what is a path's length away by that much more. A leg that is short beside this may turn by kSeenTurn.
+double short_leg(const Mesh& mesh, const SurfacePath& path) {
+  double edge = path.length;
+  for (const SurfacePoint& p : path.points) {
+    if (zeros(p) == 1) edge = std::min(edge, mesh.lengths()[halfedge_of(p)] * mesh.unit());
+  }
+  return 4 * kEpsilon / kSeenTurn * path.length * (path.length / edge);
+}
+
+// Whether the path has a corner that it would not have if it were shorter.
+bool has_corner(const Mesh& mesh, const SurfacePath& path, std::span<const double> legs) {
+  const double short_at_edge = short_leg(mesh, path);
+  for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
+    const SurfacePoint &before = path.points[i - 1], &after = path.points[i + 1];
+    const auto count = zeros(path.points[i]);
+    const double leg = std::min(legs[i - 1], legs[i]);
+    if (count == 0 || (count == 1 && !(leg > 0 && leg < short_at_edge))) continue;
+    const PointLocation at = locate(mesh, path.points[i], 0);
+    if (at.on == On::Vertex && is_bent_around(mesh, before, at, after)) return true;
+    if (at.on == On::Edge && is_bent_across(mesh, before, at, after)) return true;
+  }
+  return false;
+}
+
 // Each leg is straight, and what two of them could save where they meet is less than the field's value tells: nothing
 // at the scale of the path, but next to a vertex or in faces that are tiny beside it, a visible corner.
 SurfacePath straightened(const Mesh& mesh, SurfacePath path) {
-  path.length = length_of(mesh, path.points);
-  for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
-    const std::array<double, 3>& w = path.points[i].weights;
-    if (std::count(w.begin(), w.end(), 0.0) < 2) continue;
-    const PointLocation at = locate(mesh, path.points[i], 0);
-    if (at.on != On::Vertex || !is_bent(mesh, path.points[i - 1], at, path.points[i + 1])) continue;
-    SurfacePath shorter = shorten(mesh, path.points);
-    shorter.length = length_of(mesh, shorter.points);
-    // Shorter in wider numbers; here both are sums of rounded pieces.
-    constexpr double kRounding = 1e-13;
-    return shorter.length <= path.length * (1 + kRounding) ? shorter : path;
-  }
-  return path;
+  const std::vector<double> legs = leg_lengths(mesh, path.points);
+  path.length = std::accumulate(legs.begin(), legs.end(), 0.0);
+  if (!has_corner(mesh, path, legs)) return path;
+  SurfacePath shorter = shorten(mesh, path.points);
+  shorter.length = length_of(mesh, shorter.points);
+  // Shorter in wider numbers; here both are sums of rounded pieces.
+  constexpr double kRounding = 1e-13;
+  return shorter.length <= path.length * (1 + kRounding) ? shorter : path;
 }
 
 bool is_edge_tight(const DistanceField& field, Index from, Index to, double length) {

@@ -68,7 +68,8 @@ def face_areas(V: npt.ArrayLike, F: npt.ArrayLike) -> Floats:
     """(faces,)."""
     vertices, faces = _mesh_arrays(V, F)
     a, b = (vertices[faces[:, k]] - vertices[faces[:, 0]] for k in (1, 2))
-    return 0.5 * np.linalg.norm(np.cross(a, b), axis=1)  # type: ignore[no-any-return]
+    areas: Floats = 0.5 * np.linalg.norm(np.cross(a, b), axis=1)
+    return areas
 
 
 def vertex_areas(V: npt.ArrayLike, F: npt.ArrayLike) -> Floats:

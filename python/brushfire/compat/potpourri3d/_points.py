@@ -122,7 +122,8 @@ class PointCloudHeatSolver:
         above = self._spread(sources, given - low)
         all_of_them = self._spread(sources, np.ones(len(sources)))
         with np.errstate(invalid="ignore", divide="ignore"):
-            return low + np.clip(above / all_of_them, 0, given.max() - low)  # type: ignore[no-any-return]
+            extended: Floats = low + np.clip(above / all_of_them, 0, given.max() - low)
+        return extended
 
     def get_tangent_frames(self) -> tuple[Floats, Floats, Floats]:
         """Unit vectors x, y and normal at every point, (points, 3) each."""
@@ -194,7 +195,8 @@ class PointCloudHeatSolver:
         free = np.setdiff1d(np.flatnonzero(self._laplacian.diagonal() > 0), fixed)
         values = np.zeros(len(vectors))
         values[free] = spsolve(self._laplacian[free][:, free], b[free])
-        return values - values[sources].mean()  # type: ignore[no-any-return]
+        centred: Floats = values - values[sources].mean()
+        return centred
 
     def _numbers(self, p_inds: npt.ArrayLike) -> npt.NDArray[np.int64]:
         return indices(p_inds, self._mesh.vertex_count, "p_inds")
@@ -231,10 +233,12 @@ class PointCloudHeatSolver:
         """From the frame of one point to that of another: the rotation or reflection nearest to the projection."""
         frames = np.stack([self._around.x, self._around.y], axis=2)
         u, _, v = np.linalg.svd(np.einsum("nki,nkj->nij", frames[row], frames[column]))
-        return u @ v  # type: ignore[no-any-return]
+        turns: Floats = u @ v
+        return turns
 
 
 def _unit(vectors: Floats) -> Floats:
     """NaN for what has no length."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)  # type: ignore[no-any-return]
+        unit: Floats = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    return unit

@@ -47,21 +47,28 @@ std::vector<PointInFace> names_of(const Mesh& mesh, const PointLocation& at) {
 }
 
 LegOrigins::LegOrigins(const Mesh& mesh, const PointLocation& at, double value) : mesh_(mesh), value_(value) {
-  origins_.push_back({at, 0, kNoIndex});
-  for (Index i = 0; i < size(); ++i) {
-    const LegOrigin from = origins_[i];
-    for (const PointInFace& f : names_of(mesh_, from.at)) {
-      rounding_ = std::max(rounding_, kNoWay * longest_edge(mesh_, f.face));
-      PointLocation here;
-      here.face = f.face;
-      here.weights = f.weights;
-      const std::array<double, 3> d = corner_distances(mesh_, here);
-      for (Index k = 0; k < 3; ++k) {
-        const double way = from.before + d[k];
-        if (way <= no_distance(from.at, f.face)) add(mesh_.faces()[f.face][k], 3 * f.face + k, way, i);
-      }
-      for (Index k = 0; k < 3; ++k) add_across(f, 3 * f.face + k, i);
+  offer({at, 0, kNoIndex});
+  // Nearest first: where offsets are large, vertices that are far apart count, and the way between them with them.
+  while (!open_.empty()) {
+    const auto [before, i] = open_.top();
+    open_.pop();
+    if (before == origins_[i].before) spread(i);
+  }
+}
+
+void LegOrigins::spread(Index i) {
+  const LegOrigin from = origins_[i];
+  for (const PointInFace& f : names_of(mesh_, from.at)) {
+    rounding_ = std::max(rounding_, kNoWay * longest_edge(mesh_, f.face));
+    PointLocation here;
+    here.face = f.face;
+    here.weights = f.weights;
+    const std::array<double, 3> d = corner_distances(mesh_, here);
+    for (Index k = 0; k < 3; ++k) {
+      const double way = from.before + d[k];
+      if (way <= no_distance(from.at, f.face)) offer({at_corner(3 * f.face + k), way, i});
     }
+    for (Index k = 0; k < 3; ++k) offer_across(f, 3 * f.face + k, i);
   }
 }
 
@@ -74,32 +81,39 @@ double LegOrigins::no_distance(const PointLocation& from, Index face) const {
   return std::max(no_distance(), kNoPlace * longest_edge(mesh_, face));
 }
 
-void LegOrigins::add(Index v, Index corner, double way, Index previous) {
-  if (has(v)) return;
+void LegOrigins::offer(const LegOrigin& origin) {
+  Index i = size();
+  if (origin.at.on != On::Interior) {
+    const bool is_vertex = origin.at.on == On::Vertex;
+    auto& known = is_vertex ? at_vertex_ : on_edge_;
+    const auto [it, is_new] = known.try_emplace(is_vertex ? origin.at.vertex : edge_of(origin.at.halfedge), i);
+    i = it->second;
+    if (!is_new && !(origin.before < origins_[i].before)) return;
+  }
+  if (i == size()) origins_.emplace_back();
+  origins_[i] = origin;
+  open_.emplace(origin.before, i);
+}
+
+PointLocation LegOrigins::at_corner(Index corner) const {
   PointLocation at;
   at.on = On::Vertex;
-  at.vertex = v;
+  at.vertex = mesh_.from(corner);
   at.face = Mesh::face_of(corner);
   at.weights = corner_weights(corner % 3);
-  origins_.push_back({at, way, previous});
+  return at;
 }
 
 bool LegOrigins::has_value_of(Index v) const {
-  return std::any_of(origins_.begin(), origins_.end(), [&](const LegOrigin& o) {
-    return o.at.on == On::Vertex && o.at.vertex == v && o.before <= no_distance();
-  });
-}
-
-bool LegOrigins::has(Index v) const {
-  return std::any_of(origins_.begin(), origins_.end(),
-                     [&](const LegOrigin& o) { return o.at.on == On::Vertex && o.at.vertex == v; });
+  const auto it = at_vertex_.find(v);
+  return it != at_vertex_.end() && origins_[it->second].before <= no_distance();
 }
 
 // The foot of the point on an edge at no distance: other corners of faces without area may lie there.
-void LegOrigins::add_across(const PointInFace& f, Index h, Index previous) {
+void LegOrigins::offer_across(const PointInFace& f, Index h, Index previous) {
   const double weight = f.weights[Mesh::previous(h) % 3], length = mesh_.length(h);
   const double room = no_distance(origins_[previous].at, f.face);
-  if (weight == 0 || !(length > 0) || mesh_.opposite()[h] == h || has_edge(h)) return;
+  if (weight == 0 || !(length > 0) || mesh_.opposite()[h] == h) return;
   if (!(weight * mesh_.double_areas()[f.face] <= 2 * room * length)) return;
   const std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, h % 3);
   const WideVec2 here = wide_point(corners, f.weights);
@@ -112,20 +126,14 @@ void LegOrigins::add_across(const PointInFace& f, Index h, Index previous) {
   at.face = f.face;
   at.weights[h % 3] = (DoubleDouble(1) - share).high;
   at.weights[Mesh::next(h) % 3] = share.high;
-  origins_.push_back({at, way, previous});
+  offer({at, way, previous});
 }
 
-bool LegOrigins::has_edge(Index h) const {
-  const auto is_on = [&](const LegOrigin& o) {
-    if (o.at.on != On::Edge) return false;
-    Index g = o.at.halfedge;
-    do {
-      if (g == h) return true;
-      g = mesh_.opposite()[g];
-    } while (g != o.at.halfedge);
-    return false;
-  };
-  return std::any_of(origins_.begin(), origins_.end(), is_on);
+// The least of its halfedges.
+Index LegOrigins::edge_of(Index h) const {
+  Index least = h;
+  for (Index g = mesh_.opposite()[h]; g != h; g = mesh_.opposite()[g]) least = std::min(least, g);
+  return least;
 }
 
 }  // namespace brushfire::windows

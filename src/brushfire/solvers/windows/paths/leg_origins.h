@@ -5,7 +5,10 @@
 #include <brushfire/mesh/surface_point.h>
 
 #include <array>
-#include <span>
+#include <functional>
+#include <queue>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace brushfire::windows {
@@ -41,17 +44,22 @@ class LegOrigins {
   bool has_value_of(Index v) const;
 
  private:
-  bool has(Index v) const;
   double no_distance() const;
   double no_distance(const PointLocation& from, Index face) const;
-  void add(Index v, Index corner, double way, Index previous);
-  void add_across(const PointInFace& f, Index h, Index previous);
-  bool has_edge(Index h) const;
+  void spread(Index origin);
+  // Keeps the nearest of each vertex and edge.
+  void offer(const LegOrigin& origin);
+  void offer_across(const PointInFace& f, Index h, Index previous);
+  PointLocation at_corner(Index corner) const;
+  Index edge_of(Index h) const;
 
   const Mesh& mesh_;
   double value_;
   double rounding_ = 0;
   std::vector<LegOrigin> origins_;
+  std::unordered_map<Index, Index> at_vertex_, on_edge_;  // which of them
+  // Whose neighbours are to be looked at; what is not its `before` any more is done.
+  std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>> open_;
 };
 
 }  // namespace brushfire::windows

@@ -255,12 +255,15 @@ class LegSearch {
   void offer_source_at(Index origin) {
     const PointLocation& at = origins_[origin].at;
     if (at.on != On::Vertex) return;
-    const auto [begin, end] = sources_.at(at.vertex);
+    LegGoal goal;
+    goal.face = at.face;
+    goal.weights = at.weights;
+    goal.origin = origin;
+    offer_sources_at(goal, at.vertex);
+  }
+  void offer_sources_at(LegGoal goal, Index vertex) {
+    const auto [begin, end] = sources_.at(vertex);
     for (auto s = begin; s != end; ++s) {
-      LegGoal goal;
-      goal.face = at.face;
-      goal.weights = at.weights;
-      goal.origin = origin;
       goal.source = s->second.source;
       offer(goal, start_of(goal.source) + s->second.offset);
     }
@@ -303,25 +306,19 @@ class LegSearch {
     offer(goal, start_of(c.source) + offset);
   }
 
-  // From `from` to `to`, of the place where offset and way to the origin are least together: LineSource::sight_of().
-  static DoubleDouble best_share(const SegmentInFace& s, WideVec2 from, WideVec2 to) {
-    const WideVec2 step = to - from;
-    const DoubleDouble length = norm(step), slope = (DoubleDouble(s.to_value) - DoubleDouble(s.from_value)) / length;
-    const DoubleDouble ahead = -dot(from, step) / length, aside = cross(from, step) / length;
-    const DoubleDouble rise2 = (DoubleDouble(1) - slope) * (DoubleDouble(1) + slope);
-    const DoubleDouble away = aside.high < 0 ? -aside : aside;
-    if (!(rise2.high > 0)) return slope.high > 0 ? 0.0 : 1.0;
-    const DoubleDouble share = (ahead - away * slope / sqrt(rise2)) / length;
-    return share.high > 0 ? (share < 1.0 ? share : DoubleDouble(1)) : DoubleDouble(0);
-  }
-
   void offer_corner(LegGoal goal, Index k, WideVec2 place) {
-    goal.vertex = mesh_.faces()[goal.face][k];
-    if (!(value_of(goal.vertex) < value_) || origins_.has_value_of(goal.vertex)) return;
+    const Index vertex = mesh_.faces()[goal.face][k];
     goal.place = place;
     goal.length = length_of(place);
     goal.weights = corner_weights(k);
-    offer(goal, value_of(goal.vertex));
+    if (origins_.has_value_of(vertex)) {
+      // Straight to a source, which along edges may be farther; what is at one place is an origin itself.
+      if (goal.length > 0) offer_sources_at(goal, vertex);
+      return;
+    }
+    if (!(value_of(vertex) < value_)) return;
+    goal.vertex = vertex;
+    offer(goal, value_of(vertex));
   }
 
   void offer(LegGoal& goal, double start) {
