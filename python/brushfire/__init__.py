@@ -43,7 +43,7 @@ from brushfire._sets import distance_matrices
 from brushfire._solver import Solver
 from brushfire._sources import Curve
 from brushfire._terrain import Terrain, terrain
-from brushfire._weighted import Costs, Weighted, WeightedPath
+from brushfire._weighted import Costs, Needed, Weighted, WeightedPath
 
 __all__ = [
     "At",
@@ -75,6 +75,7 @@ __all__ = [
     "Medoids",
     "Mesh",
     "MeshReport",
+    "Needed",
     "Panel",
     "Parcels",
     "Patches",

@@ -2,6 +2,7 @@
 #include "computing.h"
 #include "fields.h"
 #include "interrupt.h"
+#include "numbers.h"
 #include "output.h"
 #include "reached.h"
 #include "sources.h"
@@ -59,6 +60,7 @@ struct Arguments {
   SharedArguments shared;
   std::vector<std::string> targets;
   bool labels = false, is_signed = false;
+  std::optional<int> refine;
 };
 
 class Stopwatch {
@@ -91,22 +93,12 @@ struct Run {
   }
 };
 
-// Signs are read off exact paths, of the whole mesh.
-void check_signed(const Arguments& arguments) {
-  if (const char* walls = given(arguments.shared, kWalls)) refuse("--signed: not with " + std::string(walls));
-  if (!arguments.targets.empty()) refuse("--signed: not with --target: the field has the signs");
-  if (given(arguments.shared, kWeights)) refuse("--signed: not with weights: costs have no sides");
-  if (const char* accuracy = given(arguments.shared, kAccuracy)) {
-    refuse("--signed is exact: not with " + std::string(accuracy));
-  }
-  for (const std::string& method : arguments.shared.methods) {
-    if (method != "exact") refuse("--signed is exact: not with --method " + method);
-  }
-}
-
 void check(const Arguments& arguments, const Talk& talk) {
   check_output(arguments.output);
-  if (arguments.is_signed) check_signed(arguments);
+  if (arguments.is_signed) check_signed(arguments.shared);
+  if (arguments.is_signed && !arguments.targets.empty()) {
+    refuse("--signed: not with --target: the field has the signs");
+  }
   if (arguments.output == "-" && (talk.json || !arguments.targets.empty())) {
     refuse("only one of -o -, --json and --target can have the standard output");
   }
@@ -187,8 +179,10 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   // What can be wrong without the mesh is said before a large file is read.
   check(arguments, talk);
   if (given(arguments.shared, kWeights)) {
-    return weighted_distance({arguments.file, arguments.output, arguments.shared, arguments.targets}, talk);
+    return weighted_distance(
+        {arguments.file, arguments.output, arguments.shared, arguments.targets, arguments.refine.value_or(0)}, talk);
   }
+  if (arguments.refine) refuse("--refine: without weights every distance is within the tolerance anyway");
   Run run;
   DistanceOptions& options = run.options;
   options = computation(arguments.shared, arguments.is_signed ? Method::Exact : DistanceOptions{}.method);
@@ -215,7 +209,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
 
   const Stopwatch solving;
   run.field = solver.distance(run.sources, options);
-  if (arguments.is_signed) run.field.distance = signed_distance(run.field, run.sources);
+  if (arguments.is_signed) run.field.distance = signed_distance(surface.domain(), run.field, run.sources);
   run.solve_s = solving.seconds();
   talk.end_progress();
   run.reached = Reached(surface.domain(), run.sources, options, run.field);
@@ -251,6 +245,8 @@ void add_distance(CommandLine& command_line) {
     verb.flag("--labels", arguments->labels, "Write the nearest source into .gii too, as other formats have it");
     verb.flag("--signed", arguments->is_signed,
               "From curves: negative on their left, as inside of those that run counter-clockwise");
+    verb.option("--refine", arguments->refine, "N", whole_from(0, 30),
+                "With --weights: run again more finely until the tolerance is met everywhere, N times at most");
     verb.talks();
     add_shared(verb, arguments->shared,
                {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});
