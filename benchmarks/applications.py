@@ -14,7 +14,7 @@ import brushfire as bf
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "python"
 sys.path.insert(0, str(EXAMPLES))
-LOOK = {"width": 420, "height": 420, "colour_bar": False}
+LOOK = {"width": 420, "height": 420, "bar": False}
 
 
 def disc(mesh, place, radius):
@@ -32,16 +32,27 @@ def grid_lines(mesh, uv, every):
 def draw_flattening(scan, folder):
     size = np.linalg.norm(np.ptp(scan.vertices, axis=0))
     part = disc(scan, int(np.argmax(scan.vertices[:, 2])), size / 5)
-    flat = bf.flatten(part, 150)
+    flat, by_heat = bf.flatten(part, 150), bf.flatten(part, 150, method="heat")
     plane = bf.Mesh(flat.uv, flat.mesh.faces)
     every = np.ptp(flat.uv, axis=0).max() / 16
     d = flat.mesh.distance(int(flat.landmarks[0]))
     panels = [
-        flat.mesh.panel(d, paths=grid_lines(flat.mesh, flat.uv, every), title="a texture's squares on the scan"),
         plane.panel(d, paths=grid_lines(plane, flat.uv, every), title="laid flat; colours: a distance"),
+        flat.mesh.panel(d, paths=grid_lines(flat.mesh, flat.uv, every), title="the squares on the scan"),
+        flat.mesh.panel(d, paths=grid_lines(flat.mesh, by_heat.uv, every), title="the same by heat's distances"),
     ]
     bf.render(panels, file=folder / "flattening.png", **LOOK)
-    print(f"flattening.png: {part}, {flat.distortion}")
+    matrix = flat.mesh.distance_matrix(flat.landmarks, method="exact", dtype=np.float64)
+    for name, found in (("windows", flat), ("heat", by_heat)):
+        print(
+            f"flattening.png: {part}, distances by {name}: stress against exact ones "
+            f"{stress(found.uv, flat.landmarks, matrix):.4f}; {bf.distortion(flat.mesh, found.uv)}"
+        )
+
+
+def stress(uv, landmarks, matrix):
+    apart = np.linalg.norm(uv[landmarks][:, None] - uv[None], axis=2)
+    return np.sqrt(((apart - matrix) ** 2).sum() / (matrix**2).sum())
 
 
 def draw_reeb(folder):
@@ -52,25 +63,6 @@ def draw_reeb(folder):
         graph = bf.reeb_graph(collection[name], 3)
         panels.append(collection[name].panel(labels=graph.node % 12, title=f"{name}: {len(graph.interval)} nodes"))
     bf.render(panels, file=folder / "reeb.png", **LOOK)
-
-
-def draw_morph(folder):
-    import morph
-
-    panels = []
-    for patches in morph.found:
-        lines = [patches.mesh.path(*way) for way in patches.paths.values()]
-        panels.append(patches.mesh.panel(labels=_of_vertices(patches), paths=lines, title="patches"))
-    half = bf.Mesh((morph.V0 + morph.V1) / 2, morph.F)
-    panels.insert(1, half.panel(half.distance(0), isolines=np.linspace(0, 4, 21), title="half way"))
-    bf.render(panels, file=folder / "morph.png", **LOOK)
-
-
-def _of_vertices(patches):
-    labels = np.zeros(patches.mesh.vertex_count, dtype=int)
-    for k in range(3):
-        labels[patches.mesh.faces[:, k]] = patches.patch
-    return labels
 
 
 def draw_gradient(scan, folder):
@@ -104,39 +96,6 @@ def measure_gradient(scan):
     )
 
 
-def measure_rows(rows=200):
-    """Rows of the matrix of a mesh as large as those of the FAUST set."""
-    import tempfile
-
-    with tempfile.TemporaryDirectory() as folder:
-        from subprocess import run
-
-        file = Path(folder) / "s.ply"
-        program = Path(__file__).parents[1] / "build" / "release" / "brushfire"
-        run([program, "shape", "torus", "-n", "6890", "-o", file, "-q"], check=True)
-        mesh = bf.read(file)
-    some = np.arange(rows)
-    for method in ("exact", "windows", "novotni-klein", "dijkstra"):
-        seconds = best(lambda method=method: mesh.distance_matrix(some, method=method, threads=1), 3)
-        print(f"rows, {mesh}: {method} {rows / seconds:.0f} a second")
-    try:
-        import gdist
-    except ImportError:
-        print("(no gdist here)")
-    else:
-        f = mesh.faces.astype(np.int32)
-        seconds = best(lambda: [gdist.compute_gdist(mesh.vertices, f, np.array([s], np.int32)) for s in range(3)], 1)
-        print(f"rows: gdist (exact) {3 / seconds:.2f} a second")
-    from scipy.sparse import csr_matrix
-    from scipy.sparse.csgraph import dijkstra
-
-    ends = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]])
-    length = np.linalg.norm(mesh.vertices[ends[:, 0]] - mesh.vertices[ends[:, 1]], axis=1)
-    graph = csr_matrix((length, (ends[:, 0], ends[:, 1])), shape=(mesh.vertex_count,) * 2)
-    seconds = best(lambda: dijkstra(graph, directed=False, indices=some), 1)
-    print(f"rows: scipy's dijkstra (along edges) {rows / seconds:.0f} a second")
-
-
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scan", type=Path)
@@ -144,9 +103,7 @@ if __name__ == "__main__":
     given = parser.parse_args()
     scan = bf.read(given.scan)
     measure_gradient(scan)
-    measure_rows()
     if given.figures:
         draw_flattening(scan, given.figures)
         draw_gradient(scan, given.figures)
         draw_reeb(given.figures)
-        draw_morph(given.figures)

@@ -281,6 +281,9 @@ def fill_matrix(
     threads: int,
     progress: _Progress,
 ) -> None: ...
+def pair_distances(
+    domain: Space, start: _Ints, end: _Ints, options: _Options, threads: int, progress: _Progress
+) -> _Floats: ...
 def sparse_float32(
     domain: Space,
     radius: float,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -40,15 +41,21 @@ class PathLength:
     :meth:`DifferentiableDistance.path_length` returns.
 
     ``length``: in the mesh's units. ``vertices`` (k,): the ones that it depends on. ``gradient`` (k, 3): per unit of
-    length that each moves. ``one_sided``: whether second derivatives depend on the direction, because another path is
-    as short (the cut locus), or because this one goes straight on through a vertex that it may pass on either side.
+    length that each moves.
     """
 
     length: float
     vertices: Labels
     gradient: Floats
-    one_sided: bool
     _path: _core.PathLength = field(repr=False)
+    _is_tied: Callable[[], bool] = field(repr=False)
+
+    @property
+    def one_sided(self) -> bool:
+        """Whether second derivatives depend on the direction: because another path is as short (the cut locus), or
+        because this one goes straight on through a vertex that it may pass on either side.
+        """
+        return self._path.is_one_sided() or self._is_tied()
 
     def hessian(self) -> Floats:
         """All second derivatives, (3 k, 3 k), symmetric: x, y and z of ``vertices[0]``, then of the next."""
@@ -117,8 +124,8 @@ class DifferentiableDistance:
         [0.8, 0.6, 0.0]
         """
         path = self._field.path_length(integer(target, "target"))
-        one_sided = path.is_one_sided() or bool(self.one_sided(tie)[target])
-        return PathLength(path.length(), path.vertices(), path.gradient(), one_sided, path)
+        is_tied = lambda: bool(self.one_sided(tie)[target])  # noqa: E731
+        return PathLength(path.length(), path.vertices(), path.gradient(), path, is_tied)
 
 
 def distance_vjp(

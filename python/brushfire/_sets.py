@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from brushfire._arrays import Floats, any_array, floating_type
+from brushfire import _core
+from brushfire._arrays import Floats, any_array, floating_type, integers
 from brushfire._errors import BrushfireError
 from brushfire._options import thread_count
-from brushfire._weighted import Weighing, weighted_of
+from brushfire._progress import Progress, shown
+from brushfire._weighted import Weighing, chosen_in
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -30,22 +32,27 @@ def pair_distances(
     mesh: Mesh,
     pairs: npt.ArrayLike,
     *,
+    radius: float = np.inf,
     method: str | None = None,
     tolerance: float | None = None,
+    bound: str | None = None,
     precision: str | None = None,
     weights: Weighing | None = None,
     normalise: bool = False,
     threads: int = 0,
+    progress: Progress = None,
 ) -> Floats:
     """The distance of each of many pairs of vertices: (k,) float64; +inf where nothing leads.
 
     :param pairs: (k, 2) vertex numbers.
-    :param method, tolerance, precision: as for :meth:`distance`. The exact method is symmetric to rounding; the
+    :param radius: pairs that are farther apart read +inf.
+    :param method, tolerance, bound, precision: as for :meth:`distance`. The exact method is symmetric to rounding; the
         others start at whichever side of all pairs has fewer vertices.
     :param weights: what going costs, from the first to the second: :meth:`weighted`, or one number per face.
     :param normalise: in units of the square root of the surface's area, as shape matching reports errors.
     :param threads: 0 means one per processor. The numbers do not depend on it.
-    :raises BrushfireError: for an array of another shape.
+    :param progress: as for :meth:`distance`.
+    :raises BrushfireError: for an array of another shape, and for vertices that there are not.
 
     Pairs are grouped by where they start: one run for each such vertex, which stops at the farthest of its ends. The
     geodesic error of a correspondence is one call.
@@ -60,24 +67,10 @@ def pair_distances(
         return np.zeros(0)
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
         raise BrushfireError(f"pairs: whole numbers of shape (k, 2) are needed, not {array.dtype} {array.shape}")
-    if weights is None and len(np.unique(array[:, 1])) < len(np.unique(array[:, 0])):
-        array = array[:, ::-1]
-    order = np.argsort(array[:, 0], kind="stable")
-    sources, starts = np.unique(array[order, 0], return_index=True)
-    groups = np.split(order, starts[1:])
-    result = np.empty(len(array))
-    costs = weighted_of(mesh, weights)
-
-    def work(share: Sequence[int]) -> None:
-        solver = mesh.solver(method, tolerance=tolerance, precision=precision)
-        for g in share:
-            ends = array[groups[g], 1]
-            result[groups[g]] = solver.distance(int(sources[g]), targets=ends, weights=costs)
-
-    team = min(_workers(threads), len(groups))
-    shares = [range(k, len(groups), team) for k in range(team)]
-    with ThreadPoolExecutor(team) as pool:
-        list(pool.map(work, shares))
+    start, end = (np.ascontiguousarray(integers(array, "pairs")[:, k]) for k in (0, 1))
+    space, chosen = chosen_in(mesh, weights, method, tolerance, radius, bound, precision)
+    with shown(progress, "pairs") as report:
+        result = _core.pair_distances(space, start, end, chosen, thread_count(threads), report)
     return result / np.sqrt(mesh.area) if normalise else result
 
 

@@ -6,10 +6,12 @@
 #include <brushfire/core/error.h>
 #include <brushfire/queries/distance_matrix.h>
 #include <brushfire/queries/matrix_job.h>
+#include <brushfire/queries/pair_distances.h>
 
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -54,6 +56,17 @@ void fill_matrix(const Domain& domain, const nb::ndarray<T, nb::ndim<2>, nb::c_c
     distance_matrix<T>(domain, view(call.rows), view(call.columns), std::span<T>(out.data(), out.size()), call.options);
     return true;
   });
+}
+
+// From one vertex to another, each.
+Result<double> of_pairs(const Domain& domain, const Vector<std::int64_t>& start, const Vector<std::int64_t>& end,
+                        const nb::dict& given, unsigned threads, nb::object progress) {
+  Call call(start, {}, end, {}, given, threads, std::move(progress));
+  std::vector<std::array<Index, 2>> pairs;
+  for (std::size_t i = 0; i < call.rows->size(); ++i) {
+    pairs.push_back({std::get<Index>((*call.rows)[i]), std::get<Index>((*call.columns)[i])});
+  }
+  return to_numpy(call.computation.run(false, [&] { return pair_distances(domain, pairs, call.options); }));
 }
 
 template <class T>
@@ -194,6 +207,8 @@ void bind_matrix(nb::module_& m) {
   }
   m.def("sparse_rows", sparse_rows, nb::arg("solver"), nb::arg("radius"), nb::arg("index").noconvert(),
         nb::arg("weights").noconvert().none(), nb::arg("options"), nb::arg("progress").none());
+  m.def("pair_distances", of_pairs, nb::arg("domain"), nb::arg("start").noconvert(), nb::arg("end").noconvert(),
+        nb::arg("options"), nb::arg("threads"), nb::arg("progress").none());
   m.def("write_matrix", write, nb::arg("domain"), nb::arg("path"), nb::arg("float32"), nb::arg("row_index").none(),
         nb::arg("row_weights").none(), nb::arg("column_index").none(), nb::arg("column_weights").none(),
         nb::arg("options"), nb::arg("threads"), nb::arg("symmetric"), nb::arg("chunk_rows"), nb::arg("zarr_format"),

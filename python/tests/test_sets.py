@@ -53,3 +53,6 @@ def test_pairs_are_entries_of_the_matrix(threads, bumpy):
 def test_pairs_of_another_shape_are_refused(bumpy):
     with pytest.raises(bf.BrushfireError, match="pairs"):
         bumpy.pair_distances([[1, 2, 3]])
+    for wrong in (-1, bumpy.vertex_count, 2**40):
+        with pytest.raises(bf.BrushfireIndexError):
+            bumpy.pair_distances([[0, wrong]])

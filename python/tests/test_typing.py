@@ -53,6 +53,7 @@ def test_every_public_function_and_method_has_an_example():
         "DistanceGradient",
         "Distortion",
         "Errors",
+        "Needed",
         "Isoline",
         "Panel",
         "Samples",

@@ -57,6 +57,7 @@
 #include <brushfire/queries/log_coordinates.h>
 #include <brushfire/queries/matrix_job.h>
 #include <brushfire/queries/nearest_sources.h>
+#include <brushfire/queries/pair_distances.h>
 #include <brushfire/queries/parcels.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/path_length.h>

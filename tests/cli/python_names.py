@@ -21,6 +21,7 @@ FUNCTIONS = {
     "log-map": ["log_map"],
     "gradient": ["gradient", "distance", "weighted"],
     "matrix": ["distance_matrix", "write_distance_matrix", "weighted"],
+    "pairs": ["pair_distances", "weighted"],
     "merge": ["merge_shards"],
     "render": ["render", "panel", "animate", "distance", "weighted"],
     "compare": ["compare"],

@@ -120,6 +120,7 @@ void add_verbs(CommandLine& command_line);
 void add_info(CommandLine& command_line);
 void add_distance(CommandLine& command_line);
 void add_matrix(CommandLine& command_line);
+void add_pairs(CommandLine& command_line);
 void add_merge(CommandLine& command_line);
 void add_path(CommandLine& command_line);
 void add_isolines(CommandLine& command_line);

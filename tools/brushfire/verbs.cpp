@@ -13,6 +13,7 @@ void add_verbs(CommandLine& command_line) {
   add_flatten(command_line);
   add_gradient(command_line);
   add_matrix(command_line);
+  add_pairs(command_line);
   add_merge(command_line);
   add_voronoi(command_line);
   add_sample(command_line);

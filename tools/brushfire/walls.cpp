@@ -74,12 +74,21 @@ std::vector<Index> blocked(const std::string& file, Index count, const char* wha
   return numbers;
 }
 
-// Pairs of vertices: (k, 2) in .npy, one pair to a line in text.
-std::vector<std::array<Index, 2>> blocked_edges(const std::string& file, Index count) {
+// On the vertices of the mesh: open where all that were joined are.
+std::vector<std::uint8_t> on_mesh(const std::vector<std::uint8_t>& open, Index count, std::span<const Index> map) {
+  if (map.empty()) return open;
+  std::vector<std::uint8_t> joined(count, 1);
+  for (std::size_t v = 0; v < open.size(); ++v) joined[map[v]] = joined[map[v]] && open[v];
+  return joined;
+}
+
+}  // namespace
+
+std::vector<std::array<Index, 2>> vertex_pairs(const std::string& file, Index count) {
   std::vector<double> ends;
   if (file.ends_with(".npy")) {
     NpyArray array = read_npy(file);
-    if (array.shape.size() != 2 || array.shape[1] != 2) refuse(file + ": edges are an array of k x 2 vertex numbers");
+    if (array.shape.size() != 2 || array.shape[1] != 2) refuse(file + ": pairs are an array of k x 2 vertex numbers");
     ends = std::move(array.values);
   } else {
     const LoadedField field = read_field(file);
@@ -90,22 +99,12 @@ std::vector<std::array<Index, 2>> blocked_edges(const std::string& file, Index c
     }
     if (ends.size() % 2 != 0) refuse(file + ": " + std::to_string(ends.size()) + " numbers are no pairs of vertices");
   }
-  std::vector<std::array<Index, 2>> edges;
+  std::vector<std::array<Index, 2>> pairs;
   for (std::size_t i = 0; i < ends.size(); i += 2) {
-    edges.push_back({number_below(ends[i], count, file, "vertex"), number_below(ends[i + 1], count, file, "vertex")});
+    pairs.push_back({number_below(ends[i], count, file, "vertex"), number_below(ends[i + 1], count, file, "vertex")});
   }
-  return edges;
+  return pairs;
 }
-
-// On the vertices of the mesh: open where all that were joined are.
-std::vector<std::uint8_t> on_mesh(const std::vector<std::uint8_t>& open, Index count, std::span<const Index> map) {
-  if (map.empty()) return open;
-  std::vector<std::uint8_t> joined(count, 1);
-  for (std::size_t v = 0; v < open.size(); ++v) joined[map[v]] = joined[map[v]] && open[v];
-  return joined;
-}
-
-}  // namespace
 
 Walls walls_of(const SharedArguments& a, const Mesh& file, const Mesh& mesh, std::span<const Index> vertex_map) {
   Walls walls;
@@ -125,7 +124,7 @@ Walls walls_of(const SharedArguments& a, const Mesh& file, const Mesh& mesh, std
     barriers.faces.insert(barriers.faces.end(), faces.begin(), faces.end());
   }
   if (!a.edges_file.empty()) {
-    for (auto edge : blocked_edges(a.edges_file, count)) {
+    for (auto edge : vertex_pairs(a.edges_file, count)) {
       for (Index& v : edge) v = vertex_map.empty() ? v : vertex_map[v];
       barriers.edges.push_back(edge);
     }
