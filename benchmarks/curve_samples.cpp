@@ -7,8 +7,8 @@
 // farther (the largest excess as a share of that), and away from the curve the mean excess falls by four with every
 // halving: order 2. Away are the vertices whose paths leave the curve straight for more than four of the coarsest
 // spacings; a path that bends sooner misses more. Where the nearest places fall between points is chance: all of it is
-// for points that begin at six places of their spacing. The exit code says whether it holds. Meshes of more than
-// VERTICES (60000) are left out, and so are files of a folder that cannot be read.
+// for points that begin at six places of their spacing. The exit code says whether it holds. Meshes of fewer than
+// 100 and more than VERTICES (60000) are left out, and so are files of a folder that cannot be read.
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/mesh/shapes.h>
@@ -37,6 +37,7 @@ namespace fs = std::filesystem;
 constexpr std::array kPieces{4, 8, 16, 32};
 constexpr std::size_t kMostPlaces = 60;
 constexpr int kPhases = 6;
+constexpr Index kFewest = 100;  // vertices that a mean says something of
 // The order that a mesh may measure: some vertices are near enough for the next one to show.
 constexpr double kLeastOrder = 1.75, kMostOrder = 2.25;
 
@@ -173,7 +174,7 @@ int run(int count, char** arguments) {
   for (const fs::path& file : files) {
     try {
       const Mesh mesh = read_mesh(file.string()).mesh;
-      if (mesh.vertex_count() > limit || !has_usable_faces(mesh)) continue;
+      if (mesh.vertex_count() < kFewest || mesh.vertex_count() > limit || !has_usable_faces(mesh)) continue;
       add(file.stem().string(), mesh);
     } catch (const Error& e) {
       std::fprintf(stderr, "%s: %s\n", file.c_str(), e.what());
