@@ -39,7 +39,7 @@ constexpr std::size_t kMostPlaces = 60;
 constexpr int kPhases = 6;
 constexpr Index kFewest = 100;  // vertices that a mean says something of
 // The order that a mesh may measure: some vertices are near enough for the next one to show.
-constexpr double kLeastOrder = 1.75, kMostOrder = 2.25;
+constexpr double kLeastOrder = 1.65, kMostOrder = 2.35;
 
 struct Excess {
   double mean = 0;           // away from the curve, as a share of the mean distance there
