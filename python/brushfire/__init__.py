@@ -21,7 +21,7 @@ from brushfire._cells import Centroidal, Medoids, Parcels, k_medoids
 from brushfire._certify import Certificate
 from brushfire._core import version as __version__
 from brushfire._curves import LogMap, Path
-from brushfire._derivatives import DifferentiableDistance, DistanceGradient
+from brushfire._derivatives import DifferentiableDistance, DistanceGradient, PathLength
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._extent import Discs, Extent, Mean
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
@@ -43,7 +43,7 @@ from brushfire._sets import distance_matrices
 from brushfire._solver import Solver
 from brushfire._sources import Curve
 from brushfire._terrain import Terrain, terrain
-from brushfire._weighted import Costs, Weighted, WeightedPath
+from brushfire._weighted import Costs, Needed, Weighted, WeightedPath
 
 __all__ = [
     "At",
@@ -75,10 +75,12 @@ __all__ = [
     "Medoids",
     "Mesh",
     "MeshReport",
+    "Needed",
     "Panel",
     "Parcels",
     "Patches",
     "Path",
+    "PathLength",
     "Point",
     "Points",
     "ReebGraph",

@@ -79,12 +79,12 @@ class Replanner:
         >>> float(planner.distance[2]), planner.renewed < 1
         (5.0, True)
         """
-        faces, edges, slope, steepest, old_grain = self._weighted._given
+        faces, edges, slope, steepest, tacking, old_grain = self._weighted._given
         faces = faces if weights is None else weights
         edges = edges if edge_weights is None else edge_weights
         if grain is None and old_grain is not None:
             grain = old_grain.reshape(-1, 4)
-        weighted = Weighted(self._mesh, faces, edges, slope, steepest, self._weighted._towards, grain)
+        weighted = Weighted(self._mesh, faces, edges, slope, steepest, self._weighted._towards, grain, tacking)
         with shown(progress, "distance") as report:
             self._core.change(weighted._solver, report)
         self._weighted = weighted

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, Labels, floats, number, radius_of
+from brushfire._arrays import Floats, Labels, floats, number, radius_of, whole
 from brushfire._curves import Path, path_of
 from brushfire._errors import BrushfireError
 from brushfire._options import Options, options, thread_count, tolerance_of
@@ -25,7 +25,20 @@ if TYPE_CHECKING:
 
 _TOLERANCE = 0.01
 
-Slope: TypeAlias = "str | tuple[npt.ArrayLike, npt.ArrayLike]"
+Slope: TypeAlias = "str | tuple[npt.ArrayLike, npt.ArrayLike] | Callable[[float], float]"
+
+
+@dataclass(frozen=True)
+class Needed:
+    """What it would take until bounds are within the tolerance everywhere: an estimate, by what the last refinement brought.
+
+    ``refinements``: how many more, for ``refine=``; None where more of them would bring the bounds no nearer. ``points``: on
+    edges, in the last of them, 0 where windows answer. ``time``: of the last of them, in times of the run that is done.
+    """
+
+    refinements: int | None
+    points: int
+    time: float
 
 
 @dataclass(frozen=True)
@@ -36,6 +49,7 @@ class Costs:
     were asked for. ``source``: the position in ``sources`` of where that path begins, -1 where there is none.
     ``max_error_bound``, ``mean_error_bound``: the greatest and mean (upper - lower) / lower. ``engine``: what answered,
     ``"windows"`` that refract, a search over ``"points"`` on edges, or ``"uniform"``: plain distances times the weight.
+    ``needed``: where the tolerance is not met everywhere, what that would take (:class:`Needed`); else None.
     """
 
     upper: Floats
@@ -44,6 +58,7 @@ class Costs:
     max_error_bound: float
     mean_error_bound: float
     engine: str
+    needed: Needed | None = None
 
 
 @dataclass(frozen=True)
@@ -106,13 +121,31 @@ def _grain(mesh: Mesh, grain: npt.ArrayLike | None) -> Floats | None:
     return np.array(rows).ravel()
 
 
+def _sampled(pace: Callable[[float], float]) -> tuple[Floats, Floats]:
+    """Where it is finite between slopes of -2 and 2, in steps of 2.5e-4, which is how the core keeps paces."""
+    slopes = np.linspace(-2, 2, 16001)
+    paces = np.array([number(pace(float(s)), "slope: the pace") for s in slopes])
+    walked = np.flatnonzero(paces < np.inf)
+    if len(walked) < 2 or walked[-1] - walked[0] + 1 != len(walked):
+        raise BrushfireError("slope: the pace may be inf beyond the steepest slopes, up and down, only")
+    return slopes[walked], paces[walked]
+
+
 def _pace(slope: Slope | None) -> tuple[str, Floats | None, Floats | None]:
     """A name, or slopes and paces."""
     if slope is None or isinstance(slope, str):
         return slope or "", None, None
-    if len(slope) != 2:
-        raise BrushfireError("slope: a name, or slopes and the paces there, two arrays, are needed")
+    if callable(slope):
+        return "", *_sampled(slope)
+    if not isinstance(slope, Sequence) or len(slope) != 2:
+        raise BrushfireError("slope: a name, a function, or slopes and the paces there, two arrays, are needed")
     return "", floats(slope[0], "slopes").ravel(), floats(slope[1], "paces").ravel()
+
+
+def _refinements(refine: bool | int) -> int:
+    if isinstance(refine, (bool, np.bool_)):
+        return 4 if refine else 0
+    return whole(refine, "refine", 30)
 
 
 class Weighted:
@@ -133,6 +166,7 @@ class Weighted:
         steepest: float = np.inf,
         towards: bool = False,
         grain: npt.ArrayLike | None = None,
+        tacking: bool = False,
     ) -> None:
         face = None if weights is None else floats(weights, "weights")
         if face is not None and face.ndim != 1:
@@ -140,9 +174,15 @@ class Weighted:
         self._on = mesh
         self._towards = bool(towards)
         edges = None if edge_weights is None else np.array(edge_weights)
-        self._given = (None if face is None else face.copy(), edges, slope, steepest, _grain(mesh, grain))
+        self._given = (None if face is None else face.copy(), edges, slope, steepest, bool(tacking), _grain(mesh, grain))
         self._solver = _core.WeightedSolver(
-            mesh._space, face, *_edges(edge_weights), *_pace(slope), number(steepest, "steepest"), self._given[-1]
+            mesh._space,
+            face,
+            *_edges(edge_weights),
+            *_pace(slope),
+            number(steepest, "steepest"),
+            bool(tacking),
+            self._given[-1],
         )
 
     def distance(
@@ -176,7 +216,7 @@ class Weighted:
         sources: Sources,
         *,
         tolerance: float = _TOLERANCE,
-        refine: bool = False,
+        refine: bool | int = False,
         offset: npt.ArrayLike = 0.0,
         radius: float = np.inf,
         targets: Places | None = None,
@@ -190,7 +230,8 @@ class Weighted:
             was reached.
         :param towards: with a slope: what it costs to get to the sources, and not from them; as :meth:`Mesh.weighted` was
             told if nothing is said.
-        :param refine: where the wish is not met everywhere, run again more finely, four times at most.
+        :param refine: where the wish is not met everywhere, run again more finely until it is: so many times at most, True is
+            four. Not where that many would not do: ``needed`` of the result says how many would, and what they cost.
         :return: :class:`Costs`.
 
         >>> import brushfire as bf
@@ -199,7 +240,7 @@ class Weighted:
         >>> bool((costs.lower <= costs.upper).all()), costs.max_error_bound < 0.02
         (True, True)
         """
-        return self._solve(sources, tolerance, 4 if refine else 0, True, towards, offset, radius, targets, progress)
+        return self._solve(sources, tolerance, _refinements(refine), True, towards, offset, radius, targets, progress)
 
     def _solve(
         self,
@@ -217,7 +258,7 @@ class Weighted:
         start = sources_of(self._on, sources, offset)
         end = None if targets is None else self._on._arrays(targets, "targets")
         with shown(progress, "distance") as report:
-            upper, source, below, most, mean, engine = self._solver.solve(
+            upper, source, below, most, mean, engine, needed = self._solver.solve(
                 start,
                 end.index if end else None,
                 end.weights if end else None,
@@ -229,7 +270,9 @@ class Weighted:
                 method or "",
                 report,
             )
-        return Costs(upper, below, source, most, mean, engine)
+        more, points, time = needed
+        to_meet = Needed(None if more < 0 else more, points, time) if more else None
+        return Costs(upper, below, source, most, mean, engine, to_meet)
 
     def path(
         self,
@@ -365,6 +408,7 @@ def weighted(
     slope: Slope | None = None,
     steepest: float = np.inf,
     towards: bool = False,
+    tacking: bool = False,
 ) -> Weighted:
     """This mesh, with what it costs to cross its faces and edges.
 
@@ -374,10 +418,13 @@ def weighted(
     :param grain: (faces, 4): x, y, z of a direction in each face, and how many times as much as along it going across it
         costs (at an angle a: sqrt(cos² a + across² sin² a) times): any symmetric metric. Upper bounds only, then.
     :param slope: what slopes cost, up and down (z is up): ``"tobler"`` and ``"naismith"`` in seconds per metre on the
-        map, ``"energy"`` in J/kg per metre, or two arrays, slopes and the paces there, linear between; times the weights.
-        Upper bounds only, then.
+        map, ``"energy"`` in J/kg per metre; two arrays, slopes and the paces there, linear between; or a function of the
+        slope, which is called for slopes from -2 to 2 and may be inf beyond what can be walked. Times the weights. Upper
+        bounds only, then.
     :param steepest: with a slope: no step is steeper than this; steeper ground can still be traversed.
     :param towards: with a slope: costs are those to get to places, and not from them, where a call does not say.
+    :param tacking: with a slope: steep steps cost what going there in tacks does, left and right of the straight way, where
+        a gentler slope is cheaper for it. Paths keep their straight legs, which stand for these.
     :return: :class:`Weighted`, what ``weights=`` of other calls takes, and whose ``costs()``, ``distance()``, ``path()`` and
         ``paths()`` are those of the weights.
     :raises BrushfireError: for weights that are not > 0, as many as faces; for edges that do not exist.
@@ -389,5 +436,7 @@ def weighted(
     >>> road = mesh.weighted(edge_weights=[[0, 2, 0.5]]).path(0, 2)
     >>> road.cost, road.edge.tolist()
     (2.5, [[2, 0]])
+    >>> mesh.weighted(slope=lambda s: 2 + abs(s)).distance(0, targets=2).tolist()
+    [10.0]
     """
-    return Weighted(mesh, weights, edge_weights, slope, steepest, towards, grain)
+    return Weighted(mesh, weights, edge_weights, slope, steepest, towards, grain, tacking)

@@ -14,9 +14,9 @@
 namespace brushfire::python {
 namespace {
 
-// A name, or slopes and the paces there; up to the steepest.
+// A name, or slopes and the paces there; up to the steepest, in tacks.
 std::optional<SlopePace> pace_from(const std::string& name, const std::optional<Vector<double>>& slopes,
-                                   const std::optional<Vector<double>>& paces, double steepest) {
+                                   const std::optional<Vector<double>>& paces, double steepest, bool tacking) {
   std::optional<SlopePace> pace;
   if (slopes && paces) {
     pace = SlopePace::table({slopes->data(), slopes->shape(0)}, {paces->data(), paces->shape(0)});
@@ -31,6 +31,7 @@ std::optional<SlopePace> pace_from(const std::string& name, const std::optional<
                 "unknown slope '" + name + "': it is tobler, naismith, energy, or (slopes, paces)");
   }
   if (pace && steepest < kInfinity) pace = pace->up_to(steepest);
+  if (pace && tacking) pace = pace->tacking();
   return pace;
 }
 
@@ -63,9 +64,9 @@ Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& 
                      const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
                      const Vector<double>& crossing, const std::string& slope,
                      const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces,
-                     double steepest, const std::optional<Vector<double>>& grain) {
+                     double steepest, bool tacking, const std::optional<Vector<double>>& grain) {
   Weights weights = faces_and_edges(domain, face, edge_vertices, along, crossing);
-  weights.pace = pace_from(slope, slopes, paces, steepest);
+  weights.pace = pace_from(slope, slopes, paces, steepest, tacking);
   for (std::size_t i = 0; grain && i + 3 < grain->shape(0); i += 4) {
     const double* g = grain->data() + i;
     weights.grain.push_back({{g[0], g[1], g[2]}, g[3]});
@@ -102,8 +103,14 @@ SharedWeighting weighting_of(Weighted& weighted, double tolerance, bool towards,
   return {weighted.weighting({tolerance, towards, marching_by(method)})};
 }
 
-// (distance, source, lower bounds or None, greatest and mean relative error bound, engine): of the targets where
-// there are any.
+// (refinements, points, time); refinements -1: none would do.
+nb::tuple numbers_of(const WeightedNeeds& needed) {
+  const std::int64_t refinements = needed.is_reachable ? std::int64_t{needed.refinements} : -1;
+  return nb::make_tuple(refinements, needed.points, needed.time);
+}
+
+// (distance, source, lower bounds or None, greatest and mean relative error bound, engine, what is needed): of the
+// targets where there are any.
 nb::tuple solve(Weighted& weighted, const Sources& sources, const std::optional<Vector<std::int64_t>>& target_index,
                 const OptionalWeights& target_weights, double tolerance, unsigned refinements, bool lower, bool towards,
                 double max_distance, const std::string& method, nb::object progress) {
@@ -127,7 +134,7 @@ nb::tuple solve(Weighted& weighted, const Sources& sources, const std::optional<
   if (!below.empty()) lower_bounds = nb::cast(to_numpy(std::move(below)));
   return nb::make_tuple(to_numpy(std::move(values)),
                         to_numpy_signed(std::move(target_index ? field.target_source : field.source)), lower_bounds,
-                        field.max_error_bound, field.mean_error_bound, name_of(field.engine));
+                        field.max_error_bound, field.mean_error_bound, name_of(field.engine), numbers_of(field.needed));
 }
 
 nb::tuple paths(Weighted& weighted, const Sources& sources, const Vector<std::int64_t>& target_index,
@@ -201,12 +208,12 @@ void bind_weighted(nb::module_& m) {
   nb::class_<Weighted>(m, "WeightedSolver")
       .def(nb::init<const Domain&, const std::optional<Vector<double>>&, const Vector<std::int64_t>&,
                     const Vector<double>&, const Vector<double>&, const std::string&,
-                    const std::optional<Vector<double>>&, const std::optional<Vector<double>>&, double,
+                    const std::optional<Vector<double>>&, const std::optional<Vector<double>>&, double, bool,
                     const std::optional<Vector<double>>&>(),
            nb::arg("domain"), nb::arg("face").noconvert().none(), nb::arg("edge_vertices").noconvert(),
            nb::arg("along").noconvert(), nb::arg("crossing").noconvert(), nb::arg("slope"),
            nb::arg("slopes").noconvert().none(), nb::arg("paces").noconvert().none(), nb::arg("steepest"),
-           nb::arg("grain").noconvert().none())
+           nb::arg("tacking"), nb::arg("grain").noconvert().none())
       .def("weighting", weighting_of, nb::arg("tolerance"), nb::arg("towards"), nb::arg("method"))
       .def("solve", solve, nb::arg("sources"), nb::arg("target_index").noconvert().none(),
            nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("refinements"), nb::arg("lower"),

@@ -16,7 +16,7 @@ Weights weights_from(const Domain& domain, const std::optional<Vector<double>>& 
                      const Vector<std::int64_t>& edge_vertices, const Vector<double>& along,
                      const Vector<double>& crossing, const std::string& slope,
                      const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces,
-                     double steepest, const std::optional<Vector<double>>& grain);
+                     double steepest, bool tacking, const std::optional<Vector<double>>& grain);
 
 // Calls from several threads wait for each other.
 class Weighted {
@@ -24,9 +24,9 @@ class Weighted {
   Weighted(const Domain& domain, const std::optional<Vector<double>>& face, const Vector<std::int64_t>& edge_vertices,
            const Vector<double>& along, const Vector<double>& crossing, const std::string& slope,
            const std::optional<Vector<double>>& slopes, const std::optional<Vector<double>>& paces, double steepest,
-           const std::optional<Vector<double>>& grain)
-      : solver_(domain,
-                weights_from(domain, face, edge_vertices, along, crossing, slope, slopes, paces, steepest, grain)) {}
+           bool tacking, const std::optional<Vector<double>>& grain)
+      : solver_(domain, weights_from(domain, face, edge_vertices, along, crossing, slope, slopes, paces, steepest,
+                                     tacking, grain)) {}
 
   const Mesh& mesh() const { return solver_.domain().mesh(); }
 

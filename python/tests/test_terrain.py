@@ -133,6 +133,14 @@ def test_tables_and_steepest_and_what_is_refused() -> None:
     table = ramp.mesh.weighted(slope=([-1, 0, 1], [1, 1, 1]))
     assert table.distance(0)[n - 1] == pytest.approx(100)
     assert ramp.mesh.weighted(slope="tobler", steepest=0.001).distance(0)[n - 1] > 10 * 100 * pace(0.3)
+    tacks = ramp.mesh.weighted(slope="tobler", steepest=0.15, tacking=True)
+    assert tacks.distance(0)[n - 1] == pytest.approx(10 * (n - 1) * 2 * pace(0.15), rel=1e-6)
+    called = ramp.mesh.weighted(slope=lambda s: pace(s) if abs(s) <= 0.5 else math.inf)
+    assert called.distance(0) == pytest.approx(ramp.mesh.weighted(slope="tobler").distance(0), rel=1e-6)
+    with pytest.raises(bf.BrushfireError, match="beyond the steepest"):
+        ramp.mesh.weighted(slope=lambda s: math.inf if abs(s) < 0.1 else 1)
+    with pytest.raises(bf.BrushfireTypeError, match="the pace"):
+        ramp.mesh.weighted(slope=lambda s: "fast")  # type: ignore[arg-type, return-value]
     with pytest.raises(bf.BrushfireError, match="unknown slope"):
         ramp.mesh.weighted(slope="walking")
     with pytest.raises(bf.BrushfireError, match="ascend"):

@@ -50,6 +50,27 @@ TEST_F(WeightFiles, DistancesAndPathsPayForFacesFencesAndRoads) {
   EXPECT_GT(low, 7.8);
 }
 
+TEST_F(WeightFiles, WhatIsNotMetEverywhereIsToldWithWhatItWouldTake) {
+  const std::string mesh = path("m.off");
+  const std::vector<std::string> run{"distance",        mesh,          "-s",  "5", "--edge-weights",
+                                     path("fence.txt"), "--tolerance", "0.05"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), run.begin(), run.end());
+    return run_program(more);
+  };
+  const auto once = nlohmann::json::parse(with({"--json"}).out);
+  ASSERT_GT(once.at("max_error_bound").get<double>(), 0.05);
+  const int needed = once.at("needed_refinements").get<int>();
+  ASSERT_GT(needed, 0);
+  EXPECT_GT(once.at("needed_points").get<int>(), once.at("points").get<int>());
+  EXPECT_NE(with({}).out.find("; everywhere with --refine " + std::to_string(needed) + ": some "), std::string::npos);
+  const auto met = nlohmann::json::parse(with({"--json", "--refine", std::to_string(needed + 1)}).out);
+  EXPECT_LE(met.at("max_error_bound").get<double>(), 0.05);
+  EXPECT_EQ(met.at("needed_refinements"), 0);
+  EXPECT_GE(met.at("refinements").get<int>(), 1);
+  EXPECT_EQ(run_program({"distance", mesh, "-s", "5", "--refine", "1"}).code, 2);  // without weights
+}
+
 TEST_F(WeightFiles, AreArraysToo) {
   std::vector<double> weights(16, 1);
   weights[15] = 2;
@@ -243,6 +264,8 @@ TEST_F(WeightFiles, GridsBecomeTerrainThatIsWalkedInSecondsAndDrawnAsIsochrones)
     return number(run_program(more));
   };
   const double up = seconds({}), down = seconds({"--towards"});
+  EXPECT_EQ(seconds({"--tacking"}), up);  // not steep enough
+  EXPECT_GT(seconds({"--tacking", "--steepest", "0.1"}), 1.2 * up);
   EXPECT_NEAR(up, 200 * 0.6 * std::exp(3.5 * 0.25), 0.03 * up);
   EXPECT_NEAR(down, 200 * 0.6 * std::exp(3.5 * 0.15), 0.03 * down);
   write("slopes.txt", "-1 2\n1 2\n");

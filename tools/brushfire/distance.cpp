@@ -2,6 +2,7 @@
 #include "computing.h"
 #include "fields.h"
 #include "interrupt.h"
+#include "numbers.h"
 #include "output.h"
 #include "reached.h"
 #include "sources.h"
@@ -59,6 +60,7 @@ struct Arguments {
   SharedArguments shared;
   std::vector<std::string> targets;
   bool labels = false, is_signed = false;
+  std::optional<int> refine;
 };
 
 class Stopwatch {
@@ -177,8 +179,10 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
   // What can be wrong without the mesh is said before a large file is read.
   check(arguments, talk);
   if (given(arguments.shared, kWeights)) {
-    return weighted_distance({arguments.file, arguments.output, arguments.shared, arguments.targets}, talk);
+    return weighted_distance(
+        {arguments.file, arguments.output, arguments.shared, arguments.targets, arguments.refine.value_or(0)}, talk);
   }
+  if (arguments.refine) refuse("--refine: without weights every distance is within the tolerance anyway");
   Run run;
   DistanceOptions& options = run.options;
   options = computation(arguments.shared, arguments.is_signed ? Method::Exact : DistanceOptions{}.method);
@@ -241,6 +245,8 @@ void add_distance(CommandLine& command_line) {
     verb.flag("--labels", arguments->labels, "Write the nearest source into .gii too, as other formats have it");
     verb.flag("--signed", arguments->is_signed,
               "From curves: negative on their left, as inside of those that run counter-clockwise");
+    verb.option("--refine", arguments->refine, "N", whole_from(0, 30),
+                "With --weights: run again more finely until the tolerance is met everywhere, N times at most");
     verb.talks();
     add_shared(verb, arguments->shared,
                {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});

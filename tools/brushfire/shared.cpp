@@ -167,6 +167,11 @@ const std::vector<Row>& table() {
          verb.option(names, a.steepest, "S", kPositive, "With --slope: no step is steeper than this");
        },
        [](const SharedArguments& a) { return a.steepest.has_value(); }},
+      {Shared::Tacking, "--tacking", "",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.flag(names, a.tacking, "With --slope: steep steps go in tacks, where that is cheaper");
+       },
+       [](const SharedArguments& a) { return a.tacking; }},
       {Shared::Towards, "--towards", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.flag(names, a.towards, "With --slope: to the sources, not from them");

@@ -40,6 +40,7 @@ enum class Shared : std::uint8_t {
   Grain,
   Slope,
   Steepest,
+  Tacking,
   Towards,
   Unit,
 };
@@ -60,7 +61,7 @@ struct SharedArguments {
   std::string weights_file, edge_weights_file, grain_file, slope;
   std::vector<std::string> costs;  // of labels
   std::optional<double> steepest;
-  bool towards = false;
+  bool tacking = false, towards = false;
   std::string unit;
 };
 
@@ -87,10 +88,10 @@ inline const std::vector<Shared> kComputing{Shared::Method,    Shared::Tolerance
 inline const std::vector<Shared> kWalls{Shared::Mask, Shared::Region, Shared::BlockFaces, Shared::BlockEdges,
                                         Shared::BlockVertices};
 
-// What going costs; without the last three one costs as much one way as the other.
-inline const std::vector<Shared> kWeights{Shared::Weights, Shared::EdgeWeights, Shared::Cost,   Shared::Grain,
-                                          Shared::Slope,   Shared::Steepest,    Shared::Towards};
-inline const std::vector<Shared> kSlopes{Shared::Slope, Shared::Steepest, Shared::Towards};
+// What going costs; without the last four one costs as much one way as the other.
+inline const std::vector<Shared> kWeights{Shared::Weights, Shared::EdgeWeights, Shared::Cost,    Shared::Grain,
+                                          Shared::Slope,   Shared::Steepest,    Shared::Tacking, Shared::Towards};
+inline const std::vector<Shared> kSlopes{Shared::Slope, Shared::Steepest, Shared::Tacking, Shared::Towards};
 
 // Binds the options, or refuses them. `arguments` must outlive the parsing.
 void add_shared(Verb& verb, SharedArguments& arguments, const SharedOptions& options = {});

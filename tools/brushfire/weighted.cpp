@@ -64,6 +64,15 @@ Record head(const WeightedRequest& request, const Scene& scene) {
   return record;
 }
 
+std::string needed_in_words(const WeightedField& field) {
+  const WeightedNeeds& needed = field.needed;
+  if (needed.refinements == 0) return "";
+  if (!needed.is_reachable) return "; refining would bring that no nearer";
+  return "; everywhere with --refine " + std::to_string(field.refinements + needed.refinements) + ": some " +
+         readable(needed.time) + " times as long" +
+         (needed.points > 0 ? ", " + counted(needed.points, "point", "points") + " on edges" : "");
+}
+
 std::string json(const WeightedRequest& request, const Scene& scene, const WeightedField& field, double solve_s) {
   Record record = head(request, scene);
   record.add("vertices", count(scene.surface.mesh().vertex_count()))
@@ -73,6 +82,11 @@ std::string json(const WeightedRequest& request, const Scene& scene, const Weigh
       .add("mean_error_bound", field.mean_error_bound)
       .add("engine", std::string(name_of(field.engine)))
       .add("points", count(field.points))
+      .add("refinements", std::int64_t{field.refinements})
+      .add("needed_refinements",
+           field.needed.is_reachable ? Record::Value(std::int64_t{field.needed.refinements}) : Record::Value(nullptr))
+      .add("needed_points", count(field.needed.points))
+      .add("needed_time", field.needed.time)
       .add("solve_s", solve_s);
   std::vector<Record> targets;
   for (std::size_t i = 0; i < scene.target_places.size(); ++i) {
@@ -96,7 +110,8 @@ std::string in_words(const WeightedRequest& request, const Scene& scene, const W
   if (!field.lower.empty()) {
     text += "no cost is higher than the least by more than " + readable(100 * field.max_error_bound) + " % (proven), " +
             readable(100 * field.mean_error_bound) +
-            " % on average; asked for: " + readable(100 * scene.options.tolerance) + " %\n";
+            " % on average; asked for: " + readable(100 * scene.options.tolerance) + " %" + needed_in_words(field) +
+            "\n";
   }
   return text + "solved in " + duration(solve_s) +
          (field.engine == WeightedEngine::Windows    ? ", by windows that refract"
@@ -153,6 +168,7 @@ std::string json(const WeightedRequest& request, const Scene& scene, const std::
 int weighted_distance(const WeightedRequest& request, const Talk& talk) {
   Scene scene(request, talk);
   const bool wants_lower = request.shared.bound == "lower";
+  scene.options.refinements = static_cast<unsigned>(request.refinements);
   scene.options.progress = talk.progress("distance");
   const auto start = std::chrono::steady_clock::now();
   const WeightedField field = scene.solver->distance(scene.sources, scene.options);

@@ -15,6 +15,7 @@ struct WeightedRequest {
   std::string file, output;
   const SharedArguments& shared;
   std::vector<std::string> targets;  // places
+  int refinements = 0;               // of bounds
 };
 
 int weighted_distance(const WeightedRequest& request, const Talk& talk);

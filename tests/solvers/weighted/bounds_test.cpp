@@ -3,6 +3,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/weighted_path.h>
+#include <brushfire/solvers/weighted/detail/needs.h>
 #include <brushfire/solvers/weighted/weighted_distance.h>
 
 #include <gtest/gtest.h>
@@ -222,6 +223,52 @@ TEST(WeightedBounds, AreRefinedUntilTheWishIsMet) {
   EXPECT_LE(met.max_error_bound, 0.1);
   EXPECT_GT(met.refinements, 0);
   EXPECT_GT(met.points, first.points);
+  EXPECT_GT(first.needed.refinements, 0U);
+  EXPECT_GT(first.needed.points, first.points);
+  EXPECT_EQ(met.needed.refinements, 0U);
+}
+
+// Windows that may lose less do, before points are laid out.
+TEST(WeightedBounds, OfWindowsAreRefinedByWindows) {
+  const Mesh mesh = shapes::noise_terrain(12, 12, 0.2, 5).mesh();
+  Random random(3);
+  Weights weights;
+  for (Index f = 0; f < mesh.face_count(); ++f) weights.face.push_back(random.uniform(1, 10));
+  const double tolerance = 0.02;
+  const WeightedField first = weighted_distance(mesh, weights, at_vertex(mesh, 0), {.tolerance = tolerance});
+  ASSERT_EQ(first.engine, WeightedEngine::Windows);
+  // Just what the first run does not meet.
+  const double nearer = std::max(kLeastWeightedTolerance, 0.4 * first.max_error_bound);
+  WeightedField met;
+  for (double t = nearer; t < tolerance && met.refinements == 0; t *= 1.1) {
+    met = weighted_distance(mesh, weights, at_vertex(mesh, 0), {.tolerance = t, .refinements = 3});
+  }
+  EXPECT_EQ(met.engine, WeightedEngine::Windows);
+  EXPECT_EQ(met.needed.refinements, 0U);
+}
+
+// By the quarter that theory promises, or by what the last refinement brought.
+TEST(WeightedBounds, SayWhatMeetingTheWishWouldCost) {
+  WeightedField field;
+  field.lower = {1};
+  field.points = 1000;
+  field.engine = WeightedEngine::Points;
+  field.max_error_bound = 0.5;
+  const WeightedNeeds first = weighted::needs_of(field, 0.01, kInfinity);
+  EXPECT_EQ(first.refinements, 3U);  // 0.5 / 64
+  EXPECT_EQ(first.points, 8000U);
+  EXPECT_EQ(first.time, 64);
+  EXPECT_TRUE(first.is_reachable);
+  EXPECT_EQ(weighted::needs_of(field, 0.01, 1.0).refinements, 6U);  // halves
+  EXPECT_EQ(weighted::needs_of(field, 0.5, 1.0).refinements, 0U);
+  EXPECT_FALSE(weighted::needs_of(field, 0.01, 0.51).is_reachable);
+  field.engine = WeightedEngine::Windows;
+  field.points = 0;
+  EXPECT_EQ(weighted::needs_of(field, 0.01, kInfinity).time, 8);
+  field.max_error_bound = kInfinity;
+  EXPECT_FALSE(weighted::needs_of(field, 0.01, kInfinity).is_reachable);
+  field.lower.clear();  // no bounds, no wish
+  EXPECT_EQ(weighted::needs_of(field, 0.01, kInfinity).refinements, 0U);
 }
 
 std::string message_of(const Mesh& mesh, const Weights& weights) {

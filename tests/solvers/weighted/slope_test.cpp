@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 #include <vector>
 
 namespace brushfire {
@@ -121,6 +122,52 @@ TEST(Slope, WhatIsTooSteepToGoStraightUpIsTraversed) {
   EXPECT_GE(along, 0.72 * (190 + 10 / 0.3) + 60 - 0.72 * 30);
   EXPECT_GT(along, 1.05 * straight);
   EXPECT_LT(along, 1.5 * straight);
+}
+
+// Tobler's function is cheapest to climb at 2 / 7, where its pace is the tangent through level ground of no cost.
+TEST(Slope, SteepStepsInTacksCostWhatAZigzagDoes) {
+  const SlopePace plain = SlopePace::tobler(), tacks = plain.tacking();
+  const double gentle = 2.0 / 7;
+  for (const double s : {-0.28, -0.05, 0.0, 0.1, 0.28}) EXPECT_NEAR(tacks(s), plain(s), 1e-12 * plain(s)) << s;
+  for (const double s : {0.3, 0.6, 1.9, 2.5, 40.0}) {
+    // A map unit at slope s: s / gentle of way at the gentler slope, left and right in turns.
+    EXPECT_NEAR(tacks(s), s / gentle * plain(gentle), 1e-6 * tacks(s)) << s;
+    EXPECT_NEAR(tacks(-s), s / gentle * plain(-gentle), 1e-6 * tacks(s)) << s;
+  }
+  EXPECT_EQ(plain(2.5), kInfinity);
+  const SlopePace careful = plain.up_to(0.2).tacking();
+  EXPECT_NEAR(careful(0.8), 4 * plain(0.2), 1e-9);
+  // On a ramp of 0.6, straight up: 200 on the map, 120 high.
+  const Terrain ramp = terrain_of(21, [](double x, double) { return 0.6 * x; });
+  const Index low = 10 * 21, high = low + 20;
+  const double up = seconds(ramp, {.pace = tacks}, low)[high];
+  EXPECT_NEAR(up, 120 / gentle * plain(gentle), 1e-6 * up);
+  EXPECT_LT(up, 0.8 * 200 * plain(0.6));
+  EXPECT_NEAR(seconds(ramp, {.pace = careful}, low)[high], 200 * 3 * plain(0.2), 1e-6);
+}
+
+TEST(Slope, InTacksNoTwoDirectionsOfAPlaneAreCheaperThanTheStraightOne) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> part(-1, 1);
+  const SlopePace plain = SlopePace::tobler(), tacks = plain.tacking();
+  int cheaper = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double gradient = std::exp(2 * part(random)) / 2;
+    const Vec2 a{part(random), part(random)}, b{part(random), part(random)};
+    const auto cost = [&](const SlopePace& pace, Vec2 d) { return norm(d) * pace(gradient * d.x / norm(d)); };
+    const double both = cost(tacks, a) + cost(tacks, b);
+    EXPECT_LE(cost(tacks, a + b), both * (1 + 1e-6));
+    cheaper += cost(plain, a) + cost(plain, b) < 0.99 * cost(plain, a + b);
+  }
+  EXPECT_GT(cheaper, 100);
+}
+
+TEST(Slope, AnyFunctionIsAPace) {
+  const SlopePace pace = SlopePace::function(-1, 0.5, [](double s) { return 1 + s * s; });
+  for (const double s : {-1.0, -0.3, 0.0, 0.123, 0.5}) EXPECT_NEAR(pace(s), 1 + s * s, 1e-7);
+  EXPECT_EQ(pace(0.6), kInfinity);
+  EXPECT_THROW(SlopePace::function(-1, 1, [](double s) { return s; }), Error);
+  EXPECT_THROW(SlopePace::function(1, 1, [](double) { return 1.0; }), Error);
 }
 
 TEST(Slope, TablesAreLinearBetweenTheirSlopes) {

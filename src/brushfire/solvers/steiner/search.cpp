@@ -226,9 +226,28 @@ void Search::send_to_row(const FaceOver& over, Index target, Index first, Index 
     const double rounding = kPlaceRounding * std::max({over.length, norm(over.apex), length});
     lower = BRUSHFIRE_ON_TARGET(Variant::Best, relax_rows_below(from, to, weight, near_, far_, rounding, offers_));
   }
-  for (Index j = 0; lower && j < layout_.count(target); ++j) {
+  if (lower) take_offers(layout_.row(over.edge), target);
+}
+
+// What lies between the ends waits as one change.
+void Search::take_offers(Index offering_row, Index target) {
+  const Index row = layout_.row(target), end = layout_.count(target) - 1;
+  const auto parent = [&](Index j) { return offering_row + static_cast<Index>(offers_.from[j]); };
+  Index first = kNoIndex, last = 0;
+  double least = kInfinity;
+  for (Index j = 1; j < end; ++j) {
     if (offers_.from[j] < 0) continue;
-    improve(target, j, offers_.value[j], layout_.row(over.edge) + static_cast<Index>(offers_.from[j]));
+    front_.value[row + j] = offers_.value[j];
+    front_.parent[row + j] = parent(j);
+    first = std::min(first, j), last = j;
+    least = std::min(least, offers_.value[j]);
+  }
+  if (first < end) {
+    mark(target, first, least);
+    last_[target] = std::max(last_[target], last);
+  }
+  for (const Index j : {Index{0}, end}) {
+    if (offers_.from[j] >= 0) reach(end_of(target, j > 0), offers_.value[j], parent(j), kNoIndex);
   }
 }
 

@@ -76,6 +76,38 @@ SlopePace SlopePace::up_to(double steepest) const {
   return {low, high, [&](double s) { return (*this)(std::clamp(s, first_, last)); }};
 }
 
+SlopePace SlopePace::function(double first, double last, const std::function<double(double)>& pace) {
+  if (!(first < last && std::isfinite(first) && std::isfinite(last))) {
+    throw Error(ErrorCode::InvalidArgument, "slopes from " + number_as_text(first) + " to " + number_as_text(last) +
+                                                ": the first must be below the last, both finite");
+  }
+  return {first, last, [&](double s) {
+            const double p = pace(s);
+            if (p > 0 && p < kInfinity) return p;
+            throw Error(ErrorCode::InvalidArgument,
+                        "pace " + number_as_text(p) + " at slope " + number_as_text(s) + " is not > 0 and finite");
+          }};
+}
+
+SlopePace SlopePace::tacking() const {
+  SlopePace tacks = *this;
+  const auto count = static_cast<std::ptrdiff_t>(pace_.size());
+  // From slope 0 on, one way and the other: what a unit of height costs at the best of the gentler slopes.
+  const auto spread = [&](std::ptrdiff_t step, double& height) {
+    for (std::ptrdiff_t i = step > 0 ? 0 : count - 1; i >= 0 && i < count; i += step) {
+      const double slope = std::abs(first_ + static_cast<double>(i) / per_slope_);
+      const bool is_this_way = (first_ + static_cast<double>(i) / per_slope_) * static_cast<double>(step) > 0;
+      if (!is_this_way) continue;
+      double& pace = tacks.pace_[static_cast<std::size_t>(i)];
+      height = std::min(height, pace / slope);
+      pace = std::min(pace, slope * height);
+    }
+  };
+  spread(1, tacks.climb_ = kInfinity);
+  spread(-1, tacks.descent_ = kInfinity);
+  return tacks;
+}
+
 double SlopePace::least() const { return *std::min_element(pace_.begin(), pace_.end()); }
 
 }  // namespace brushfire

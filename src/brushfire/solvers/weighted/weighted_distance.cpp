@@ -4,9 +4,11 @@
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/solvers/refraction/detail/run.h>
+#include <brushfire/solvers/steiner/detail/apex_costs.h>
 #include <brushfire/solvers/steiner/detail/run.h>
 #include <brushfire/solvers/weighted/detail/fields.h>
 #include <brushfire/solvers/weighted/detail/marching.h>
+#include <brushfire/solvers/weighted/detail/needs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +29,9 @@ constexpr double kWidestWindows = 0.02;
 // As many for a vertex as take about as long as the search over points, measured: half a microsecond each, beside 6 +
 // 0.6 / tolerance.
 double windows_worth_it(double tolerance) { return 20 + 0.8 / tolerance; }
+
+// Costs to a vertex next to a source, as a share of those across its faces, of which windows know little in comparison.
+constexpr double kBeside = 1e-3;
 
 void check(const WeightedOptions& options) {
   check_tolerance(options.tolerance);
@@ -68,7 +73,8 @@ struct WeightedSolver::Workspace {
   std::shared_ptr<const PointLayout> points_for(Costs costs, const WeightedOptions& options, unsigned doublings);
   WeightedField run_uniform(std::span<const Source> sources, const WeightedOptions& options);
   WeightedField run(std::span<const Source> sources, const WeightedOptions& options, unsigned doublings);
-  bool follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field);
+  WeightedField run_refined(std::span<const Source> sources, const WeightedOptions& options);
+  bool follow_windows(const Run& run, const WeightedOptions& options, unsigned refinements, WeightedField& field);
   void search(Run& run, const WeightedOptions& options, const PointLayout* below, WeightedField& field) const;
   void fill_lower(const Search& below, const Run& run, const WeightedOptions& options, WeightedField& field) const;
 };
@@ -117,6 +123,8 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
   // What is not final may still fall, but not below the horizon.
   const auto value = [&](double v) { return std::min(v, horizon) * kBelowSums * unit + run.base; };
   field.lower = below.front().vertex_value;
+  const NearVertices near(*mesh, run.sources);
+  for (const NearVertex& n : near.bounds) field.lower[n.vertex] = std::max(field.lower[n.vertex], n.lower);
   bring_back(*mesh, field.lower);
   double sum = 0, most = 0;
   std::size_t count = 0;
@@ -133,7 +141,10 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
   }
   for (std::size_t t = 0; t < run.targets.size(); ++t) {
     double least = kInfinity;
-    for (const PointLocation& p : run.targets[t]) least = std::min(least, below.at(p).value);
+    for (const PointLocation& p : run.targets[t]) {
+      const NearVertex* n = p.on == PointLocation::On::Vertex ? near.at(p.vertex) : nullptr;
+      least = std::min(least, std::max(below.at(p).value, n ? n->lower : 0));
+    }
     const double upper = field.target_distance[t];
     field.target_lower.push_back(upper < kInfinity ? std::min(value(least), upper) : kInfinity);
     compare(upper, field.target_lower.back());
@@ -143,18 +154,29 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
 }
 
 // Both bounds by windows. False, and the field is empty, where they cannot be followed.
-bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOptions& options, WeightedField& field) {
+bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOptions& options, unsigned refinements,
+                                               WeightedField& field) {
   if (!medium) medium = std::make_unique<refraction::Medium>(*mesh);
-  if (!medium->is_followable(options.tolerance)) return false;
+  const double tolerance = std::ldexp(options.tolerance, -2 * static_cast<int>(refinements));
+  if (!medium->is_followable(tolerance)) return false;
   std::vector<PointLocation> places;
   for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
   const double unit = mesh->mesh().unit();
   double farthest = (options.max_distance - run.base) / unit;
   if (!options.targets.empty() && places.empty()) farthest = -1;  // all targets are nowhere
+  const NearVertices near(*mesh, run.sources);
   refraction::Run windows(*medium, run.sources,
-                          {std::min(options.tolerance, kWidestWindows), farthest, windows_worth_it(options.tolerance),
-                           places, options.progress});
+                          {std::min(tolerance, kWidestWindows), farthest, windows_worth_it(tolerance), places,
+                           options.progress, near.of_source});
   if (!windows()) return false;
+  const auto at_vertex = [&](Index v) {
+    refraction::Known known = windows.at_vertex(v);
+    if (const NearVertex* n = near.at(v); n && n->upper <= kBeside * n->beyond) {
+      known.lower = std::max(known.lower, n->lower);
+      known.upper = std::min(known.upper, n->upper);
+    }
+    return known;
+  };
   const double horizon = std::min(farthest, windows.horizon());
   double sum = 0, most = 0;
   std::size_t count = 0;
@@ -179,7 +201,7 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
   };
   std::vector<refraction::Known> known(domain.mesh().vertex_count());
   for (Index v = 0; v < mesh->mesh().vertex_count(); ++v) {
-    known[mesh->vertex(v)] = better(known[mesh->vertex(v)], windows.at_vertex(v));
+    known[mesh->vertex(v)] = better(known[mesh->vertex(v)], at_vertex(v));
   }
   field.distance.resize(known.size());
   field.lower.resize(known.size());
@@ -188,11 +210,15 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
     give(known[v], options.targets.empty(), field.distance[v], field.lower[v], field.source[v]);
     field.reached += field.distance[v] < kInfinity;
   }
-  fill_sides(run, horizon, [&](Index v) { return windows.at_vertex(v).upper; }, options.max_distance, field);
+  fill_sides(run, horizon, [&](Index v) { return at_vertex(v).upper; }, options.max_distance, field);
   std::size_t place = 0;
   for (const auto& sides : run.targets) {
     refraction::Known there;
-    for (std::size_t i = 0; i < sides.size(); ++i) there = better(there, windows.at_target(place++));
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const PointLocation& p = sides[i];
+      there = better(there, p.on == PointLocation::On::Vertex ? at_vertex(p.vertex) : windows.at_target(place));
+      ++place;
+    }
     give(there, true, field.target_distance.emplace_back(), field.target_lower.emplace_back(),
          field.target_source.emplace_back());
   }
@@ -214,7 +240,7 @@ WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, co
   if (from_curves) run->layout = points_for(Costs::Real, options, doublings);
   locate(sources, options.targets, *run);
   WeightedField field;
-  if (lower && !options.keep_paths && doublings == 0 && follow_windows(*run, options, field)) return field;
+  if (lower && !options.keep_paths && follow_windows(*run, options, doublings, field)) return field;
   run->layout = points_for(Costs::Real, options, doublings);
   std::shared_ptr<const PointLayout> below;
   if (lower && weights.is_isotropic()) below = points_for(Costs::Below, options, doublings);
@@ -265,6 +291,31 @@ WeightedField WeightedSolver::Workspace::run_uniform(std::span<const Source> sou
   return field;
 }
 
+// Until the tolerance is met, or as long as what is allowed may do it.
+WeightedField WeightedSolver::Workspace::run_refined(std::span<const Source> sources, const WeightedOptions& options) {
+  WeightedField field = run(sources, options, 0);
+  field.needed = needs_of(field, options.tolerance, kInfinity);
+  for (unsigned k = 1; k <= options.refinements; ++k) {
+    const unsigned more = field.needed.refinements;
+    if (more == 0 || !field.needed.is_reachable || more > options.refinements - field.refinements) break;
+    try {
+      WeightedField finer = run(sources, options, k);
+      const bool same_kind = finer.engine == field.engine;
+      finer.needed = needs_of(finer, options.tolerance, same_kind ? field.max_error_bound : kInfinity);
+      if (finer.max_error_bound < field.max_error_bound) {
+        field = std::move(finer);
+      } else {  // points after windows, where these have given up
+        field.needed = finer.needed;
+      }
+      field.refinements = k;
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::TooLarge) throw;
+      break;  // what is known is worth more than nothing
+    }
+  }
+  return field;
+}
+
 WeightedSolver::WeightedSolver(Domain domain, Weights weights) : workspace_(std::make_unique<Workspace>()) {
   brushfire::check(domain.mesh(), weights);
   workspace_->domain = std::move(domain);
@@ -309,13 +360,7 @@ WeightedField WeightedSolver::distance(std::span<const Source> sources, const We
     return march(w.mesh, *w.marching, sources, options);
   }
   if (workspace_->uniform > 0) return workspace_->run_uniform(sources, options);
-  WeightedField field = workspace_->run(sources, options, 0);
-  for (unsigned k = 1; k <= options.refinements && !field.lower.empty() && field.max_error_bound > options.tolerance;
-       ++k) {
-    field = workspace_->run(sources, options, k);
-    field.refinements = k;
-  }
-  return field;
+  return workspace_->run_refined(sources, options);
 }
 
 WeightedField weighted_distance(const Domain& domain, const Weights& weights, std::span<const Source> sources,

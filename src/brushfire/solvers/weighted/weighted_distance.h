@@ -37,7 +37,8 @@ struct WeightedOptions {
   // goal, not a promise: windows are cut as small as it takes, points on edges, where windows cannot be followed, made
   // so dense that most vertices meet it; max_error_bound says what was reached.
   double tolerance = 0.01;
-  // Where the goal is not met at every vertex, run again with points twice as dense, this many times at most.
+  // Where the goal is not met at every vertex, run again, this many times at most, each with windows a quarter as far
+  // apart or points twice as dense, until it is; not where so many would not do: WeightedField::needed says what would.
   unsigned refinements = 0;
   // Where slopes count: sources are where one goes to, and not where one comes from.
   bool towards = false;
@@ -58,6 +59,15 @@ struct WeightedOptions {
 enum class WeightedEngine { Uniform, Windows, Points, Marching };
 const char* name_of(WeightedEngine engine) noexcept;  // uniform, windows, points, marching
 
+// What it would take until max_error_bound is within the tolerance: estimated by what the last refinement has brought,
+// or, before the first, by what the theory says, bounds four times as near.
+struct WeightedNeeds {
+  unsigned refinements = 0;  // more of them; 0: it is met, or there are no bounds
+  std::uint64_t points = 0;  // on edges, in the last of them; 0: by windows
+  double time = 0;           // of the last of them, in times of the run that is done
+  bool is_reachable = true;  // false: more of them bring the bounds no nearer
+};
+
 // Costs are those of the cheapest paths, plus the sources' offsets. [vertex_count] unless said otherwise. From curves
 // there are upper bounds only, from points along them that lie as dense as those on edges.
 struct WeightedField {
@@ -77,6 +87,7 @@ struct WeightedField {
   WeightedEngine engine = WeightedEngine::Points;
   std::uint64_t points = 0;                 // on edges, the vertices' copies among them; 0 where none were searched
   unsigned refinements = 0;                 // done
+  WeightedNeeds needed;                     // to meet the tolerance
   std::shared_ptr<const steiner::Run> run;  // for weighted_path(); null where no points on edges were searched
 };
 

@@ -40,10 +40,7 @@ bool Run::operator()() {
   windows::EventQueue::Event event{};
   while (queue_.pop(windows::EventQueue::kLastBucket, event)) {
     poll_();
-    if (windows_ >= next_look_) {
-      look_up();
-      if (is_too_dear()) return false;
-    }
+    if (gives_up()) return false;
     event.is_list ? pass_halfedge(event.index) : leave_vertex(event.index);
   }
   finish_targets();
@@ -55,11 +52,13 @@ bool Run::is_too_dear() const {
   return static_cast<double>(windows_) > kMostAnyway + limits_.most_per_vertex * static_cast<double>(seen_);
 }
 
-// Progress, and how far light is still wanted.
-void Run::look_up() {
+// Every now and then: whether it is too dear, how far light is still wanted, and progress.
+bool Run::gives_up() {
+  if (windows_ < next_look_ || given_up_) return given_up_;
   next_look_ = windows_ + 4096 + limits_.targets.size();
   narrow();
   if (limits_.progress) limits_.progress(static_cast<double>(seen_) / static_cast<double>(vertices_.size() + 1));
+  return given_up_ = is_too_dear();
 }
 
 void Run::narrow() {
@@ -194,8 +193,12 @@ void Run::pass_halfedge(Index h) {
   if (taken_.empty()) return;
   const windows::Frame frame = frame_of(f, k);
   const std::span<Window> left = what_is_left(taken_, f, weight);
-  for (const Window& w : left) pass_face(h, frame, w);
-  for (const Window& w : on_edge_) pass_face(h, frame, w);
+  for (const std::span<const Window> all : {std::span<const Window>(left), std::span<const Window>(on_edge_)}) {
+    for (const Window& w : all) {
+      if (gives_up()) return;  // one of them may become thousands
+      pass_face(h, frame, w);
+    }
+  }
 }
 
 // Trimmed and merged (L2, L5, L8); what comes from a point of the edge goes on whole unless another path is shorter

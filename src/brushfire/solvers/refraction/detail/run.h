@@ -10,6 +10,7 @@
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/refraction/detail/medium.h>
 #include <brushfire/solvers/refraction/detail/refract.h>
+#include <brushfire/solvers/steiner/detail/apex_costs.h>
 #include <brushfire/solvers/windows/algebra/dominance.h>
 #include <brushfire/solvers/windows/algebra/envelope.h>
 #include <brushfire/solvers/windows/algebra/merge.h>
@@ -38,6 +39,9 @@ struct RunLimits {
   double most_per_vertex = kInfinity;  // windows for each vertex reached; where it takes more, the run gives up
   std::span<const PointLocation> targets{};
   Progress progress{};
+  // [sources], or empty: light of sources next to a vertex starts there, where it cannot go round the vertex in circles
+  // that are lost in rounding. What that may be off by is far below what is asked for (kHidden).
+  std::span<const steiner::NearVertex> near{};
 };
 
 class Run {
@@ -73,6 +77,7 @@ class Run {
 
   // ---- sources.cpp: light that begins, or begins anew
   void start(const detail::LocatedSource& source, Index number);
+  bool start_at_near_vertex(Index number);
   void start_in_face(const windows::FaceWeights& at, const Origin& origin);
   void start_on_edge(const PointLocation& at, const Origin& origin);
   void leave_vertex(Index v);
@@ -99,7 +104,7 @@ class Run {
   void reach(Index v, double cost, Index source);
   void reach_target(Index target, double value, double slack, Index source, bool straight);
   void narrow();
-  void look_up();
+  bool gives_up();
 
   double start_of(Index source) const { return sources_[source].offset; }
   Origin origin_at(Index v) const;
@@ -119,6 +124,7 @@ class Run {
   std::vector<Window> taken_, on_edge_, refracted_;
   std::vector<Index> corners_;
   std::uint64_t windows_ = 0, next_look_ = 0;
+  bool given_up_ = false;
   Index seen_ = 0;
   Poll poll_{256};
 };

@@ -13,6 +13,9 @@ namespace {
 // A source nearer to a corner of its face than this share of the face's longest edge makes the corner send light in all
 // directions: limit rays through the corner are known to epsilon / share only.
 constexpr double kNear = 1e-3;
+// What the start of light at a vertex in place of a source next to it may make of how far the bounds of any other
+// vertex are apart, as a share of what is asked for.
+constexpr double kHidden = 0.1;
 
 }  // namespace
 
@@ -21,6 +24,7 @@ constexpr double kNear = 1e-3;
 void Run::start(const detail::LocatedSource& source, Index number) {
   const Origin origin{source.offset, 0, number};
   const PointLocation& at = source.at;
+  if (start_at_near_vertex(number)) return;
   if (at.on == PointLocation::On::Vertex) {
     const Index v = medium_.structure.inner_vertex(at.vertex);
     reach(v, origin.value, number);
@@ -31,6 +35,18 @@ void Run::start(const detail::LocatedSource& source, Index number) {
     start_in_face({medium_.structure.inner_face(f.face), f.weights}, origin);
   });
   if (at.on == PointLocation::On::Edge) start_on_edge(at, origin);
+}
+
+// With c what it costs to get to the vertex, no path from the source is more than c cheaper than one from the vertex,
+// and one by the vertex is c dearer. False where that is too much, or there is no such vertex.
+bool Run::start_at_near_vertex(Index number) {
+  if (limits_.near.empty()) return false;
+  const steiner::NearVertex& near = limits_.near[number];
+  if (!(2 * near.upper <= kHidden * limits_.share * near.beyond)) return false;
+  const Index v = medium_.structure.inner_vertex(near.vertex);
+  reach(v, start_of(number) + near.upper, number);
+  see(v, start_of(number) - near.upper, nullptr, true);
+  return true;
 }
 
 // Straight to the corners and the targets of the face, and through the edges that the source does not lie on.

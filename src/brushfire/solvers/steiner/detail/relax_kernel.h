@@ -9,15 +9,20 @@ inline void keep_lower(const Lanes<double, 4>& offer, Index i, Lanes<double, 4>&
   origin = select(lower, Lanes<double, 4>(static_cast<double>(i)), origin);
 }
 
-// The straight distance times the weight. Whether anything is lower than what was there.
+// The straight distance times the weight. Whether anything is lower than what was there. Most offers are none, since
+// they go back to where the front has come from: these are told by the least value and the way from the nearest point
+// of the stretch that offers.
 inline bool relax_rows(const Offering& from, const Receiving& to, double weight, Offers& offers) {
   using V = Lanes<double, 4>;
+  constexpr double kBelow = 1 - 0x1p-40;  // whatever rounding makes of an offer
+  const double low = from.at[from.first], high = from.at[from.last], bounded = weight * kBelow;
   bool any_lower = false;
   for (Index j = 0; j < to.room; j += 4) {
     const V old = load<V>(to.value + j), at = load<V>(to.at + j);
     V best = old, origin(-1);
-    if (any(V(from.least) < old)) {
-      const V x = to.start.x + at * to.direction.x, y = to.start.y + at * to.direction.y, yy = y * y;
+    const V x = to.start.x + at * to.direction.x, y = to.start.y + at * to.direction.y, yy = y * y;
+    const V beside = greater(greater(low - x, x - high), V(0));
+    if (any(from.least + bounded * square_root(beside * beside + yy) < old)) {
       for (Index i = from.first; i <= from.last; ++i) {
         const V dx = x - from.at[i], offer = from.value[i] + weight * square_root(dx * dx + yy);
         keep_lower(offer, i, best, origin);

@@ -51,6 +51,7 @@ class Search {
   void step(Index edge, Index from, Index to, double cost, Index& first, Index& last);
   void send_into_face(const FaceOver& over, Index first, Index last);
   void send_to_row(const FaceOver& over, Index target, Index first, Index last);
+  void take_offers(Index offering_row, Index target);
   void find_lower_terms(const FaceOver& over, Index target, const Receiving& to);
   void cross(Index edge, Index first, Index last);
   bool targets_are_final(std::span<const PointLocation> targets, std::size_t& done) const;
