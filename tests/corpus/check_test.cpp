@@ -50,6 +50,8 @@ constexpr Once kWrongOnce[] = {
      "a curve whose end is beside a tip, round which its light went thousands of times"},
     {"mutilated", 20261130, 641, "paths", "vertices at one place, by feet on edges that round"},
     {"zoo", 20261208, 134, "paths", "a vertex at the place of one that lies on an edge to rounding"},
+    {"mutilated", 20261208, 287, "exact", "light along the line of faces without area: the oracle's"},
+    {"extremes", 20261208, 104, "paths", "sums of subnormal lengths: the judge's"},
     {"mutilated", 20261207, 53, "paths",
      "offsets beside which the mesh has no size: ways along edges between its vertices, not the shortest ones"},
     {"curves-doubled", 9, 13, "paths", "a point at no distance from its curve, in another face: the judge's"},
