@@ -1,16 +1,17 @@
-// curve_sources [FILE | LEVELS of a folded sphere]: time and error of every method from a curve, beside those from one
-// of its points.
+// curve_sources [FILE | LEVELS of a folded sphere] [METHOD]: processor time and error of every method, or one, from a
+// curve, beside those from one of its points.
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/solvers/distance.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
+
+#include "measure.h"
 
 namespace {
 
@@ -21,9 +22,9 @@ constexpr int kRuns = 3;
 // In microseconds for each vertex that is reached.
 double time_of(DistanceSolver& solver, const std::vector<Source>& sources, const DistanceOptions& how,
                DistanceField& field) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = benchmark::cpu_seconds();
   solver.distance(sources, how, field);
-  return 1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / field.reached;
+  return 1e6 * (benchmark::cpu_seconds() - start) / field.reached;
 }
 
 // Relative, on average.
@@ -65,6 +66,7 @@ int main(int count, char** arguments) {
   const DistanceField line_truth = solver.distance(line, {.method = Method::Exact});
   for (const Method method : all_methods()) {
     if (method == Method::Heat) continue;  // starts at points
+    if (count > 2 && name_of(method) != arguments[2]) continue;
     const DistanceOptions how{.method = method};
     double point_time = kInfinity, line_time = kInfinity;
     for (int run = 0; run < kRuns; ++run) {  // in turn: what else the machine does hits both

@@ -141,5 +141,4 @@ def test_the_left_of_a_curve_is_negative(plane):
         plane.signed_distance([up, 0])
     with pytest.raises(bf.BrushfireError, match="offsets"):
         plane.signed_distance(bf.Curve(rows(0), offset=1.0))
-    with pytest.raises(bf.BrushfireError, match="walls"):
-        plane.walled(edges=[[0, 1]]).signed_distance(up)
+    near(plane.walled(edges=[[0, 1]]).signed_distance(up), X - X[2])

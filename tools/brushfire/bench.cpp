@@ -26,12 +26,12 @@ constexpr const char* kExamples = R"(Examples:
   brushfire bench large.ply --method novotni-klein --repeat 9 --no-error
 
 A method may be followed by :float64 (its arithmetic) or by a tolerance (windows:1e-4) of its own, as in other verbs.
-Without --source and --spread the first vertex is solved from. Every repetition builds the mesh
-from its arrays, with its walls and all that the method needs (set-up), and then solves for each source (solve, per source); what is
-printed is the median. Times are processor time; with --threads above 1 they are by the clock on the wall: threads share
-out the sources, and where there are more of them than sources, they work on one field together. Memory is the most that
-the first repetition took beyond the arrays that it started from. Errors are relative, over all vertices and sources,
-against the exact distances.)";
+Without --source and --spread the first vertex is solved from. Every repetition builds the mesh from
+its arrays, with its walls and all that the method needs (set-up), and then solves for each source (solve, per source);
+what is printed is the median. Times are processor time; with --threads above 1 they are by the clock on the wall:
+threads share out the sources, and where there are more of them than sources, they work on one field together. Memory is
+the most that the first repetition took beyond the arrays that it started from. Errors are relative, over all vertices
+and sources, against the exact distances.)";
 
 struct Arguments {
   std::string file;
