@@ -53,19 +53,19 @@ TEST_F(WeightFiles, DistancesAndPathsPayForFacesFencesAndRoads) {
 TEST_F(WeightFiles, WhatIsNotMetEverywhereIsToldWithWhatItWouldTake) {
   const std::string mesh = path("m.off");
   const std::vector<std::string> run{"distance",        mesh,          "-s",  "5", "--edge-weights",
-                                     path("fence.txt"), "--tolerance", "0.05"};
+                                     path("fence.txt"), "--tolerance", "0.08"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), run.begin(), run.end());
     return run_program(more);
   };
   const auto once = nlohmann::json::parse(with({"--json"}).out);
-  ASSERT_GT(once.at("max_error_bound").get<double>(), 0.05);
+  ASSERT_GT(once.at("max_error_bound").get<double>(), 0.08);
   const int needed = once.at("needed_refinements").get<int>();
   ASSERT_GT(needed, 0);
   EXPECT_GT(once.at("needed_points").get<int>(), once.at("points").get<int>());
   EXPECT_NE(with({}).out.find("; everywhere with --refine " + std::to_string(needed) + ": some "), std::string::npos);
   const auto met = nlohmann::json::parse(with({"--json", "--refine", std::to_string(needed + 1)}).out);
-  EXPECT_LE(met.at("max_error_bound").get<double>(), 0.05);
+  EXPECT_LE(met.at("max_error_bound").get<double>(), 0.08);
   EXPECT_EQ(met.at("needed_refinements"), 0);
   EXPECT_GE(met.at("refinements").get<int>(), 1);
   EXPECT_EQ(run_program({"distance", mesh, "-s", "5", "--refine", "1"}).code, 2);  // without weights
