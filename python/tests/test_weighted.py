@@ -48,6 +48,12 @@ def test_a_wish_that_is_not_met_says_what_it_would_take(strip: bf.Mesh) -> None:
         weighted.costs(5, refine=-1)
 
 
+def test_rows_of_costs_are_the_same_on_any_number_of_threads(strip: bf.Mesh) -> None:
+    for bound in ("upper", "lower"):
+        one, three = (strip.distance_matrix(weights=W, bound=bound, threads=n, dtype=np.float64) for n in (1, 3))
+        assert (one == three).all()
+
+
 def test_paths_are_those_of_the_weights_leg_by_leg(strip: bf.Mesh) -> None:
     weighted = strip.weighted(W, [[2, 7, np.inf, 5], [7, 12, np.inf, 5]])
     path = weighted.path(5, 9)

@@ -148,6 +148,11 @@ TEST_F(WeightFiles, CountInWhateverReadsAField) {
   run({"matrix", mesh, "--rows", "5", "--columns", "9,7", "--dtype", "float64", "-o", path("d.npy")});
   EXPECT_NEAR(read_npy(path("d.npy")).values[0], 8, 1e-9);
   EXPECT_NEAR(read_npy(path("d.npy")).values[1], 2, 1e-9);
+  for (const char* bound : {"upper", "lower"}) {  // rows on threads, the same bits
+    run({"matrix", mesh, "--bound", bound, "--threads", "1", "--dtype", "float64", "-o", path("one.npy")});
+    run({"matrix", mesh, "--bound", bound, "--threads", "3", "--dtype", "float64", "-o", path("three.npy")});
+    EXPECT_EQ(read_npy(path("one.npy")).values, read_npy(path("three.npy")).values);
+  }
   const auto lines =
       nlohmann::json::parse(run({"isolines", mesh, "-s", "5", "--levels", "7", "-o", path("l.obj"), "--json"}));
   EXPECT_GT(lines.at("greatest").get<double>(), 8);
