@@ -384,7 +384,7 @@ def weighted(
     >>> road = mesh.weighted(edge_weights=[[0, 2, 0.5]]).path(0, 2)
     >>> road.cost, road.edge.tolist()
     (2.5, [[2, 0]])
-    >>> mesh.weighted(slope=lambda s: 2 + abs(s)).distance(0, targets=2).tolist()
+    >>> mesh.weighted(slope=lambda s: 2 + abs(s)).distance(0, targets=2).round(6).tolist()
     [10.0]
     """
     return Weighted(mesh, weights, edge_weights, slope, steepest, towards, grain, tacking)
