@@ -21,6 +21,7 @@
 
 #include "curves/random_curves.h"
 #include "measure.h"
+#include "mesh_files.h"
 #include "support/engine_run.h"
 
 namespace brushfire::benchmark {
@@ -189,19 +190,6 @@ std::size_t print(const char* title, Summaries& summaries) {
     wrong += s.violations + s.wrong_reach;
   }
   return wrong;
-}
-
-std::vector<fs::path> files_of(const fs::path& argument) {
-  if (!fs::is_directory(argument)) return {argument};
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(argument)) {
-    const std::string extension = entry.path().extension().string();
-    for (const char* known : {".off", ".ply", ".stl", ".obj"}) {
-      if (extension == known) files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 int run(int count, char** arguments) {

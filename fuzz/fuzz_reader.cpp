@@ -1,7 +1,9 @@
 // Feeds arbitrary bytes to one reader: a result or an Error of one line is fine, anything else is a finding.
 //
-// FUZZ_MESH, FUZZ_FIELD and FUZZ_LINES name the functions of io/detail/formats.h that this program is for.
+// FUZZ_MESH, FUZZ_FIELD, FUZZ_FACES, FUZZ_LINES and FUZZ_GRID name the functions of io/detail/formats.h and
+// ascii_grid.h that this program is for.
 #include <brushfire/core/error.h>
+#include <brushfire/io/detail/ascii_grid.h>
 #include <brushfire/io/detail/formats.h>
 
 #include <cstdint>
@@ -32,6 +34,23 @@ void read_once(const detail::Input& input) {
   try {
     const LoadedField field = detail::FUZZ_FIELD(input, "");
     if (!field.vertices.empty() && field.vertices.size() != field.values.size()) std::abort();
+  } catch (const Error& e) {
+    check(e);
+  }
+#endif
+#ifdef FUZZ_FACES
+  try {
+    if (!detail::FUZZ_FACES(input, "").vertices.empty()) std::abort();
+  } catch (const Error& e) {
+    check(e);
+  }
+#endif
+#ifdef FUZZ_GRID
+  try {
+    const Grid grid = detail::FUZZ_GRID(input);
+    if (grid.heights.size() != std::size_t{grid.columns} * grid.rows) std::abort();
+    // As one of few heights is used; what a mesh of them does is no reader's.
+    if (grid.heights.size() <= 10000) grid.terrain();
   } catch (const Error& e) {
     check(e);
   }

@@ -112,6 +112,34 @@ void texts(const Seeds& seeds) {
   seeds.text("label", "plain", "#!ascii label\n2\n0 1 2 3 0.5\n4 1 2 3 0\n");
 }
 
+// Values of faces.
+void weights(const Seeds& seeds) {
+  const std::string quad = "0 0 0 1 0 0 1 1 0 0 1 0";
+  seeds.text("ply", "faces",
+             "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement "
+             "face 2\nproperty list uchar int vertex_indices\nproperty float friction\nend_header\n"
+             "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 1.5\n4 0 1 2 3 2\n");
+  seeds.text("vtk", "faces",
+             "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n" + quad +
+                 "\nPOLYGONS 2 9\n3 0 1 2\n4 0 1 2 3\nCELL_DATA 2\nSCALARS friction double 1\nLOOKUP_TABLE "
+                 "default\n1.5 2\nFIELD f 1\nb 1 2 int\n1 2\n");
+  seeds.text("vtp", "faces",
+             "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"4\" NumberOfPolys=\"2\"><CellData>"
+             "<DataArray type=\"Float64\" Name=\"friction\" format=\"ascii\">1.5 2</DataArray></CellData><Points>"
+             "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">" +
+                 quad +
+                 "</DataArray></Points><Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 0 "
+                 "1 2 3</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">3 7</DataArray></Polys>"
+                 "</Piece></PolyData></VTKFile>");
+}
+
+void grids(const Seeds& seeds) {
+  seeds.text("ascii_grid", "corner", "ncols 3\nnrows 2\nxllcorner 1e3\nyllcorner 0\ncellsize 10\n0 1 2\n3 -9999 nan\n");
+  seeds.text("ascii_grid", "center",
+             "NCOLS 2\r\nNROWS 2\r\nXLLCENTER 0\r\nYLLCENTER 0\r\nDX 1\r\nDY 2.5\r\nNODATA_value -1.#IND\r\n0 1 1.0D-3 "
+             "2\r\n");
+}
+
 void volumes(const Seeds& seeds) {
   seeds.text("gmsh", "2",
              "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n9 0 1 0\n$EndNodes\n$Elements\n2\n1 "
@@ -245,6 +273,8 @@ int main(int argc, char** argv) {
     const Seeds seeds(argv[1]);
     from_writers(seeds);
     texts(seeds);
+    weights(seeds);
+    grids(seeds);
     volumes(seeds);
     brains(seeds);
     scenes(seeds);

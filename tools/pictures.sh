@@ -19,11 +19,29 @@ trap 'rm -rf "$temporary"' EXIT
 $brushfire sample "$scan" --count 12 --quiet >"$temporary/seeds.txt"
 $brushfire voronoi "$scan" --sources "$temporary/seeds.txt" -o "$temporary/cells.csv" --quiet >/dev/null
 awk -F, 'NR > 1 { print $3 % 4 == 3 ? 0 : 1 }' "$temporary/cells.csv" >"$temporary/mask.txt"
+awk -F, 'NR > 1 { print $3 + 1 }' "$temporary/cells.csv" >"$temporary/labels.txt"
 $brushfire render "$scan" --source 0 --mask "$temporary/mask.txt" --isolines 30 --bar-title distance "${view[@]}" \
   --size 560x480 -o docs/images/walls.png
 $brushfire sample "$scan" --count 200 --lloyd --quiet >"$temporary/sites.txt"
 $brushfire render "$scan" --sources "$temporary/sites.txt" --labels --no-bar "${view[@]}" --size 480x420 \
   -o docs/images/cells.png
+# Curves (docs/curve-sources.md): a star drawn on the flank, its offsets, the signed field, cells of curves and points,
+# and parcels by their Hausdorff distance from one of them.
+awk 'BEGIN { for (i = 0; i < 10; ++i) { r = i % 2 ? 0.1 : 0.22; a = 3.14159265358979 * (i / 5 + 0.5)
+    printf "v %.6f %.6f %.6f\n", 0.12 + r * cos(a), -0.15 + r * sin(a), 0.3 }
+  print "l 1 2 3 4 5 6 7 8 9 10 1" }' >"$temporary/star.obj"
+front=(--azimuth 0 --elevation 10)
+$brushfire render "$scan" --source "$temporary/star.obj" --isolines 30 --bar-title distance "${front[@]}" \
+  --size 480x440 -o docs/images/star-offsets.png
+$brushfire render "$scan" --source "$temporary/star.obj" --signed --isolines 30 --bar-title "signed distance" \
+  "${front[@]}" --size 480x440 -o docs/images/star-signed.png
+$brushfire render "$scan" --source "$temporary/star.obj" --source path:0,20000 --sources "$temporary/seeds.txt" \
+  --labels --no-bar "${front[@]}" --size 480x440 -o docs/images/curve-cells.png
+$brushfire parcels "$scan" "$temporary/labels.txt" --distance hausdorff -o "$temporary/apart.csv" --quiet
+awk -F, 'NR == FNR { if (FNR > 1) apart[$1] = $2; next } { print $1 in apart ? apart[$1] : 0 }' \
+  "$temporary/apart.csv" "$temporary/labels.txt" >"$temporary/from-first.txt"
+$brushfire render "$scan" --scalar "$temporary/from-first.txt" --bar-title "Hausdorff distance" "${front[@]}" \
+  --size 480x440 -o docs/images/parcels.png
 # Weights (docs/weights.md): a terrain whose middle costs four times as much.
 $brushfire shape terrain --vertices 40000 -o "$temporary/terrain.obj" --quiet
 awk '/^v / { x[++n] = $2; y[n] = $3 }

@@ -86,6 +86,23 @@ void draw_squares(const std::filesystem::path& folder) {
   save(folder / "figure-7.png", seven, options);
 }
 
+// Colours end here: a few vertices beside the seed are farther off, as the bar says.
+constexpr double kMostError = 3;  // percent
+
+// By how many percent of the distance a panel's values are off.
+Panel error_of(const Panel& panel, const std::vector<double>& exact) {
+  constexpr double kPercent = 100;
+  Panel error;
+  error.mesh = panel.mesh;
+  error.scale = 1;
+  error.dots = panel.dots;
+  error.title = "error of " + panel.title;
+  for (std::size_t v = 0; v < exact.size(); ++v) {
+    error.scalar.push_back(exact[v] > 0 ? kPercent * std::abs(panel.scalar[v] - exact[v]) / exact[v] : 0);
+  }
+  return error;
+}
+
 void draw_scan(const std::filesystem::path& folder, const std::string& file) {
   const Mesh mesh = read_mesh(file).mesh;
   std::vector<Panel> panels;
@@ -102,11 +119,14 @@ void draw_scan(const std::filesystem::path& folder, const std::string& file) {
   for (Panel& panel : panels) {
     for (int i = 1; i < kBands; ++i) panel.isolines.push_back(far * i / kBands);
   }
+  const std::vector<double> exact = distances(mesh, 0, Method::Exact);
+  for (int i = 0; i < 2; ++i) panels.push_back(error_of(panels[i], exact));
   RenderOptions options;
-  options.width = 620;
-  options.height = 560;
+  options.width = 440;
+  options.height = 420;
   options.fill = Fill::Bands;
   options.scales[0].unit = "distance";
+  options.scales.push_back({.colormap = Colormap::Magma, .low = 0, .high = kMostError, .unit = "error, %"});
   // Towards the seed, so that the bands around it are seen.
   const Vec3 seed = mesh.positions()[0];
   Vec3 centre;

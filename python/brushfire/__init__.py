@@ -21,7 +21,7 @@ from brushfire._cells import Centroidal, Medoids, Parcels, k_medoids
 from brushfire._certify import Certificate
 from brushfire._core import version as __version__
 from brushfire._curves import LogMap, Path
-from brushfire._derivatives import DifferentiableDistance, DistanceGradient
+from brushfire._derivatives import DifferentiableDistance, DistanceGradient, PathLength
 from brushfire._errors import BrushfireError, BrushfireIndexError, BrushfireTypeError, BrushfireWarning
 from brushfire._extent import Discs, Extent, Mean
 from brushfire._fields import Comparison, Descent, Errors, Isoline, compare
@@ -80,6 +80,7 @@ __all__ = [
     "Parcels",
     "Patches",
     "Path",
+    "PathLength",
     "Point",
     "Points",
     "ReebGraph",

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from brushfire import _core
 from brushfire._arrays import Ints
 from brushfire._errors import BrushfireError
-from brushfire._regions import barriers
+from brushfire._regions import barriers, with_walls_of
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -50,9 +50,7 @@ def walled(
     if mask is not None:
         closed = _closed_faces(mesh, mask)
         blocked = blocked[0], np.concatenate([blocked[1], closed]), blocked[2]
-    if mesh._walls is not None:
-        old = mesh._walls
-        blocked = tuple(np.concatenate(pair) for pair in zip(old, blocked, strict=True))  # type: ignore[assignment]
+    blocked = with_walls_of(mesh, blocked)
     walled = mesh._of(mesh._mesh)
     walled._walls, walled._domain = blocked, _core.make_domain(mesh._mesh, *blocked)
     return walled

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brushfire import _core
-from brushfire._arrays import Floats, Labels, any_array, floats, number, offsets
+from brushfire._arrays import Floats, Labels, any_array, floats, integer, number, offsets
 from brushfire._errors import BrushfireError
 from brushfire._options import options
 from brushfire._places import Places
@@ -35,6 +35,34 @@ class DistanceGradient:
 
 
 @dataclass(frozen=True, eq=False)
+class PathLength:
+    """How the length of one shortest path changes when vertices move; what
+    :meth:`DifferentiableDistance.path_length` returns.
+
+    ``length``: in the mesh's units. ``vertices`` (k,): the ones that it depends on. ``gradient`` (k, 3): per unit of
+    length that each moves. ``one_sided``: whether second derivatives depend on the direction, because another path is
+    as short (the cut locus), or because this one goes straight on through a vertex that it may pass on either side.
+    """
+
+    length: float
+    vertices: Labels
+    gradient: Floats
+    one_sided: bool
+    _path: _core.PathLength = field(repr=False)
+
+    def hessian(self) -> Floats:
+        """All second derivatives, (3 k, 3 k), symmetric: x, y and z of ``vertices[0]``, then of the next."""
+        return self._path.hessian()
+
+    def hessian_times(self, moves: npt.ArrayLike) -> Floats:
+        """How the gradient changes while ``vertices`` move by ``moves``, (k, 3): in time that grows with k only."""
+        given = floats(moves, "moves")
+        if given.shape != self.gradient.shape:
+            raise BrushfireError(f"moves: shape {self.gradient.shape} is needed, not {given.shape}")
+        return self._path.hessian_times(given)
+
+
+@dataclass(frozen=True, eq=False)
 class DifferentiableDistance:
     """A distance field and its derivatives; what :meth:`Mesh.distance_vjp` returns.
 
@@ -44,6 +72,7 @@ class DifferentiableDistance:
     distance: Floats
     source: Labels
     _field: _core.TracedField = field(repr=False)
+    _tied: dict[float, npt.NDArray[np.bool_]] = field(default_factory=dict, repr=False)
 
     def vjp(self, upstream: npt.ArrayLike) -> DistanceGradient:
         """The gradient of ``sum(upstream * distance)``, by one backward sweep over the paths.
@@ -65,7 +94,31 @@ class DifferentiableDistance:
 
         Told by the paths of the neighbours; a second path that is no neighbour's (on meshes of a few faces) is missed.
         """
-        return self._field.one_sided(number(tie, "tie")).astype(bool)
+        share = number(tie, "tie")
+        if share not in self._tied:
+            self._tied[share] = self._field.one_sided(share).astype(bool)
+        return self._tied[share].copy()
+
+    def path_length(self, target: int, tie: float = 1e-9) -> PathLength:
+        """The length of the shortest path to a vertex, with first and second derivatives by the vertices' positions.
+
+        :param target: a vertex that a source reaches.
+        :param tie: as for :meth:`one_sided`.
+
+        Exact: where the path crosses edges is eliminated. A source within a face keeps its weights there; its offset
+        is no part of the length.
+
+        >>> import brushfire as bf
+        >>> mesh = bf.Mesh([[0, 0, 0], [3, 0, 0], [3, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> path = mesh.distance_vjp(1).path_length(3)
+        >>> path.length, path.vertices.tolist()
+        (5.0, [0, 1, 2, 3])
+        >>> path.hessian_times([[0, 0, 0], [0, 0, 0], [0, 0, 0], [4, 3, 0]])[3].round(12).tolist()  # across: 5 / length
+        [0.8, 0.6, 0.0]
+        """
+        path = self._field.path_length(integer(target, "target"))
+        one_sided = path.is_one_sided() or bool(self.one_sided(tie)[target])
+        return PathLength(path.length(), path.vertices(), path.gradient(), one_sided, path)
 
 
 def distance_vjp(

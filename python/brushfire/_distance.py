@@ -168,21 +168,19 @@ def signed_distance(
     Left is seen along the curve, the faces lying counter-clockwise: the inside of a closed curve that runs
     counter-clockwise is negative, and curves that nest with opposite senses bound what lies between them. On which
     side a vertex is, its shortest path says, by where it arrives (docs/curve-sources.md); where there is no side, as on
-    the curve, the distance is positive.
+    the curve, the distance is positive. Walls part curves: what runs along one is on both of its sides.
 
     :param curves: one or several, as :meth:`distance` takes them, without offsets.
     :param radius, threads, progress: as for :meth:`distance`.
     :return: float64 (vertex_count,); +inf where nothing is reached.
-    :raises BrushfireError: for points among the curves, offsets, a mesh with walls, and as :meth:`distance` does.
+    :raises BrushfireError: for points among the curves, offsets, and as :meth:`distance` does.
 
     >>> import brushfire as bf
     >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
     >>> mesh.signed_distance(bf.Curve([0, 2])).round(9).tolist()
     [0.0, 2.4, 0.0, -2.4]
     """
-    if mesh._walls is not None:
-        raise BrushfireError("signed_distance: a mesh with walls has no sides; cut() it")
     chosen = options("exact", None, radius, threads=threads)
     start = sources_of(mesh, curves)
     with shown(progress, "distance") as report:
-        return _core.signed_distance(mesh._mesh, start, chosen, report)
+        return _core.signed_distance(mesh._space, start, chosen, report)

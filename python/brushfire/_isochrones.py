@@ -20,7 +20,7 @@ def isochrones(mesh: Mesh, values: npt.ArrayLike, levels: npt.ArrayLike) -> dict
 
     :param values: one per vertex, +inf where there is none, (vertex_count,): what it takes to get there.
     :param levels: (k,); each one's polygons have it as their property ``level``.
-    :return: what ``json.dump`` writes; in the mesh's x and y. For terrain: no two faces over one another.
+    :return: what ``json.dump`` writes; in the mesh's x and y, up to its walls. For terrain: no two faces over one another.
 
     >>> import brushfire as bf
     >>> ground = bf.terrain([[0, 0], [0, 0]])
@@ -29,5 +29,5 @@ def isochrones(mesh: Mesh, values: npt.ArrayLike, levels: npt.ArrayLike) -> dict
     ({'level': 0.5}, 'MultiPolygon')
     """
     field = floats(values, "values").ravel()
-    found: dict[str, Any] = json.loads(_core.isochrones(mesh._mesh, field, np.atleast_1d(floats(levels, "levels"))))
+    found: dict[str, Any] = json.loads(_core.isochrones(mesh._space, field, np.atleast_1d(floats(levels, "levels"))))
     return found

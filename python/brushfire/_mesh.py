@@ -260,6 +260,7 @@ class Mesh:
         name: str = "mesh",
     ) -> str:
         """One HTML page with the mesh and the library in it, which computes as one clicks; what ``brushfire view`` writes.
+        Of a mesh with walls, the page has what they leave open, cut apart along them.
 
         :param values: (vertex_count,) distances that are shown until a source is set; None: the page computes those from
             ``sources``.

@@ -61,7 +61,7 @@ def _refuse_degrees(file: str, is_geographic: bool) -> None:
 def read_raster(file: str | os.PathLike[str]) -> Raster:
     """The first band of a file."""
     name = os.fspath(file)
-    if Path(name).suffix.lower() in _OWN:
+    if Path(name.removesuffix(".gz")).suffix.lower() in _OWN:
         values, columns, rows, placement, reference = _core.read_grid(name)
         return Raster(np.where(np.isfinite(values), values, np.nan).reshape(rows, columns), placement, reference)
     if rasterio := _installed("rasterio"):

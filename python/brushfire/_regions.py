@@ -206,7 +206,7 @@ def farthest_points(
 
 
 def cut(mesh: Mesh, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), edges: npt.ArrayLike = ()) -> Cut:
-    """The mesh with barriers cut out, through which no distance and no path goes.
+    """The mesh with barriers cut out, through which no distance and no path goes: these and the walls that it has.
 
     :param vertices: numbers, or a mask with one bool per vertex: nothing passes them, all their faces are blocked.
     :param faces: numbers, or a mask with one bool per face: nothing enters them.
@@ -220,8 +220,15 @@ def cut(mesh: Mesh, *, vertices: npt.ArrayLike = (), faces: npt.ArrayLike = (), 
     >>> mesh.cut(edges=[(0, 2)]).mesh, mesh.cut(faces=[0]).mesh
     (Mesh(6 vertices, 2 faces), Mesh(4 vertices, 1 faces))
     """
-    made = _core.cut(mesh._mesh, *barriers(mesh, vertices, faces, edges))
+    made = _core.cut(mesh._mesh, *with_walls_of(mesh, barriers(mesh, vertices, faces, edges)))
     return Cut(mesh._of(made.mesh), made.original_vertex(), made.original_face(), made.cut_face(), mesh, made)
+
+
+def with_walls_of(mesh: Mesh, blocked: tuple[Ints, Ints, Ints]) -> tuple[Ints, Ints, Ints]:
+    if mesh._walls is None:
+        return blocked
+    vertices, faces, ends = (np.concatenate(pair) for pair in zip(mesh._walls, blocked, strict=True))
+    return vertices, faces, ends
 
 
 def barriers(mesh: Mesh, vertices: Any, faces: Any, edges: Any) -> tuple[Ints, Ints, Ints]:

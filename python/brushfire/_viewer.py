@@ -101,8 +101,16 @@ def page_of(
     page = _empty_page()
     if page is None:
         raise BrushfireError("this package was built without the viewer's page: './run web' in the sources builds it")
-    if mesh.face_count == 0:
+    cut = None if mesh._walls is None else mesh.cut()
+    held_mesh = mesh if cut is None else cut.mesh
+    if held_mesh.face_count == 0:
         raise BrushfireError("a mesh without faces cannot be shown")
+    if cut is not None:
+        _check_can_be_a_file(cut.mesh)
+    if cut is not None and sources is not None:
+        sources, starts = cut.points_from_original(sources)
+        if len(starts) == 0:
+            raise BrushfireError("sources: they lie behind walls")
     chosen = options(method, tolerance, np.inf)
     if chosen.get("method", TOLERANT) not in _core.method_names():
         raise BrushfireError(f"method: {method!r} is none of {', '.join(_core.method_names())}")
@@ -110,17 +118,24 @@ def page_of(
         "name": name,
         "method": chosen.get("method", TOLERANT),
         "tolerance": repr(chosen.get("tolerance", 1e-3)),
-        "sources": [{"face": 0, "weights": [1.0, 0.0, 0.0]}] if sources is None else _in_faces(mesh, sources),
+        "sources": [{"face": 0, "weights": [1.0, 0.0, 0.0]}] if sources is None else _in_faces(held_mesh, sources),
     }
     # "</script>" in a name would end the element; in JSON a letter may be written by its number.
     held = _script("state", "application/json", json.dumps(state).replace("<", "\\u003c"))
-    held += _script("mesh", "application/octet-stream", _base64(_ply(mesh)))
+    held += _script("mesh", "application/octet-stream", _base64(_ply(held_mesh)))
     if values is not None:
         shown = floats(values, "values")
         if shown.shape != (mesh.vertex_count,):
             raise BrushfireError(f"values: shape ({mesh.vertex_count},) is needed, not {shown.shape}")
+        if cut is not None:
+            shown = shown[cut.original_vertex]
         held += _script("values", "application/octet-stream", _base64(shown.astype("<f8").tobytes()))
     return page.replace(_PLACE, held)
+
+
+def _check_can_be_a_file(mesh: Mesh) -> None:
+    if type(mesh)(mesh.vertices, mesh.faces).report.boundary_edges != mesh.report.boundary_edges:
+        raise BrushfireError("a wall of a single edge, whose ends stay whole, cannot be shown: block an edge beside it, too")
 
 
 def show(

@@ -7,6 +7,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -14,15 +15,15 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from brushfire._derivatives import weighted_places
+from brushfire._derivatives import PathLength, weighted_places
 from brushfire._mesh import Mesh
 from brushfire._places import Points
 
-__all__ = ["distance"]
+__all__ = ["distance", "path_length"]
 
 
 class _Faces:
-    """Integers that a compiled function is made for: compared by what they are."""
+    """Numbers that a compiled function is made for: compared by what they are."""
 
     def __init__(self, array: Any) -> None:
         self.array = np.asarray(array)
@@ -83,7 +84,8 @@ def distance(V: Any, F: Any, sources: Any, *, weights: Any = None, offset: Any =
     :param weights: (k, 3) barycentric weights of the sources in their faces; what they sum to is divided by.
     :param offset: the values at the sources, one or (k,).
 
-    Reverse mode, first derivatives, to V, ``weights`` and ``offset``; see :func:`brushfire.torch.distance`.
+    Reverse mode, first derivatives, to V, ``weights`` and ``offset``; see :func:`brushfire.torch.distance`. Second ones
+    are :func:`path_length`'s.
     """
     V = jnp.asarray(V)
     index, _ = weighted_places(sources, None)
@@ -95,4 +97,73 @@ def distance(V: Any, F: Any, sources: Any, *, weights: Any = None, offset: Any =
         weights = jnp.zeros((len(index), 3), dtype=V.dtype)
     starts = jnp.broadcast_to(jnp.asarray(offset, dtype=V.dtype), (len(index),))
     result: jax.Array = _distance(_Faces(F), _Faces(index), by_weights, V, weights, starts)
+    return result
+
+
+@dataclass(frozen=True)
+class _Way:
+    """Which path: what compiled functions are made for."""
+
+    faces: _Faces
+    index: _Faces
+    places: _Faces | None
+    target: int
+
+    def path(self, V: Any) -> PathLength:
+        start: Any = self.index.array if self.places is None else Points(self.index.array, self.places.array)
+        mesh = Mesh(np.asarray(V, dtype=np.float64), self.faces.array)
+        return mesh.distance_vjp(start).path_length(self.target)
+
+    def spread(self, path: PathLength, values: Any, like: Any) -> Any:
+        """Values of the path's vertices as ones of all."""
+        result = np.zeros(like.shape, dtype=like.dtype)
+        result[path.vertices] = values
+        return result
+
+
+@partial(jax.custom_vjp, nondiff_argnums=(0,))
+def _length(way: _Way, V: Any) -> Any:
+    shape = jax.ShapeDtypeStruct((), V.dtype)
+    return jax.pure_callback(lambda V: np.asarray(way.path(V).length, V.dtype), shape, V, vmap_method="sequential")
+
+
+@partial(jax.custom_vjp, nondiff_argnums=(0,))
+def _length_gradient(way: _Way, V: Any) -> Any:
+    def compute(V: Any) -> Any:
+        path = way.path(V)
+        return way.spread(path, path.gradient, V)
+
+    return jax.pure_callback(compute, jax.ShapeDtypeStruct(V.shape, V.dtype), V, vmap_method="sequential")
+
+
+def _length_hessian_times(way: _Way, V: Any, direction: Any) -> Any:
+    def compute(V: Any, direction: Any) -> Any:
+        path = way.path(V)
+        return way.spread(path, path.hessian_times(np.asarray(direction, dtype=np.float64)[path.vertices]), V)
+
+    return jax.pure_callback(compute, jax.ShapeDtypeStruct(V.shape, V.dtype), V, direction, vmap_method="sequential")
+
+
+_length.defvjp(
+    lambda way, V: (_length(way, V), V),
+    lambda way, V, upstream: (upstream * _length_gradient(way, V),),
+)
+_length_gradient.defvjp(
+    lambda way, V: (_length_gradient(way, V), V),
+    lambda way, V, direction: (_length_hessian_times(way, V, direction),),
+)
+
+
+def path_length(V: Any, F: Any, sources: Any, target: int, *, weights: Any = None) -> jax.Array:
+    """The length of the shortest path from the nearest source to vertex ``target``: differentiable twice, by V.
+
+    :param V, F, sources: as for :func:`distance`.
+    :param weights: (k, 3) numbers that are not traced: barycentric weights that the sources keep in their faces.
+
+    Reverse mode, twice: ``jax.jacrev(jax.grad(..))``, not ``jax.hessian``, whose outer pass is forward mode. Functions
+    keep nothing between passes: each computes the path anew.
+    """
+    index, places = weighted_places(sources, weights)
+    way = _Way(_Faces(F), _Faces(index), None if places is None else _Faces(places), int(target))
+    result: jax.Array = _length(way, jnp.asarray(V))
     return result

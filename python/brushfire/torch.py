@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 import torch
 
-from brushfire._derivatives import weighted_places
+from brushfire._derivatives import PathLength, weighted_places
 from brushfire._mesh import Mesh
 from brushfire._places import Points
 
-__all__ = ["distance"]
+__all__ = ["distance", "path_length"]
 
 
 def _numbers(tensor: torch.Tensor) -> Any:
@@ -56,6 +56,47 @@ class _Distance(torch.autograd.Function):
         )
 
 
+class _Length(torch.autograd.Function):
+    @staticmethod
+    def forward(ctx: Any, vertices: torch.Tensor, path: PathLength) -> torch.Tensor:  # type: ignore[override]
+        ctx.path = path
+        ctx.save_for_backward(vertices)
+        return vertices.new_tensor(path.length)
+
+    @staticmethod
+    def backward(ctx: Any, upstream: torch.Tensor) -> Any:  # type: ignore[override]
+        return _LengthGradient.apply(*ctx.saved_tensors, upstream, ctx.path), None
+
+
+class _LengthGradient(torch.autograd.Function):
+    @staticmethod
+    def forward(  # type: ignore[override]
+        ctx: Any, vertices: torch.Tensor, upstream: torch.Tensor, path: PathLength
+    ) -> torch.Tensor:
+        ctx.path = path
+        ctx.save_for_backward(vertices, upstream)
+        return upstream * _spread(path, path.gradient, vertices)
+
+    @staticmethod
+    @torch.autograd.function.once_differentiable
+    def backward(ctx: Any, direction: torch.Tensor) -> Any:  # type: ignore[override]
+        vertices, upstream = ctx.saved_tensors
+        moves = _numbers(direction)[ctx.path.vertices]
+        turned = _spread(ctx.path, ctx.path.hessian_times(moves), vertices)
+        return upstream * turned, upstream.new_tensor((moves * ctx.path.gradient).sum()), None
+
+
+def _spread(path: PathLength, values: Any, vertices: torch.Tensor) -> torch.Tensor:
+    """Values of a path's vertices as ones of all."""
+    result = torch.zeros_like(vertices)
+    result[torch.from_numpy(path.vertices.astype(np.int64)).to(vertices.device)] = torch.from_numpy(values).to(vertices)
+    return result
+
+
+def _plain(faces: Any) -> Any:
+    return faces.detach().cpu().numpy() if isinstance(faces, torch.Tensor) else np.asarray(faces)
+
+
 def distance(
     V: torch.Tensor,
     F: Any,
@@ -74,13 +115,31 @@ def distance(
     :raises BrushfireError: as :meth:`brushfire.Mesh.distance_vjp` does.
 
     Gradients go to V, ``weights`` and ``offset``; they are exact where the distance has one: on the cut locus they are
-    those of one of the shortest paths, and a source at a vertex (given by weights) gets NaN. First derivatives only.
+    those of one of the shortest paths, and a source at a vertex (given by weights) gets NaN. First derivatives only:
+    second ones are :func:`path_length`'s.
     """
     index, _ = weighted_places(sources, None)
     if weights is not None:
         weights = weights / weights.sum(dim=-1, keepdim=True)
         weighted_places(index, _numbers(weights))
     starts = torch.as_tensor(offset, dtype=V.dtype, device=V.device).expand(len(index))
-    faces = F.detach().cpu().numpy() if isinstance(F, torch.Tensor) else np.asarray(F)
-    result: torch.Tensor = _Distance.apply(V, faces, index, weights, starts)
+    result: torch.Tensor = _Distance.apply(V, _plain(F), index, weights, starts)
+    return result
+
+
+def path_length(V: torch.Tensor, F: Any, sources: Any, target: int, *, weights: Any = None) -> torch.Tensor:
+    """The length of the shortest path from the nearest source to vertex ``target``: differentiable twice, by V.
+
+    :param V, F, sources: as for :func:`distance`.
+    :param weights: (k, 3) numbers: barycentric weights that the sources keep in their faces.
+    :raises BrushfireError: as :meth:`brushfire.DifferentiableDistance.path_length` does, which also tells where second
+        derivatives are one-sided.
+
+    Second derivatives times a vector (``torch.autograd.grad`` of a gradient made with ``create_graph=True``,
+    ``torch.autograd.functional.hvp``) take time by the edges that the path crosses.
+    """
+    index, places = weighted_places(sources, weights)
+    start: Any = index if places is None else Points(index, places)
+    path = Mesh(_numbers(V), _plain(F)).distance_vjp(start).path_length(target)
+    result: torch.Tensor = _Length.apply(V, path)
     return result

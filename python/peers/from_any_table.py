@@ -21,7 +21,8 @@ import test_from_any as cases
 HEAD = """# Meshes out of Python objects
 
 What `brushfire.from_any()` takes and refuses, tried with the libraries themselves: what comes out is compared with the arrays
-that went in. "imitated": by an object with the same attributes. Made by `python python/peers/from_any_table.py`; the same cases
+that went in, or, where it numbers them in another way, the number of faces and their area ("its surface"). "imitated": by an
+object with the same attributes. {count} kinds of objects. Made by `python python/peers/from_any_table.py`; the same cases
 are tests (`python/tests/test_from_any.py`), with those libraries that are installed.
 """
 
@@ -74,6 +75,21 @@ def taken() -> list[str]:
     return rows
 
 
+def another() -> list[str]:
+    rows = []
+    for name, (make, measures) in cases.ANOTHER.items():
+        library, mesh, message = outcome(make)
+        if mesh is None:
+            rows.append(row(name, library, message, "" if library == "not installed" else "NO"))
+            continue
+        faces, area = measures()
+        same = mesh.face_count == faces and np.isclose(mesh.area, area)
+        rows.append(
+            row(name, library, f"{mesh.vertex_count} vertices, {mesh.face_count} faces", "its surface" if same else "NO")
+        )
+    return rows
+
+
 def refused() -> list[str]:
     rows = [row("object", "library", "what is said"), row(*["---"] * 3)]
     for name, (make, _) in cases.REFUSALS.items():
@@ -84,6 +100,7 @@ def refused() -> list[str]:
 
 if __name__ == "__main__":
     cases.lib = lib
-    text = "\n".join([HEAD, "## Taken", "", *taken(), "", "## Refused", "", *refused()])
+    head = HEAD.replace("{count}", str(len(cases.SAME) + len(cases.ANOTHER) + len(cases.REFUSALS)))
+    text = "\n".join([head, "## Taken", "", *taken(), *another(), "", "## Refused", "", *refused()])
     print(text)
     sys.exit("NO |" in text or "NOT REFUSED" in text)

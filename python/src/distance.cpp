@@ -33,11 +33,11 @@ nb::tuple solve(Solver& solver, const Sources& sources, const std::optional<Vect
 }
 
 // [vertex_count] negative on the left of curves.
-Result<double> signed_field(const Mesh& mesh, const Sources& sources, const nb::dict& given, nb::object progress) {
+Result<double> signed_field(const Domain& domain, const Sources& sources, const nb::dict& given, nb::object progress) {
   Computation computation(std::move(progress));
   const DistanceOptions options = options_from(given, computation);
-  return to_numpy(
-      computation.run(mesh.face_count() < kBriefFaces, [&] { return signed_distance(mesh, sources.list, options); }));
+  return to_numpy(computation.run(domain.mesh().face_count() < kBriefFaces,
+                                  [&] { return signed_distance(domain, sources.list, options); }));
 }
 
 // Builds what the first run with these options would build.
@@ -108,7 +108,7 @@ DistanceOptions options_from(const nb::dict& given, Computation& computation) {
 }
 
 void bind_distance(nb::module_& m) {
-  m.def("signed_distance", signed_field, nb::arg("mesh"), nb::arg("sources"), nb::arg("options"),
+  m.def("signed_distance", signed_field, nb::arg("domain"), nb::arg("sources"), nb::arg("options"),
         nb::arg("progress").none());
   nb::class_<Solver>(m, "Solver")
       .def(nb::init<const Domain&>(), nb::arg("domain"))

@@ -194,9 +194,9 @@ void grid_to_file(const std::string& path, const Vector<double>& values, Index c
   });
 }
 
-std::string isochrones(const Mesh& mesh, const Vector<double>& values, const Vector<double>& levels) {
+std::string isochrones(const Domain& domain, const Vector<double>& values, const Vector<double>& levels) {
   const nb::gil_scoped_release release;
-  return isochrones_as_geojson(mesh, {values.data(), values.shape(0)}, {levels.data(), levels.shape(0)});
+  return isochrones_as_geojson(domain, {values.data(), values.shape(0)}, {levels.data(), levels.shape(0)});
 }
 
 }  // namespace
@@ -221,7 +221,7 @@ void bind_weighted(nb::module_& m) {
       .def("paths", paths, nb::arg("sources"), nb::arg("target_index").noconvert(),
            nb::arg("target_weights").noconvert().none(), nb::arg("tolerance"), nb::arg("towards"),
            nb::arg("max_distance"));
-  m.def("isochrones", isochrones, nb::arg("mesh"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());
+  m.def("isochrones", isochrones, nb::arg("domain"), nb::arg("values").noconvert(), nb::arg("levels").noconvert());
   m.def("read_grid", grid_from_file, nb::arg("path"));
   m.def("write_grid", grid_to_file, nb::arg("path"), nb::arg("values").noconvert(), nb::arg("columns"), nb::arg("rows"),
         nb::arg("placement").noconvert(), nb::arg("reference"));

@@ -100,7 +100,38 @@ def test_the_cut_locus_is_told():
     assert not bf.Mesh(*bumpy_grid()).distance_vjp(0).one_sided().any()
 
 
+def test_a_paths_hessian_is_the_rate_of_change_of_its_gradient():
+    vertices, faces = bumpy_grid()
+    sources = bf.Points([10], [[0.5, 0.2, 0.3]])
+    path = bf.Mesh(vertices, faces).distance_vjp(sources).path_length(44)
+    assert path.length == pytest.approx(bf.Mesh(vertices, faces).distance(sources, method="exact")[44])
+    assert not path.one_sided and len(path.vertices) > 6
+    hessian = path.hessian()
+    np.testing.assert_allclose(hessian, hessian.T, atol=1e-12)
+
+    def gradient(v):
+        return bf.Mesh(v, faces).distance_vjp(sources).vjp(np.eye(len(vertices))[44]).vertices
+
+    moves = np.random.default_rng(5).uniform(-1, 1, path.gradient.shape)
+    direction = np.zeros_like(vertices)
+    direction[path.vertices] = moves
+    expected = rate(gradient, vertices, direction)[path.vertices]
+    np.testing.assert_allclose(path.hessian_times(moves), expected, atol=1e-6)
+    np.testing.assert_allclose(hessian @ moves.ravel(), expected.ravel(), atol=1e-6)
+
+
+def test_second_derivatives_tell_where_they_are_one_sided():
+    flat = bf.Mesh(*grid(5)).distance_vjp(0)
+    assert flat.path_length(2).one_sided and not flat.path_length(1).one_sided  # through a vertex; along an edge
+    between = bf.Mesh(*grid(5)).distance_vjp([5, 9])
+    assert between.path_length(7).one_sided  # as far from the one as from the other
+
+
 def test_wrong_arguments_are_told(square):
+    with pytest.raises(bf.BrushfireError, match="target 4"):
+        square.distance_vjp(0).path_length(4)
+    with pytest.raises(bf.BrushfireError, match="shape"):
+        square.distance_vjp(0).path_length(2).hessian_times([1, 2])
     field = square.distance_vjp(0)
     with pytest.raises(bf.BrushfireError, match="shape"):
         field.vjp([1, 2])
@@ -126,6 +157,9 @@ def test_torch_gradcheck():
     single = v.detach().float().requires_grad_()
     bf.torch.distance(single, torch.tensor(faces), 3).sum().backward()
     assert single.grad.dtype == torch.float32 and torch.isfinite(single.grad).all()
+    length = lambda v: bf.torch.path_length(v, faces, [4, 20], 13, weights=weights.detach())  # noqa: E731
+    assert torch.autograd.gradcheck(length, (v,), atol=1e-6)
+    assert torch.autograd.gradgradcheck(length, (v,), atol=1e-6)
 
 
 def test_jax_check_grads():
@@ -142,6 +176,8 @@ def test_jax_check_grads():
         check_grads(
             lambda v, w: bf.jax.distance(v, faces, 4, weights=w), (v, weights), 1, modes=["rev"], atol=1e-6, rtol=1e-6
         )
+        length = lambda v: bf.jax.path_length(v, faces, 4, 20, weights=weights)  # noqa: E731
+        check_grads(length, (v,), 2, modes=["rev"], atol=1e-6, rtol=1e-6)
         compiled = jax.jit(lambda v: brushfire.jax.distance(v, faces, 0).sum())
         np.testing.assert_allclose(
             jax.grad(compiled)(v), bf.Mesh(vertices, faces).distance_vjp(0).vjp(np.ones(25)).vertices

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import importlib
+import io
+import tempfile
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -110,6 +113,8 @@ SAME = {
     "Mesh": lambda: bf.Mesh(V, F),
     "vertices and faces": lambda: SimpleNamespace(vertices=V, faces=F),
     "vertices and triangles": lambda: SimpleNamespace(vertices=V, triangles=F),
+    "verts and faces": lambda: SimpleNamespace(verts=V, faces=F),
+    "points and triangles": lambda: SimpleNamespace(points=V, triangles=F),
     "coordinates and faces": lambda: SimpleNamespace(coordinates=V, faces=F),
     "VTK's layout": lambda: SimpleNamespace(points=V, faces=VTK_FACES),
     "cells_dict": lambda: SimpleNamespace(points=V, cells_dict={"triangle": F, "vertex": np.zeros((1, 1), int)}),
@@ -155,19 +160,60 @@ def hull():
     return lib("scipy.spatial").ConvexHull(np.random.default_rng(0).normal(size=(50, 3)))
 
 
-def test_triangulations_come_out_as_they_are():
-    for make in (
-        lambda: lib("matplotlib.tri").Triangulation(*V[:, :2].T, F),
-        lambda: lib("scipy.spatial").Delaunay(V[:, :2]),
-    ):
-        mesh = bf.from_any(make())
-        assert np.array_equal(mesh.vertices[:, :2], V[:, :2])
-        assert mesh.area == pytest.approx(9)
-    masked = lib("matplotlib.tri").Triangulation(*V[:, :2].T, F, mask=np.arange(len(F)) < 4)
-    assert bf.from_any(masked).face_count == len(F) - 4
-    body = bf.from_any(hull())
-    assert body.area == pytest.approx(hull().area)
-    assert body.report.boundary_edges == 0
+def triangulation(**options):
+    return lib("matplotlib.tri").Triangulation(*V[:, :2].T, F, **options)
+
+
+def scene_of_two():
+    trimesh = lib("trimesh")
+    scene = trimesh.Scene(trimesh_mesh())
+    scene.add_geometry(trimesh_mesh(), transform=trimesh.transformations.translation_matrix([10, 0, 0]))
+    return scene
+
+
+def file_of_the_mesh():
+    lines = ["OFF", f"{len(V)} {len(F)} 0", *(f"{x!r} {y!r} {z!r}" for x, y, z in V.tolist())]
+    return "\n".join([*lines, *(f"3 {a} {b} {c}" for a, b, c in F.tolist())]).encode()
+
+
+FOLDER = tempfile.TemporaryDirectory()  # gone when this module is
+
+
+def path_of_the_mesh():
+    path = Path(FOLDER.name) / "mesh.off"
+    path.write_bytes(file_of_the_mesh())
+    return path
+
+
+FACES, AREA = len(F), bf.Mesh(V, F).area
+
+# What is numbered in another way, holds more than V and F, or is a file of them: how many faces, and their area.
+ANOTHER = {
+    "matplotlib Triangulation": (triangulation, lambda: (FACES, 9)),
+    "matplotlib Triangulation, masked": (lambda: triangulation(mask=np.arange(FACES) < 4), lambda: (FACES - 4, 7)),
+    "scipy Delaunay": (lambda: lib("scipy.spatial").Delaunay(V[:, :2]), lambda: (FACES, 9)),
+    "scipy ConvexHull": (hull, lambda: (len(hull().simplices), hull().area)),
+    "pyvista strips": (lambda: pyvista_mesh().strip(), lambda: (FACES, AREA)),
+    "trimesh.Scene of two": (scene_of_two, lambda: (2 * FACES, 2 * AREA)),
+    "path": (path_of_the_mesh, lambda: (FACES, AREA)),
+    "name of a file": (lambda: str(path_of_the_mesh()), lambda: (FACES, AREA)),
+    "open file": (lambda: io.BytesIO(file_of_the_mesh()), lambda: (FACES, AREA)),
+    "bytes of a file": (file_of_the_mesh, lambda: (FACES, AREA)),
+}
+
+
+@pytest.mark.parametrize(("make", "measures"), ANOTHER.values(), ids=ANOTHER)
+def test_the_surface_comes_out_as_it_is(make, measures):
+    mesh = bf.from_any(make())
+    faces, area = measures()
+    assert mesh.face_count == faces
+    assert mesh.area == pytest.approx(area)
+
+
+def test_triangulations_keep_their_points_and_a_hull_is_closed():
+    for make in (triangulation, lambda: lib("scipy.spatial").Delaunay(V[:, :2])):
+        assert np.array_equal(bf.from_any(make()).vertices[:, :2], V[:, :2])
+    assert bf.from_any(hull()).report.boundary_edges == 0
 
 
 def test_strips_give_their_triangles_the_right_way_round():
@@ -181,11 +227,7 @@ def test_strips_give_their_triangles_the_right_way_round():
 
 
 def test_the_meshes_of_a_scene_stand_where_the_scene_has_them():
-    trimesh = lib("trimesh")
-    scene = trimesh.Scene(trimesh_mesh())
-    scene.add_geometry(trimesh_mesh(), transform=trimesh.transformations.translation_matrix([10, 0, 0]))
-    mesh = bf.from_any(scene)
-    assert mesh.face_count == 2 * len(F)
+    mesh = bf.from_any(scene_of_two())
     assert mesh.report.components == 2
     assert mesh.vertices[:, 0].max() == pytest.approx(13)
 

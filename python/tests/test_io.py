@@ -72,6 +72,14 @@ def test_bytes_and_open_files_are_read_as_what_they_are_said_to_be(tmp_path):
     assert bf.read(content, format="obj", return_info=True)[1].format == "OBJ"
 
 
+def test_grids_are_read_as_other_text_is(tmp_path):
+    text = "\ufeffNCOLS 2\r\nNROWS 2\r\ncellsize 10\r\n0 1.0D+00\r\n2 3\r\n"
+    with gzip.open(tmp_path / "dem.asc.gz", "wb") as file:
+        file.write(text.encode())
+    terrain = bf.terrain(tmp_path / "dem.asc.gz")
+    assert terrain.mesh.vertices[:, 2].tolist() == [0, 1, 2, 3]
+
+
 def test_bytes_that_are_no_mesh_say_why():
     for source, arguments in ((b"", {}), (b"nonsense", {}), (b"v 0\n", {"format": "obj"}), (b"v", {"format": "no"})):
         with pytest.raises(bf.BrushfireError):

@@ -42,6 +42,7 @@ def test_every_public_function_and_method_has_an_example():
         "Patches",
         "ReebGraph",
         "Path",
+        "PathLength",
         "LogMap",
         "At",
         "Border",

@@ -59,6 +59,7 @@
 #include <brushfire/queries/nearest_sources.h>
 #include <brushfire/queries/parcels.h>
 #include <brushfire/queries/path.h>
+#include <brushfire/queries/path_length.h>
 #include <brushfire/queries/sampling.h>
 #include <brushfire/queries/shorten.h>
 #include <brushfire/queries/smoothing.h>

@@ -36,7 +36,7 @@ FUNCTIONS = {
     "terrain": ["terrain"],
     "isochrones": ["isochrones", "weighted", "distance"],
 }
-FOR_EVERY_VERB = {"read": {"weld"}, "at": {"snap_within"}, "walled": {"mask", "faces", "edges"},
+FOR_EVERY_VERB = {"read": {"weld"}, "at": {"snap_within"}, "walled": {"mask", "faces", "edges", "vertices"},
                   "write": {"unit", "view", "outline"}}  # fmt: skip
 NOT_IN_PYTHON = {
     "bench": "timeit",
@@ -74,9 +74,11 @@ OTHERWISE = {
     "--region": ("mask", "numpy makes the mask: labels == 3"),
     "--block-faces": ("faces", "walled() is what blocks"),
     "--block-edges": ("edges", "walled() is what blocks"),
+    "--block-vertices": ("vertices", "walled() is what blocks"),
     "distance --labels": ("return_source", "write(labels=) puts them into the file"),
     "voronoi --borders": ("", "Voronoi.borders, for write()"),
     "render --label-file": ("labels", "an array in place of a file"),
+    "render --signed": ("values", "what signed_distance() returns"),
     "render --error": ("", "a panel of the difference of two arrays"),
     "render --error-range": ("scales", "each scale has its own range"),
     "render --path": ("paths", "those that are there, in place of ends to compute one to"),

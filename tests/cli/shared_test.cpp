@@ -14,7 +14,7 @@ namespace brushfire::tool {
 namespace {
 
 // Verbs that neither read nor compute anything on a mesh.
-const std::set<std::string> kElsewhere{"shape", "terrain", "isochrones", "merge", "completion", "manual"};
+const std::set<std::string> kElsewhere{"shape", "terrain", "merge", "completion", "manual"};
 
 std::vector<VerbNames> verbs() {
   CommandLine command_line;

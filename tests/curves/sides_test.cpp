@@ -1,6 +1,5 @@
 // On which side of a curve, and where on it, paths arrive.
 #include <brushfire/core/error.h>
-#include <brushfire/mesh/delaunay.h>
 #include <brushfire/mesh/shapes.h>
 #include <brushfire/queries/curve_sides.h>
 #include <brushfire/queries/path.h>
@@ -14,57 +13,21 @@
 #include <string>
 
 #include "curves/random_curves.h"
+#include "curves/random_polygons.h"
 
 namespace brushfire {
 namespace {
 
-Mesh random_triangulation(std::mt19937& random) {
-  std::vector<Vec2> points;
-  for (int i = 0; i < 40; ++i) points.push_back({test::uniform(random), test::uniform(random)});
-  return delaunay(points).mesh();
-}
-
-bool is_inside(const std::vector<Vec3>& polygon, const Vec3& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec3 &a = polygon[i], &b = polygon[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
-  }
-  return inside;
-}
-
-// The corners of a star-shaped polygon, counter-clockwise, at vertices, on edges and inside faces.
-std::vector<SurfacePoint> star_shaped(const Mesh& mesh, std::mt19937& random) {
-  std::vector<SurfacePoint> corners;
-  Vec3 middle;
-  const std::size_t count = 3 + random() % 7;
-  for (std::size_t i = 0; i < count; ++i) {
-    corners.push_back(test::any_point(mesh, random));
-    middle = middle + (1.0 / static_cast<double>(count)) * position(mesh, corners.back());
-  }
-  const auto angle = [&](const SurfacePoint& p) {
-    const Vec3 d = position(mesh, p) - middle;
-    return std::atan2(d.y, d.x);
-  };
-  std::sort(corners.begin(), corners.end(), [&](const auto& a, const auto& b) { return angle(a) < angle(b); });
-  return corners;
-}
-
 TEST(Sides, OfRandomSimplePolygonsInEitherSenseAreInsideAndOutside) {
   for (unsigned seed = 0; seed < 1000; ++seed) {
     std::mt19937 random(seed);
-    const Mesh mesh = random_triangulation(random);
-    const std::vector<SurfacePoint> corners = star_shaped(mesh, random);
-    PathFinder paths(mesh);
-    CurveSource curve{paths.through(corners, true).points, true};
-    std::vector<Vec3> polygon;
-    for (const SurfacePoint& p : curve.places) polygon.push_back(position(mesh, p));
+    const Mesh mesh = test::random_triangulation(random);
     const bool turned = seed % 2 == 1;
-    if (turned) std::reverse(curve.places.begin(), curve.places.end());
-    const std::vector<double> d = signed_distance(mesh, std::vector{source_along(curve)});
+    const test::SimplePolygon polygon(mesh, random, turned);
+    const std::vector<double> d = signed_distance(mesh, std::vector{source_along(polygon.curve)});
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       if (!(std::abs(d[v]) > 1e-9) || d[v] == kInfinity) continue;
-      const bool inside = is_inside(polygon, mesh.positions()[v]);
+      const bool inside = polygon.holds(mesh.positions()[v]);
       ASSERT_EQ(d[v] < 0, inside != turned) << "seed " << seed << ", vertex " << v;
     }
   }
@@ -87,7 +50,7 @@ TEST(Sides, OfASpiralAreBetweenItsArms) {
   int negative = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (!(std::abs(d[v]) > 1e-9)) continue;
-    EXPECT_EQ(d[v] < 0, is_inside(polygon, mesh.positions()[v])) << v;
+    EXPECT_EQ(d[v] < 0, test::is_inside(polygon, mesh.positions()[v])) << v;
     negative += d[v] < 0;
   }
   EXPECT_GT(negative, 100);
@@ -127,6 +90,39 @@ TEST(Sides, OfBoundariesAndOpenCurves) {
     for (Index x = 0; x <= 10; ++x) {
       if (y == 5) continue;
       EXPECT_EQ(d[y * 11 + x] < 0, y > 5) << x << ", " << y;
+    }
+  }
+}
+
+// Past the end of an open curve on a boundary there may be no line straight on.
+TEST(Sides, OfACurveThatLeavesABoundaryObliquely) {
+  const Mesh mesh = shapes::plane(8, 4, 8, 4).mesh();
+  const auto vertex = [](Index x, Index y) { return y * 9 + x; };
+  for (const bool turned : {false, true}) {
+    for (const bool mirrored : {false, true}) {
+      const Index next = mirrored ? 5 : 3;
+      std::vector<Index> chain{vertex(4, 0), vertex(next, 0), vertex(next, 1)};
+      if (turned) std::reverse(chain.begin(), chain.end());
+      const std::vector<double> d = signed_distance(mesh, std::vector{source_along({curve_along(mesh, chain).points})});
+      const bool is_left = mirrored != turned;  // where the curve came from, if it were straight
+      EXPECT_EQ(d[vertex(mirrored ? 3 : 5, 0)] < 0, is_left) << turned << mirrored;
+      EXPECT_EQ(d[vertex(mirrored ? 0 : 8, 1)] < 0, is_left) << turned << mirrored;
+    }
+  }
+}
+
+// Two petals from one place to the right, of which the upper one runs clockwise: of the four pieces that meet there the
+// first one clockwise from what is to the left goes out.
+TEST(Sides, OfACurveThatComesToAPlaceAgainAreThoseOfAllThatMeetsThere) {
+  const Mesh mesh = shapes::plane(16, 16, 4, 4).mesh();
+  for (const Vec3 place : {Vec3{2, 2, 0}, Vec3{2.125, 2, 0}, Vec3{2.15, 2.05, 0}}) {  // vertex, edge, face
+    const auto at = [&](double x, double y) { return Vec3{place.x + x, place.y + y, 0}; };
+    for (const bool turned : {false, true}) {
+      std::vector<Vec3> petals{place, at(0.5, -1), at(1, -0.3), place, at(0.5, 1), at(1, 0.3)};
+      if (turned) std::reverse(petals.begin(), petals.end());
+      const CurveSource curve{project_curve(mesh, petals, true).path.points, true};
+      const std::vector<double> d = signed_distance(mesh, std::vector{source_along(curve)});
+      for (const Index v : {8 * 17 + 4, 8 * 17 + 0, 7 * 17 + 2}) EXPECT_LT(turned ? -d[v] : d[v], 0) << place.x << v;
     }
   }
 }

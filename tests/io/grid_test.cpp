@@ -6,6 +6,9 @@
 
 #include "io_support.h"
 
+#include <array>
+#include <filesystem>
+
 namespace brushfire {
 namespace {
 
@@ -36,6 +39,63 @@ TEST(Grid, AsciiComesBackToTheBitAlsoWhereAValueLooksLikeNoData) {
     write_grid(file, grid);
     expect_same(read_grid(file), grid);
   }
+}
+
+Grid read_as(const std::string& name, const std::string& content) {
+  const test::TemporaryDirectory folder;
+  test::write_file(folder / name, content);
+  return read_grid(folder / name);
+}
+
+std::string error_of_ascii(const std::string& content) {
+  return test::error_of([&] { read_as("a.asc", content); });
+}
+
+TEST(Grid, AsciiIsReadAsEveryProgramAndSystemWritesIt) {
+  const std::string plain = "ncols 2\nnrows 2\nxllcorner 5\nyllcorner 7\ncellsize 2\nNODATA_value -1\n0.5 +3\n-1 40\n";
+  const Grid grid = read_as("a.asc", plain);
+  EXPECT_EQ(grid.heights, (std::vector<double>{0.5, 3, kInfinity, 40}));
+  EXPECT_EQ(grid.placement.origin, (std::array<double, 2>{6, 10}));
+  const auto with = [&](const std::string& old, const std::string& fresh) {
+    std::string text = plain;
+    for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += fresh.size()) {
+      text.replace(at, old.size(), fresh);
+    }
+    return text;
+  };
+  for (const std::string& text : {"\xef\xbb\xbf" + plain, with("\n", "\r\n"), with("\n", "\r"), with("\n", "\n\n"),
+                                  with(" ", "\t"), with("\n", " "), with("ncols", "NCOLS"), with("40", "4.0D+01"),
+                                  with("\n-1 ", "\n-1.#IND "), with("\n-1 ", "\nnan ")}) {
+    expect_same(read_as("a.asc", text), grid);
+  }
+  expect_same(read_as("A.ASC", plain), grid);
+  expect_same(read_as("heights.txt", plain), grid);
+}
+
+TEST(Grid, DefectsOfAsciiHaveTheirMessages) {
+  const std::string head = "ncols 2\nnrows 2\n";
+  const auto says = [](const std::string& content, const std::string& what) {
+    const std::string message = error_of_ascii(content);
+    EXPECT_NE(message.find(what), std::string::npos) << message;
+  };
+  says(head + "0 0\n0 \x1b[31mx", ":4: '\\x1b[31mx' where a height is expected");
+  says(head + "0 0\n0 0\n7 8\n", ":5: '7' after the last of 2 rows of 2 heights");
+  says(head + "0 0\n0   ", ":4: the file ends where a height is expected");
+  says("ncols 100000\nnrows 100000\n0 0\n", "the number of heights is 10000000000, but only");
+  says("ncols 2\n0 0\n0 0\n", "no nrows in the header");
+  says("ncols 2.5\nnrows 2\n0 0\n0 0\n", "ncols is not a whole number from 2 on");
+  says("ncols 2\nnrows two\n", ":2: 'two' where a number is expected");
+  says(head + "cellsize 0\n0 0\n0 0\n", "the cells have no size");
+  says(head + "xllcorner inf\n0 0\n0 0\n", "the corner of the grid is not finite");
+  says(std::string("\xff\xfen\0", 4), "is text in UTF-16");
+  says("", "no ncols in the header");
+}
+
+TEST(Grid, WhatIsNoFileIsRefusedAtOnce) {
+  const test::TemporaryDirectory folder;
+  std::filesystem::create_directory(folder / "a.asc");
+  EXPECT_NE(test::error_of([&] { read_grid(folder / "a.asc"); }).find("a.asc"), std::string::npos);
+  EXPECT_NE(test::error_of([&] { read_grid(folder / "absent.asc"); }).find("absent.asc"), std::string::npos);
 }
 
 TEST(Grid, ArraysComeBackWithoutTheirPlace) {

@@ -160,6 +160,15 @@ TEST(OneSidedVertices, AreOppositeOfTheSource) {
   EXPECT_EQ(count, 0u);
 }
 
+TEST(OneSidedVertices, AreNoneOnAPlaneWherePathsRunAlongTheBorder) {
+  const Mesh mesh = shapes::plane(4, 3).mesh();
+  for (const Index from : {0u, 2u, 7u}) {
+    const std::vector<Source> source{{vertex_point(mesh, from)}};
+    const std::vector<std::uint8_t> flags = one_sided_vertices(mesh, traced(mesh, source));
+    EXPECT_EQ(flags, std::vector<std::uint8_t>(mesh.vertex_count(), 0)) << "from " << from;
+  }
+}
+
 TEST(OneSidedVertices, AreBetweenTwoSources) {
   const Mesh mesh = shapes::plane(4, 2).mesh();
   const std::vector<Source> sources{{vertex_point(mesh, 5)}, {vertex_point(mesh, 9)}};

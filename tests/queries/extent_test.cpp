@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -117,6 +118,69 @@ TEST(VertexMeasures, DiscsOnAPlaneAndASphereHaveTheClosedForms) {
   }
   EXPECT_THROW(discs_of_share(plane, 0), Error);
   EXPECT_THROW(discs_of_share(plane, 1.5), Error);
+}
+
+// [-1, 1]^2 in 80 x 80 squares, vertex (i, j) at ((i - 40) / 40, (j - 40) / 40).
+struct WalledSquare {
+  Mesh mesh = shapes::plane(80, 80, 2, 2).mesh();
+  static Index vertex(Index i, Index j) { return j * 81 + i; }
+  // Along y = 0, from the left border to column `end`.
+  Barriers wall_to(Index end) const {
+    Barriers walls;
+    for (Index i = 0; i < end; ++i) walls.edges.push_back({vertex(i, 40), vertex(i + 1, 40)});
+    return walls;
+  }
+  // Radius, perimeter, area.
+  std::array<double, 3> disc(const Barriers& walls, Index place, double share) const {
+    const std::vector<Place> places{place};
+    const Discs d = discs_of_share(Domain(mesh, walls), share, std::span<const Place>(places), exactly());
+    return {d.radius[0], d.perimeter[0], d.area[0]};
+  }
+};
+
+TEST(VertexMeasures, DiscsAtWallsHaveTheClosedForms) {
+  const WalledSquare square;
+  for (const double share : {0.02, 0.1}) {
+    // Half a disc above a wall that parts the square; the place is one row above it, all but on it.
+    Barriers below = square.wall_to(80);
+    const double half = 2 * share;  // of the upper half's area, 2
+    const auto [r, rim, area] = square.disc(below, square.vertex(40, 41), share);
+    EXPECT_NEAR(area, half, 1e-9);
+    const double h = 1.0 / 40;
+    const auto area_above = [&](double x) { return x * x * (kPi - std::acos(h / x)) + h * std::sqrt(x * x - h * h); };
+    EXPECT_NEAR(area_above(r), half, 2e-2 * half) << share;
+    EXPECT_NEAR(rim, 2 * r * (kPi - std::acos(h / r)), 2e-2) << share;
+    // A place on the wall is on both sides: a whole disc, of the whole square.
+    const auto [on_r, on_rim, on_area] = square.disc(below, square.vertex(40, 40), share);
+    EXPECT_NEAR(on_area, 4 * share, 1e-9);
+    EXPECT_NEAR(on_r, std::sqrt(4 * share / kPi), 3e-3) << share;
+    EXPECT_NEAR(on_rim, 2 * kPi * on_r, 3e-2) << share;
+    // A quarter, in a corner that faces leave: three quadrants are blocked.
+    Barriers quadrants;
+    for (Index f = 0; f < square.mesh.face_count(); ++f) {
+      const Index cell = f / 2;
+      if (cell % 80 < 40 || cell / 80 < 40) quadrants.faces.push_back(f);
+    }
+    const auto [q, q_rim, q_area] = square.disc(quadrants, square.vertex(40, 40), share);
+    EXPECT_NEAR(q_area, share, 1e-9);
+    EXPECT_NEAR(q, std::sqrt(4 * share / kPi), 3e-3) << share;
+    EXPECT_NEAR(q_rim, 0.5 * kPi * q, 1e-2) << share;
+  }
+}
+
+// From (0, 1/4), above the end of a wall along y = 0, x < 0: light falls past the end, and bends around it by a quarter
+// of a turn.
+TEST(VertexMeasures, DiscsThatReachAroundAWallsEndHaveTheClosedForm) {
+  const WalledSquare square;
+  const double h = 0.25;
+  for (const double share : {0.1, 0.25}) {
+    const auto [r, rim, area] = square.disc(square.wall_to(40), square.vertex(40, 50), share);
+    const double below = r * r * std::acos(h / r) - h * std::sqrt(r * r - h * h);  // of the whole disc, under the wall
+    const double expected = kPi * r * r - 0.5 * below + 0.25 * kPi * (r - h) * (r - h);
+    EXPECT_NEAR(area, 4 * share, 1e-9);
+    EXPECT_NEAR(area, expected, 1e-2 * expected) << share;
+    EXPECT_NEAR(rim, 2 * kPi * r - r * std::acos(h / r) + 0.5 * kPi * (r - h), 3e-2) << share;
+  }
 }
 
 TEST(VertexMeasures, DiscsDoNotDependOnThreadsNorOnHowFarTheRunWent) {

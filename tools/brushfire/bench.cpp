@@ -27,7 +27,7 @@ constexpr const char* kExamples = R"(Examples:
 
 A method may be followed by :float64 (its arithmetic) or by a tolerance (windows:1e-4) of its own, as in other verbs.
 Without --source and --spread the first vertex is solved from. Every repetition builds the mesh
-from its arrays, with all that the method needs (set-up), and then solves for each source (solve, per source); what is
+from its arrays, with its walls and all that the method needs (set-up), and then solves for each source (solve, per source); what is
 printed is the median. Times are processor time; with --threads above 1 they are by the clock on the wall: threads share
 out the sources, and where there are more of them than sources, they work on one field together. Memory is the most that
 the first repetition took beyond the arrays that it started from. Errors are relative, over all vertices and sources,
@@ -83,7 +83,7 @@ std::vector<Source> sources_of(const Arguments& a, const Plan& plan, const Surfa
   std::vector<Source> sources;
   std::vector<Index> candidates;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (!mesh.corners(v).empty()) candidates.push_back(v);
+    if (surface.domain().is_open(v)) candidates.push_back(v);
   }
   if (candidates.empty()) refuse(a.file + ": no vertex has a face to start from");
   const std::size_t count = std::min(plan.source_count, candidates.size());
@@ -95,13 +95,13 @@ std::vector<Source> sources_of(const Arguments& a, const Plan& plan, const Surfa
 
 class Bench {
  public:
-  Bench(const Mesh& mesh, std::vector<Source> sources, const Plan& plan, bool with_error)
-      : mesh_(mesh), sources_(std::move(sources)), plan_(plan) {
+  Bench(const Surface& surface, std::vector<Source> sources, const Plan& plan, bool with_error)
+      : mesh_(surface.mesh()), barriers_(surface.barriers()), sources_(std::move(sources)), plan_(plan) {
     if (!with_error) return;
     DistanceOptions exact = plan.methods.front();
     exact.method = Method::Exact;
     truth_.resize(sources_.size());
-    DistanceSolver solver(mesh);
+    DistanceSolver solver(surface.domain());
     for (std::size_t i = 0; i < sources_.size(); ++i) truth_[i] = field(solver, i, exact).distance;
   }
 
@@ -127,6 +127,11 @@ class Bench {
     return solver.distance({&sources_[source], 1}, options);
   }
 
+  Domain walled(Mesh mesh) const {
+    const bool has_walls = !barriers_.vertices.empty() || !barriers_.faces.empty() || !barriers_.edges.empty();
+    return has_walls ? Domain(std::move(mesh), barriers_) : Domain(std::move(mesh));
+  }
+
   double now() const {
     if (plan_.threads == 1) return cpu_seconds();
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -135,12 +140,12 @@ class Bench {
   // One repetition: seconds of set-up, seconds per source.
   std::pair<double, double> repeat(const DistanceOptions& options, bool first, Result& result) const {
     const double begin = now();
-    const Mesh mesh(mesh_.positions(), mesh_.faces());
+    const Domain domain = walled(Mesh(mesh_.positions(), mesh_.faces()));
     const unsigned threads = std::min(plan_.threads, static_cast<unsigned>(sources_.size()));
     DistanceOptions each = options;
     each.threads = plan_.threads / threads;
     std::vector<DistanceSolver> solvers;
-    for (unsigned t = 0; t < threads; ++t) solvers.emplace_back(mesh).set_up(options);
+    for (unsigned t = 0; t < threads; ++t) solvers.emplace_back(domain).set_up(options);
     const double built = now();
     // What is kept of a field for the report is little, and taken after the clock has stopped where it costs time.
     std::vector<DistanceField> fields(first ? sources_.size() : 0);
@@ -171,6 +176,7 @@ class Bench {
   }
 
   const Mesh& mesh_;
+  const Barriers& barriers_;
   std::vector<Source> sources_;
   const Plan& plan_;
   std::vector<std::vector<double>> truth_;  // per source; empty where errors are not asked for
@@ -270,7 +276,7 @@ int bench(const Arguments& a, const Talk& talk) {
   const std::vector<Source> sources = sources_of(a, plan, surface, places);
   places.tell(talk);
   const Progress progress = talk.progress("bench");
-  const Bench bench(mesh, sources, plan, !a.no_error);
+  const Bench bench(surface, sources, plan, !a.no_error);
   std::vector<Result> results;
   for (const DistanceOptions& options : plan.methods) {
     stop_if_interrupted();
@@ -296,7 +302,6 @@ void add_bench(CommandLine& command_line) {
     verb.talks();
     add_shared(verb, arguments->shared,
                {.without = {{kWeights, "methods are compared on distances, and costs have one method"},
-                            {kWalls, "methods are compared on the whole mesh"},
                             {{Shared::Unit}, "bench tells times and relative errors, and no lengths"},
                             {{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}},
                 .also = {{Shared::Method, "--methods"}},

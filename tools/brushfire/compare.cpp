@@ -1,11 +1,11 @@
 // brushfire compare: how far one field is from another.
 #include "fields.h"
-#include "shared.h"
+#include "surface.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_field.h>
-#include <brushfire/io/read_mesh.h>
 #include <brushfire/queries/compare.h>
+#include <brushfire/queries/vertex_measures.h>
 
 #include <cstdio>
 #include <memory>
@@ -24,7 +24,8 @@ constexpr const char* kExamples = R"(Examples:
 A field is any file with one number per vertex: .npy .csv .json .txt, or a .ply or .vtk that brushfire wrote. Relative
 errors are |A - B| / |B|; vertices where B is 0 (the sources) are left out. With --mesh the means are also weighted by
 area, so that a dense corner of the mesh counts by its size and not by its vertices. With --fail-above E the exit code
-is 5 where a relative error is greater than E, or a vertex is reached by one of the two only.
+is 5 where a relative error is greater than E, or a vertex is reached by one of the two only. With walls in the --mesh,
+what lies behind them is not compared.
 )";
 
 struct Arguments {
@@ -113,14 +114,22 @@ int compare(const Arguments& arguments, const Talk& talk) {
   std::size_t count = reference.values.size();
   std::string counting = arguments.reference;
   std::vector<double> areas;
+  std::vector<std::uint8_t> open;
   if (!arguments.mesh.empty()) {
-    areas = vertex_areas(read_mesh(arguments.mesh).mesh);
+    const Surface surface(arguments.mesh, arguments.shared);
+    areas = vertex_areas(surface.domain());
+    open = surface.open_vertices();
     count = areas.size();
     counting = arguments.mesh;
+  } else if (const char* walls = given(arguments.shared, kWalls)) {
+    refuse(std::string(walls) + " is on a mesh: give --mesh, too");
   }
-  const std::vector<double> b = values_of(reference, arguments.reference, count, counting);
-  const std::vector<double> a =
+  std::vector<double> b = values_of(reference, arguments.reference, count, counting);
+  std::vector<double> a =
       values_of(read_field(arguments.field, arguments.shared.array_name), arguments.field, count, counting);
+  for (std::size_t v = 0; v < open.size(); ++v) {
+    if (!open[v]) a[v] = b[v] = kInfinity;  // reached by neither, whatever they say
+  }
   const FieldComparison result = compare_fields(a, b, areas);
   write_stdout(talk.json ? json(arguments, result) : in_words(arguments, result));
   return arguments.fail_above && is_above(result, *arguments.fail_above) ? kProvenWrong : kOk;
@@ -139,7 +148,6 @@ void add_compare(CommandLine& command_line) {
     verb.talks();
     add_shared(verb, arguments->shared,
                {.without = {{kWeights, "two fields are read, and none is computed"},
-                            {kWalls, "values are compared as they stand in their files"},
                             {kStarting, "two fields are read, and nothing starts anywhere"},
                             {kComputing, "two fields are read, and none is computed"},
                             {{Shared::Scalar}, "the values are A and B"},

@@ -116,6 +116,14 @@ DistanceOptions computation(const SharedArguments& a, Method otherwise) {
   return computations(a, {asked ? Method::Windows : otherwise}).front();
 }
 
+void check_signed(const SharedArguments& a) {
+  if (given(a, kWeights)) refuse("--signed: not with weights: costs have no sides");
+  if (const char* accuracy = given(a, kAccuracy)) refuse("--signed is exact: not with " + std::string(accuracy));
+  for (const std::string& method : a.methods) {
+    if (method != "exact") refuse("--signed is exact: not with --method " + method);
+  }
+}
+
 std::optional<double> promised_error(const DistanceOptions& options) {
   if (options.method == Method::Windows) return options.tolerance;
   if (options.method == Method::Exact) return 0;

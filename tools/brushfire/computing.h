@@ -26,6 +26,9 @@ DistanceOptions computation(const SharedArguments& arguments, Method otherwise =
 // has to.
 std::vector<DistanceOptions> computations(const SharedArguments& arguments, const std::vector<Method>& otherwise);
 
+// Whether --signed can be: signs are read off exact paths of lengths. Throws Error(InvalidArgument).
+void check_signed(const SharedArguments& arguments);
+
 // The relative error that the method keeps at every vertex; nullopt: it promises none.
 std::optional<double> promised_error(const DistanceOptions& options);
 

@@ -27,7 +27,8 @@ constexpr const char* kExamples = R"(Examples:
 What is converted is what the output holds: a mesh, with the values of --scalar where it has a place for them; values on
 vertices where the output is .npy, .csv, .json, .curv, .shape.gii, .func.gii or .label.gii; curves where it is .svg or
 .dxf, or with --mesh, the surface that they lie on. A field file alone is converted without a mesh. Numbers of vertices
-stay; --weld changes them.)";
+stay; --weld changes them. With walls the mesh is what they leave open, cut apart along them: a vertex on a wall becomes
+one on each side of it, the first keeps its number, the others follow behind all.)";
 
 struct Arguments {
   std::string input, output, mesh_file;
@@ -75,18 +76,19 @@ std::string convert_field(const Arguments& a, const std::string& file) {
 
 std::string convert_mesh(const Arguments& a) {
   const Surface surface(a.input, a.shared);
+  const Domain& domain = surface.domain();
   if (a.shared.scalar_file.empty()) {
-    write_mesh(a.output, surface.mesh(), "", surface.file().structure);
+    write_mesh(a.output, surface.open_for_file(), "", surface.file().structure);
     return surface.file().format;
   }
   const LoadedField field = read_field(a.shared.scalar_file, a.shared.array_name);
-  const std::vector<double> values =
-      surface.on_mesh(values_on_vertices(field, surface.file().mesh.vertex_count()), a.shared.scalar_file);
+  const std::vector<double> values = domain.spread(
+      surface.on_mesh(values_on_vertices(field, surface.file().mesh.vertex_count()), a.shared.scalar_file));
   FieldView view = view_of(values, field);
   view.structure = surface.file().structure;
   const std::vector<std::uint8_t> not_visited = not_visited_of(field, surface.file().mesh.vertex_count());
-  if (!surface.is_welded()) view.not_visited = not_visited;
-  write_field(a.output, surface.mesh(), view);
+  if (!surface.is_welded() && !domain.has_walls()) view.not_visited = not_visited;
+  write_field(a.output, surface.open_for_file(), view);
   return surface.file().format;
 }
 
@@ -135,8 +137,10 @@ std::string convert_lines(const Arguments& a, const Talk& talk) {
 }
 
 std::string convert(const Arguments& a, const Talk& talk) {
+  const bool is_mesh = a.mesh_file.empty() && !is_drawing(a.output) && !holds_values_only(a.output);
+  if (is_mesh) return convert_mesh(a);
+  if (const char* walls = given(a.shared, kWalls)) refuse(std::string(walls) + ": " + a.output + " holds no mesh");
   if (!a.mesh_file.empty() || is_drawing(a.output)) return convert_lines(a, talk);
-  if (!holds_values_only(a.output)) return convert_mesh(a);
   check_output(a.output);
   return convert_field(a, a.shared.scalar_file.empty() ? a.input : a.shared.scalar_file);
 }
@@ -179,7 +183,6 @@ void add_convert(CommandLine& command_line) {
     verb.talks();
     add_shared(verb, a->shared,
                {.without = {{kWeights, "convert computes no distances"},
-                            {kWalls, "convert writes the whole mesh; walls are for distances"},
                             {{Shared::Source, Shared::Sources}, "nothing starts here: convert computes no distances"},
                             {kComputing, "convert computes no distances"}}});
     verb.examples(kExamples);

@@ -93,22 +93,12 @@ struct Run {
   }
 };
 
-// Signs are read off exact paths, of the whole mesh.
-void check_signed(const Arguments& arguments) {
-  if (const char* walls = given(arguments.shared, kWalls)) refuse("--signed: not with " + std::string(walls));
-  if (!arguments.targets.empty()) refuse("--signed: not with --target: the field has the signs");
-  if (given(arguments.shared, kWeights)) refuse("--signed: not with weights: costs have no sides");
-  if (const char* accuracy = given(arguments.shared, kAccuracy)) {
-    refuse("--signed is exact: not with " + std::string(accuracy));
-  }
-  for (const std::string& method : arguments.shared.methods) {
-    if (method != "exact") refuse("--signed is exact: not with --method " + method);
-  }
-}
-
 void check(const Arguments& arguments, const Talk& talk) {
   check_output(arguments.output);
-  if (arguments.is_signed) check_signed(arguments);
+  if (arguments.is_signed) check_signed(arguments.shared);
+  if (arguments.is_signed && !arguments.targets.empty()) {
+    refuse("--signed: not with --target: the field has the signs");
+  }
   if (arguments.output == "-" && (talk.json || !arguments.targets.empty())) {
     refuse("only one of -o -, --json and --target can have the standard output");
   }
@@ -219,7 +209,7 @@ int distance_verb(const Arguments& arguments, const Talk& talk) {
 
   const Stopwatch solving;
   run.field = solver.distance(run.sources, options);
-  if (arguments.is_signed) run.field.distance = signed_distance(run.field, run.sources);
+  if (arguments.is_signed) run.field.distance = signed_distance(surface.domain(), run.field, run.sources);
   run.solve_s = solving.seconds();
   talk.end_progress();
   run.reached = Reached(surface.domain(), run.sources, options, run.field);

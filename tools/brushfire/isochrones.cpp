@@ -5,7 +5,6 @@
 #include "output.h"
 #include "surface.h"
 
-#include <brushfire/io/read_mesh.h>
 #include <brushfire/io/write_bytes.h>
 #include <brushfire/queries/isochrones.h>
 
@@ -26,14 +25,15 @@ One MultiPolygon for each level, in the mesh's x and y, for surfaces of which no
 
 struct Arguments {
   std::string file, field, levels, output;
+  SharedArguments shared;
 };
 
 int isochrones_verb(const Arguments& a, const Talk& talk) {
   const auto levels = decimals(a.levels);
   if (!levels) refuse("--levels takes numbers between commas (600,1200), not " + in_quotes(a.levels));
-  const Mesh mesh = read_mesh(a.file).mesh;
-  const std::vector<double> values = values_of(read_field(a.field), a.field, mesh.vertex_count(), a.file);
-  const std::string text = isochrones_as_geojson(mesh, values, *levels);
+  const Surface surface(a.file, a.shared);
+  const std::vector<double> values = values_on(surface, a.field, a.shared.array_name);
+  const std::string text = isochrones_as_geojson(surface.domain(), values, *levels);
   if (a.output.empty() || a.output == "-") {
     write_stdout(text);
   } else {
@@ -53,6 +53,12 @@ void add_isochrones(CommandLine& command_line) {
     verb.option("--levels", arguments->levels, "L,L,...", "At these values");
     verb.option("-o,--output", arguments->output, "FILE", "Where to (standard output)");
     verb.talks();
+    add_shared(verb, arguments->shared,
+               {.without = {{kWeights, "costs are what the field holds: brushfire distance computes them"},
+                            {kStarting, "nothing starts here: distances or costs are read"},
+                            {kComputing, "nothing is computed here: distances or costs are read"},
+                            {{Shared::Scalar}, "the values are those of FIELD"},
+                            {{Shared::Unit}, "GeoJSON has the mesh's own coordinates"}}});
     verb.examples(kExamples);
     verb.run([arguments](Talk& talk) { return isochrones_verb(*arguments, talk); });
   });

@@ -30,6 +30,7 @@ constexpr const char* kExamples = R"(Examples:
   brushfire render bunny.ply --source 0 --path 12000 --path 300 --bands --isolines 40 -o paths.png
   brushfire render bunny.ply --scalar error.npy --range 0,0.01 --bar-title "relative error" -o error.png
   brushfire render bunny.ply --source 0 --method kimmel-sethian --method exact --error -o side-by-side.png
+  brushfire render bunny.ply --source drawn.obj --signed --isolines 24 -o sides.png
   brushfire render bunny.ply --source 0 --isolines 20 --ambient-occlusion -o crevices.png
   brushfire render bunny.ply --source 0 --wave 60 -o brushfire.webp
   brushfire render bunny.ply --source 0 --isolines 20 --turntable 72 -o turntable.webp
@@ -45,7 +46,7 @@ struct Arguments {
   std::optional<double> azimuth, elevation, zoom;
   std::optional<int> isolines, samples, turntable, wave, frame_ms;
   bool bands = false, labels = false, perspective = false, transparent = false, wireframe = false, no_bar = false;
-  bool error = false, ambient_occlusion = false;
+  bool error = false, ambient_occlusion = false, is_signed = false;
 };
 
 // "1024x768", "0,2.5": two numbers and what stands between them.
@@ -129,6 +130,8 @@ void check(const Arguments& a) {
     refuse(std::string(name) + " needs a --source");
   }
   if (!has_source && computing) refuse(std::string(computing) + " needs a --source");
+  if (a.is_signed && !has_source) refuse("--signed needs curves as --source");
+  if (a.is_signed) check_signed(a.shared);
   if (a.error && a.shared.methods.size() < 2) refuse("--error compares with the last --method: give at least two");
   if (!a.error_range.empty() && !a.error) refuse("--error-range is the range of the colours of --error");
   if (a.ambient_occlusion && !has_ambient_occlusion()) {
@@ -153,7 +156,9 @@ Panel read_panel(const Arguments& a, const Surface& surface) {
 std::vector<Panel> solved_panels(const Arguments& a, const Surface& surface, PlaceFinder& places,
                                  RenderOptions& options, const Talk& talk) {
   std::vector<DistanceOptions> methods =
-      a.shared.methods.empty() ? std::vector{computation(a.shared)} : computations(a.shared, {});
+      a.shared.methods.empty() ? std::vector{computation(a.shared, a.is_signed ? Method::Exact : Method::Windows)}
+                               : computations(a.shared, {});
+  methods.front().keep_paths = a.is_signed;
   weigh(methods.front(), a.shared, surface);
   Shown shown{sources_on(surface, places, parse_sources(a.shared)), parse_places(a.paths, "the end of a path"), {}};
   find_paths(surface, places, methods.front(), shown);
@@ -292,6 +297,8 @@ void add_render(CommandLine& command_line) {
     add_surface(verb, a->file);
     verb.option("--label-file", a->labels_file, "FIELD", "Show these labels, one per vertex");
     verb.flag("--labels", a->labels, "Colour by the nearest source");
+    verb.flag("--signed", a->is_signed,
+              "From curves: negative on their left, as inside of those that run counter-clockwise");
     verb.flag("--error", a->error, "One more panel for each method but the last: its error against the last");
     verb.option("--isolines", a->isolines, "N", whole_from(0, 10000), "This many isolines");
     verb.flag("--bands", a->bands, "Bands of alternating lightness between the isolines");

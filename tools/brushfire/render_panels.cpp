@@ -8,6 +8,7 @@
 
 #include <brushfire/figure/ambient_occlusion.h>
 #include <brushfire/io/read_field.h>
+#include <brushfire/queries/curve_sides.h>
 #include <brushfire/queries/path.h>
 #include <brushfire/queries/voronoi.h>
 #include <brushfire/queries/weighted_path.h>
@@ -128,7 +129,7 @@ Panel solved_panel(const Domain& domain, const Shown& shown, DistanceOptions opt
   options.progress = talk.progress("distance");
   const DistanceField field = distance(domain, shown.sources, options);
   talk.end_progress();
-  panel.scalar = field.distance;
+  panel.scalar = options.keep_paths ? signed_distance(domain, field, shown.sources) : field.distance;
   panel.paths.insert(panel.paths.end(), shown.paths.begin(), shown.paths.end());
   return panel;
 }

@@ -30,7 +30,8 @@ void find_paths(const Surface& surface, PlaceFinder& places, const DistanceOptio
 // Where a source looks to: away from the middle of the mesh, and along its face's normal.
 Vec3 outward_at(const Mesh& mesh, const Source& source);
 
-// Distances from the sources by one method, and what is drawn with them.
+// Distances from the sources by one method, and what is drawn with them. Negative on the left of curves where the
+// options keep paths.
 Panel solved_panel(const Domain& domain, const Shown& shown, DistanceOptions options, const Talk& talk);
 
 // Cells with their borders as exact as voronoi() has them, and colours that differ from one cell to the next.

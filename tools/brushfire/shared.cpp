@@ -127,6 +127,12 @@ const std::vector<Row>& table() {
                      "Nothing crosses these edges: pairs of vertices, one to a line, or .npy");
        },
        [](const SharedArguments& a) { return !a.edges_file.empty(); }},
+      {Shared::BlockVertices, "--block-vertices", "",
+       [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
+         verb.option(names, a.vertices_file, "FILE",
+                     "Nothing passes these vertices, nor enters their faces: their numbers, or a 0 or 1\nfor each");
+       },
+       [](const SharedArguments& a) { return !a.vertices_file.empty(); }},
       {Shared::Weights, "--weights", "",
        [](Verb& verb, const char* names, SharedArguments& a, const SharedOptions&) {
          verb.option(names, a.weights_file, "FIELD",

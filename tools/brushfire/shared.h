@@ -33,6 +33,7 @@ enum class Shared : std::uint8_t {
   Region,
   BlockFaces,
   BlockEdges,
+  BlockVertices,
   Weights,
   EdgeWeights,
   Cost,
@@ -56,7 +57,7 @@ struct SharedArguments {
   std::optional<double> radius;
   std::optional<int> threads;
   std::optional<double> weld;
-  std::string mask_file, region, faces_file, edges_file;
+  std::string mask_file, region, faces_file, edges_file, vertices_file;
   std::string weights_file, edge_weights_file, grain_file, slope;
   std::vector<std::string> costs;  // of labels
   std::optional<double> steepest;
@@ -84,7 +85,8 @@ inline const std::vector<Shared> kAccuracy{Shared::Tolerance, Shared::Bound, Sha
 inline const std::vector<Shared> kComputing{Shared::Method,    Shared::Tolerance, Shared::Bound,
                                             Shared::Precision, Shared::Radius,    Shared::Threads};
 
-inline const std::vector<Shared> kWalls{Shared::Mask, Shared::Region, Shared::BlockFaces, Shared::BlockEdges};
+inline const std::vector<Shared> kWalls{Shared::Mask, Shared::Region, Shared::BlockFaces, Shared::BlockEdges,
+                                        Shared::BlockVertices};
 
 // What going costs; without the last four one costs as much one way as the other.
 inline const std::vector<Shared> kWeights{Shared::Weights, Shared::EdgeWeights, Shared::Cost,    Shared::Grain,

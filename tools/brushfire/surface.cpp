@@ -6,6 +6,7 @@
 #include "weights.h"
 
 #include <brushfire/io/formats.h>
+#include <brushfire/mesh/report.h>
 #include <brushfire/mesh/weld.h>
 #include <brushfire/solvers/weighted/weighting.h>
 
@@ -29,7 +30,8 @@ Surface::Surface(const std::string& file, const SharedArguments& arguments)
   Walls walls;
   if (given(arguments, kWalls)) {
     walls = walls_of(arguments, loaded_.mesh, mesh(), vertex_map_);
-    domain_ = Domain(mesh(), walls.barriers);
+    barriers_ = walls.barriers;
+    domain_ = Domain(mesh(), barriers_);
   }
   if (given(arguments, kWeights)) {
     weights_ = weights_of(arguments, *this);
@@ -50,6 +52,15 @@ std::vector<std::uint8_t> Surface::open_vertices() const {
   if (!domain_.has_walls()) return {};
   std::vector<std::uint8_t> open;
   for (Index v = 0; v < loaded_.mesh.vertex_count(); ++v) open.push_back(domain_.is_open(vertex(v)));
+  return open;
+}
+
+const Mesh& Surface::open_for_file() const {
+  const Mesh& open = domain_.open();
+  if (!domain_.has_walls() || !open.has_positions()) return open;
+  if (Mesh(open.positions(), open.faces()).report().boundary_edges != open.report().boundary_edges) {
+    refuse("a wall of a single edge has whole ends, and no file tells its sides apart: block an edge beside it, too");
+  }
   return open;
 }
 

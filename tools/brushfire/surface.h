@@ -25,9 +25,10 @@ class Surface {
   // Throws what read_mesh(), weld() and walls_of() throw.
   Surface(const std::string& file, const SharedArguments& arguments);
 
-  const Domain& domain() const { return domain_; }     // to compute in
-  const Mesh& mesh() const { return domain_.mesh(); }  // all of it, whose numbers are used
-  const LoadedMesh& file() const { return loaded_; }   // as it was read
+  const Domain& domain() const { return domain_; }        // to compute in
+  const Barriers& barriers() const { return barriers_; }  // those of options, which are in domain()
+  const Mesh& mesh() const { return domain_.mesh(); }     // all of it, whose numbers are used
+  const LoadedMesh& file() const { return loaded_; }      // as it was read
   // What going costs; null where nothing was said. Its walls are walls of domain().
   const Weights* weights() const { return weights_ ? &*weights_ : nullptr; }
   bool is_welded() const { return !vertex_map_.empty(); }
@@ -49,6 +50,10 @@ class Surface {
     for (const Index v : vertex_map_) out.push_back(values[v]);
     return out;
   }
+  // What walls leave open, for a file. Throws Error(InvalidArgument) where a wall is a single edge, whose ends stay
+  // whole: files tell the sides of an edge apart by its vertices.
+  const Mesh& open_for_file() const;
+
   // Vertices that a mask leaves open, and none of their faces.
   Index left_alone() const { return left_alone_; }
 
@@ -62,6 +67,7 @@ class Surface {
  private:
   LoadedMesh loaded_;
   Domain domain_;
+  Barriers barriers_;
   std::optional<Weights> weights_;
   std::vector<Index> vertex_map_;
   Index joined_ = 0, left_alone_ = 0;

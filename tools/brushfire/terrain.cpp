@@ -81,8 +81,9 @@ int terrain(const Arguments& a, const Talk& talk) {
 void add_terrain(CommandLine& command_line) {
   const auto arguments = std::make_shared<Arguments>();
   command_line.add("terrain", "Make a mesh of a grid of heights", [&](Verb& verb) {
-    verb.argument("FILE", arguments->file,
-                  "The grid: .asc (ESRI ASCII grid), .npy (rows x columns); .tif and others by GDAL");
+    verb.argument(
+        "FILE", arguments->file,
+        "The grid: .asc (ESRI ASCII grid; - is standard input), .npy (rows x columns); .tif and others by GDAL");
     verb.option("--cell", arguments->cell, "S", kPositive, "How far apart the heights are, in their own unit (1)");
     verb.option("--no-data", arguments->no_data, "V", kAnyNumber, "Heights that stand for none, besides NaN");
     verb.option(

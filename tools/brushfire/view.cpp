@@ -22,7 +22,7 @@ constexpr const char* kExamples = R"(Examples:
 The page is one file with the mesh and the library in it: it works from a disk or a mail, without a network. Click sets
 the source, Shift-click adds one, dragging moves one. Without -o it is written into a folder for temporary files and
 opened in the system's browser. Sources are those that the page starts with; the first corner of face 0 where none is
-given.)";
+given. With walls the page holds what they leave open, cut apart along them.)";
 
 struct Arguments {
   std::string file, output;
@@ -35,9 +35,9 @@ std::string as_json(const SurfacePoint& p) {
 }
 
 // What the page starts with.
-std::string state_of(const Arguments& a, const std::vector<Source>& sources, const DistanceOptions& options) {
+std::string state_of(const Arguments& a, const std::vector<SurfacePoint>& sources, const DistanceOptions& options) {
   std::string places;
-  for (const Source& s : sources) places += (places.empty() ? "" : ", ") + as_json(s.point);
+  for (const SurfacePoint& p : sources) places += (places.empty() ? "" : ", ") + as_json(p);
   if (sources.empty()) places = as_json({0, {1, 0, 0}});
   Record names;
   names.add("name", std::filesystem::path(a.file).filename().string());
@@ -45,6 +45,17 @@ std::string state_of(const Arguments& a, const std::vector<Source>& sources, con
   if (options.method == Method::Windows) names.add("tolerance", exact(options.tolerance));
   const std::string record = names.json();
   return record.substr(0, record.rfind('}')) + ", \"sources\": [" + places + "]}";
+}
+
+// On the mesh that the page holds, which is what walls leave open; a place on a wall is one on each side of it.
+std::vector<SurfacePoint> open_points(const Domain& domain, const std::vector<Source>& sources) {
+  std::vector<SurfacePoint> points;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const std::vector<SurfacePoint> sides = domain.on_open(sources[i].point);
+    if (sides.empty()) refuse("source " + std::to_string(i) + " lies behind a wall");
+    points.insert(points.end(), sides.begin(), sides.end());
+  }
+  return points;
 }
 
 void check_sources(const std::vector<Where>& places) {
@@ -73,9 +84,11 @@ int view_verb(const Arguments& a, const Talk& talk) {
   const Surface surface(a.file, a.shared);
   if (surface.mesh().face_count() == 0) throw Error(ErrorCode::InvalidArgument, a.file + " has no faces to show");
   PlaceFinder finder(surface.mesh(), a.shared.snap_within);
-  const std::vector<Source> sources = sources_on(surface, finder, places);
+  const std::vector<SurfacePoint> sources = open_points(surface.domain(), sources_on(surface, finder, places));
   finder.tell(talk);
-  const std::vector<std::uint8_t> mesh = encode_mesh(surface.mesh(), "ply");
+  const Mesh& open = surface.open_for_file();
+  if (open.face_count() == 0) refuse(a.file + ": walls leave no face to show");
+  const std::vector<std::uint8_t> mesh = encode_mesh(open, "ply");
   const std::string_view bytes(reinterpret_cast<const char*>(mesh.data()), mesh.size());
   page = page_with(std::move(page), {bytes, state_of(a, sources, options)});
 
@@ -103,7 +116,6 @@ void add_view(CommandLine& command_line) {
     add_shared(verb, a->shared,
                {.without = {{kWeights, "the page computes distances, without costs"},
                             {{Shared::Scalar, Shared::Name}, "distances are computed in the page, not read"},
-                            {kWalls, "the page computes on the whole mesh"},
                             {{Shared::Bound, Shared::Precision, Shared::Radius, Shared::Threads},
                              "the page computes whole fields on one thread; it takes --method and --tolerance"},
                             {{Shared::Unit}, "the page shows lengths in the mesh's own unit"}}});

@@ -51,21 +51,27 @@ Index number_below(double value, Index count, const std::string& file, const cha
   refuse(file + ": there is no " + what + " " + exact(value) + ", the mesh has " + std::to_string(count));
 }
 
-// Their numbers; or a mask, with a 0 or 1 for every face.
-std::vector<Index> blocked_faces(const std::string& file, Index count) {
+// Faces, or vertices: their numbers; or a mask, with a 0 or 1 for each of all; or the vertices that a file lists with
+// values, a FreeSurfer label with any, others with one that is not 0.
+std::vector<Index> blocked(const std::string& file, Index count, const char* what) {
   const LoadedField field = read_field(file);
-  std::vector<Index> faces;
+  std::vector<Index> numbers;
+  for (std::size_t i = 0; i < field.vertices.size(); ++i) {
+    if (field.values[i] == 0 && field.format != "FreeSurfer label") continue;
+    numbers.push_back(number_below(field.vertices[i], count, file, what));
+  }
+  if (!field.vertices.empty()) return numbers;
   const auto is_bit = [](double v) { return v == 0 || v == 1; };
   const bool is_mask =
       field.values.size() == count && count > 2 && std::all_of(field.values.begin(), field.values.end(), is_bit);
   for (std::size_t i = 0; i < field.values.size(); ++i) {
     if (!is_mask) {
-      faces.push_back(number_below(field.values[i], count, file, "face"));
+      numbers.push_back(number_below(field.values[i], count, file, what));
     } else if (field.values[i] == 1) {
-      faces.push_back(static_cast<Index>(i));
+      numbers.push_back(static_cast<Index>(i));
     }
   }
-  return faces;
+  return numbers;
 }
 
 // Pairs of vertices: (k, 2) in .npy, one pair to a line in text.
@@ -115,13 +121,18 @@ Walls walls_of(const SharedArguments& a, const Mesh& file, const Mesh& mesh, std
   if (!a.mask_file.empty()) close(open_by_mask(a.mask_file, count));
   if (!a.region.empty()) close(open_by_region(a.region, count));
   if (!a.faces_file.empty()) {
-    const std::vector<Index> faces = blocked_faces(a.faces_file, mesh.face_count());
+    const std::vector<Index> faces = blocked(a.faces_file, mesh.face_count(), "face");
     barriers.faces.insert(barriers.faces.end(), faces.begin(), faces.end());
   }
   if (!a.edges_file.empty()) {
     for (auto edge : blocked_edges(a.edges_file, count)) {
       for (Index& v : edge) v = vertex_map.empty() ? v : vertex_map[v];
       barriers.edges.push_back(edge);
+    }
+  }
+  if (!a.vertices_file.empty()) {
+    for (const Index v : blocked(a.vertices_file, count, "vertex")) {
+      barriers.vertices.push_back(vertex_map.empty() ? v : vertex_map[v]);
     }
   }
   return walls;

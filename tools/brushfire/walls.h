@@ -1,4 +1,4 @@
-// Where one may not go: --mask, --region, --block-faces and --block-edges.
+// Where one may not go: --mask, --region, --block-faces, --block-edges and --block-vertices.
 #pragma once
 
 #include "shared.h"

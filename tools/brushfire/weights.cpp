@@ -4,6 +4,7 @@
 #include "computing.h"
 #include "fields.h"
 #include "numbers.h"
+#include "text_lines.h"
 
 #include <brushfire/core/error.h>
 #include <brushfire/io/npy.h>
@@ -96,25 +97,22 @@ Index vertex_of(double value, const Surface& surface, const std::string& file) {
   return surface.vertex(static_cast<Index>(value));
 }
 
-double number_of(const std::string& word, const std::string& file, std::size_t line) {
+double number_of(const std::string& word, const TextLines& lines) {
   if (word == "inf") return kInfinity;
   if (const auto number = decimal(word)) return *number;
-  throw Error(ErrorCode::FileMalformed, file + ":" + std::to_string(line) + ": " + in_quotes(word) + " is no number");
+  throw Error(ErrorCode::FileMalformed, lines.here() + in_quotes(word) + " is no number");
 }
 
 // The numbers of every line; # starts a comment.
 std::vector<std::vector<double>> read_rows(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw Error(ErrorCode::FileNotReadable, file + ": cannot be read");
+  TextLines lines(file);
   std::vector<std::vector<double>> rows;
-  std::size_t number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
+  for (std::string line; lines.next(line);) {
     line.resize(std::min(line.find('#'), line.size()));
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream words(line);
     std::vector<double> row;
-    for (std::string word; words >> word;) row.push_back(number_of(word, file, number));
+    for (std::string word; words >> word;) row.push_back(number_of(word, lines));
     if (!row.empty()) rows.push_back(std::move(row));
   }
   return rows;

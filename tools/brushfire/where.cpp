@@ -2,9 +2,9 @@
 #include "where.h"
 
 #include "curves.h"
+#include "text_lines.h"
 
 #include <brushfire/core/error.h>
-#include <brushfire/io/byte_stream.h>
 
 #include <algorithm>
 #include <array>
@@ -110,79 +110,21 @@ std::vector<std::string> split_places(const std::vector<std::string>& texts) {
   return places;
 }
 
-namespace {
-
-// A file or pipe line by line, as it comes: one that never ends is found wrong, or interrupted, in its midst. Lines end
-// in LF, CR LF or CR; a byte order mark in front is nothing.
-class Lines {
- public:
-  explicit Lines(const std::string& path) : stream_(path, ByteStream::NamedPipes::Read) {}
-
-  // False at the end. Throws Error(InvalidArgument) where the line is longer than kLongest.
-  bool next(std::string& line) {
-    if (!read(line)) return false;
-    if (number_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
-    return true;
-  }
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorCode::InvalidArgument, stream_.name() + ":" + std::to_string(number_) + ": " + what);
-  }
-
- private:
-  static constexpr std::size_t kLongest = 65536;
-  static constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-
-  bool read(std::string& line) {
-    line.clear();
-    ++number_;
-    while (true) {
-      std::string_view rest(block_.data() + at_, size_ - at_);
-      if (after_cr_ && !rest.empty()) {
-        after_cr_ = false;
-        if (rest.front() == '\n') {
-          ++at_;
-          continue;
-        }
-      }
-      const std::size_t length = std::min(rest.find_first_of("\r\n"), rest.size());
-      if (line.size() + length > kLongest) fail("is longer than " + std::to_string(kLongest) + " bytes");
-      line.append(rest, 0, length);
-      at_ += length;
-      if (length < rest.size()) {
-        after_cr_ = rest[length] == '\r';
-        ++at_;
-        return true;
-      }
-      at_ = 0;
-      size_ = stream_.read(block_.data(), block_.size());
-      if (size_ == 0) return !line.empty();
-    }
-  }
-
-  ByteStream stream_;
-  std::array<char, 65536> block_{};
-  std::size_t at_ = 0, size_ = 0;
-  bool after_cr_ = false;  // an LF that comes now belongs to the line before
-  int number_ = 0;
-};
-
-}  // namespace
-
 std::vector<Where> read_where_file(const std::string& path, bool or_curves) {
   constexpr std::size_t kMost = 10'000'000;
-  Lines lines(path);
+  TextLines lines(path);
+  const auto fail = [&](const std::string& what) { throw Error(ErrorCode::InvalidArgument, lines.here() + what); };
   std::vector<Where> places;
   for (std::string line; lines.next(line);) {
     const std::string_view content = trimmed(std::string_view(line).substr(0, line.find('#')));
     if (content.empty()) continue;
-    if (places.size() == kMost) lines.fail("more than ten million places");
+    if (places.size() == kMost) fail("more than ten million places");
     try {
       for (const std::string& place : split_places({std::string(content)})) places.push_back(parse_where(place));
     } catch (const Error& e) {
       const bool of_curves =
           or_curves && places.empty() && parse_curve(path).value_or(CurvePlace{}).kind == CurvePlace::Kind::File;
-      lines.fail(of_curves ? e.what() + ("; a file of curves is a source by its name: --source " + path) : e.what());
+      fail(of_curves ? e.what() + ("; a file of curves is a source by its name: --source " + path) : e.what());
     }
   }
   return places;

@@ -5,16 +5,18 @@
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/leaving_angles.h>
-#include <brushfire/queries/detail/lengths_only.h>
 #include <brushfire/queries/straightest.h>
+#include <brushfire/solvers/detail/walls.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
-#include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -53,13 +55,15 @@ double wrapped(double angle, double turn) {
   return a < 0 ? a + turn : a;
 }
 
-// The directions in which the segments at one place of a curve leave it.
+// The directions in which the segments at one place of a curve leave it; it has several numbers where the curve comes
+// there again.
 class Star {
  public:
   Star(const Mesh& mesh, const LocatedCurve& curve, std::span<const Index> places)
       : angles_(mesh, point_of(curve.places[places.front()])),
+        is_arc_(is_open(mesh, curve.places[places.front()])),
         // The sector outside of a boundary is some angle more.
-        turn_(angles_.total() + (is_open(mesh, curve.places[places.front()]) ? 1 : 0)),
+        turn_(angles_.total() + (is_arc_ ? 1 : 0)),
         grows_left_(is_counter_clockwise(mesh, point_of(curve.places[places.front()]))) {
     for (const Index p : places) {
       add(mesh, curve, p, false);
@@ -71,11 +75,11 @@ class Star {
   CurveSide side_of(const SurfacePoint& from) const {
     if (arms_.empty()) return CurveSide::None;
     const double angle = angles_.towards(from);
-    // Counter-clockwise from each arm to the path.
-    const auto behind = [&](const Arm& a) { return wrapped(grows_left_ ? angle - a.angle : a.angle - angle, turn_); };
+    // Counter-clockwise from an arm to the path.
+    const auto from_arm = [&](const Arm& a) { return grows_left_ ? angle - a.angle : a.angle - angle; };
+    const auto behind = [&](const Arm& a) { return wrapped(from_arm(a), turn_); };
     if (arms_.size() == 1) {
-      const bool first_half = behind(arms_[0]) <= 0.5 * turn_;
-      return first_half == arms_[0].goes_out ? CurveSide::Left : CurveSide::Right;
+      return is_in_first_half(from_arm(arms_[0])) == arms_[0].goes_out ? CurveSide::Left : CurveSide::Right;
     }
     const auto nearer = [&](const Arm& a, const Arm& b) { return behind(a) < behind(b); };
     return std::min_element(arms_.begin(), arms_.end(), nearer)->goes_out ? CurveSide::Left : CurveSide::Right;
@@ -87,6 +91,12 @@ class Star {
     bool goes_out;
   };
 
+  // Of the two that an arm and the line straight on make of the directions. On an arc the latter may lie outside.
+  bool is_in_first_half(double from_arm) const {
+    if (is_arc_) return (from_arm >= 0) == (std::abs(from_arm) <= kPi);
+    return wrapped(from_arm, turn_) <= 0.5 * turn_;
+  }
+
   static SurfacePoint point_of(const CurvePlace& p) { return {p.at.face, p.at.weights}; }
   static bool is_open(const Mesh& mesh, const CurvePlace& p) {
     return p.at.on == PointLocation::On::Vertex && mesh.links()[p.at.vertex] == Link::Arc;
@@ -97,6 +107,7 @@ class Star {
   }
 
   detail::LeavingAngles angles_;
+  bool is_arc_;
   double turn_;
   bool grows_left_;
   std::vector<Arm> arms_;
@@ -176,6 +187,20 @@ class Shore {
     return *known;
   }
 
+  // All that lie where one does, which is not a vertex: a curve may come there again, or be in pieces.
+  std::vector<Index> places_with(Index place) const {
+    const PointLocation& at = curve_.places[place].at;
+    const double near = kNoDirection * longest_edge(mesh_, at.face);
+    std::vector<Index> found;
+    const auto [first, last] = places_.equal_range(at.face);
+    for (auto p = first; p != last; ++p) {
+      const PointLocation& other = curve_.places[p->second].at;
+      if (other.on == at.on && distance_within(mesh_, at.face, at, other) <= near) found.push_back(p->second);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
   // What a path ends at: a place, or a segment in a face, and where on it.
   struct Found {
     Index place = kNoIndex, segment = kNoIndex, face = kNoIndex;
@@ -208,7 +233,7 @@ class Shore {
     const PointLocation& at = curve_.places[place].at;
     if (at.on == PointLocation::On::Vertex) return at_vertex(at.vertex, from);
     CurveArrival arrival = at_place(place);
-    arrival.side = star({place}).side_of(from);
+    arrival.side = star(places_with(place)).side_of(from);
     return arrival;
   }
 
@@ -234,17 +259,25 @@ class Shore {
   std::map<Index, std::unique_ptr<Star>> stars_;  // by the first of their places
 };
 
+// What a run's sources are in the caller's list.
+using Origin = std::function<Index(Index)>;
+
+// Legs are those of the open mesh; sides are told on the whole one, where walls part no curve.
 class Arrivals {
  public:
-  Arrivals(const WindowField& field, std::span<const Source> sources) : field_(field), mesh_(field.mesh()) {
-    for (const Source& s : sources) shores_.push_back(s.curve ? std::make_unique<Shore>(mesh_, *s.curve) : nullptr);
-    known_.assign(mesh_.vertex_count(), false);
-    result_.resize(mesh_.vertex_count());
+  Arrivals(const Domain& domain, const WindowField& field, std::span<const Source> sources, Origin origin)
+      : field_(field), domain_(domain), origin_(std::move(origin)) {
+    for (const Source& s : sources) {
+      shores_.push_back(s.curve ? std::make_unique<Shore>(domain.mesh(), *s.curve) : nullptr);
+    }
+    known_.assign(domain.open().vertex_count(), false);
+    result_.resize(known_.size());
   }
 
+  // Of every vertex of the open mesh.
   std::vector<CurveArrival> operator()() {
     Poll poll(256);
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+    for (Index v = 0; v < result_.size(); ++v) {
       poll();
       find(v);
     }
@@ -262,8 +295,9 @@ class Arrivals {
         break;
       }
       chain_.push_back(v);
-      const WindowField::Leg leg = field_.last_leg(v);
+      WindowField::Leg leg = field_.last_leg(v);
       if (leg.points.empty()) break;  // unreachable
+      domain_.to_mesh(leg.points);
       if (ends(v, leg, arrival)) break;
       v = leg.vertex;
     }
@@ -275,13 +309,13 @@ class Arrivals {
 
   // Whether the leg of v begins on a curve or at a point.
   bool ends(Index v, const WindowField::Leg& leg, CurveArrival& arrival) {
-    const Index source = leg.source != kNoIndex ? leg.source : source_at(leg.vertex);
+    const Index source = leg.source != kNoIndex ? origin_(leg.source) : source_at(leg.vertex);
     if (source == kNoIndex) return false;
     if (Shore* const shore = shores_[source].get()) {
       if (leg.points.size() < 2) {
-        arrival = shore->has_vertex(v) ? shore->on_vertex(v) : CurveArrival{};
+        arrival = shore->has_vertex(domain_.vertex(v)) ? shore->on_vertex(domain_.vertex(v)) : CurveArrival{};
       } else if (leg.vertex != kNoIndex) {
-        arrival = shore->at_vertex(leg.vertex, leg.points[leg.points.size() - 2]);
+        arrival = shore->at_vertex(domain_.vertex(leg.vertex), leg.points[leg.points.size() - 2]);
       } else {
         arrival = shore->at_point(leg.points.back(), leg.points[leg.points.size() - 2]);
       }
@@ -292,64 +326,54 @@ class Arrivals {
 
   // The source that a vertex is a place of, as its own leg says; kNoIndex: none.
   Index source_at(Index vertex) const {
-    const bool is_place = std::any_of(shores_.begin(), shores_.end(),
-                                      [&](const auto& shore) { return shore && shore->has_vertex(vertex); });
+    const bool is_place = std::any_of(shores_.begin(), shores_.end(), [&](const auto& shore) {
+      return shore && shore->has_vertex(domain_.vertex(vertex));
+    });
     if (!is_place) return kNoIndex;
     const WindowField::Leg own = field_.last_leg(vertex);
-    return own.points.size() == 1 ? own.source : kNoIndex;
+    return own.points.size() == 1 && own.source != kNoIndex ? origin_(own.source) : kNoIndex;
   }
 
   const WindowField& field_;
-  const Mesh& mesh_;
+  const Domain& domain_;
+  Origin origin_;
   std::vector<std::unique_ptr<Shore>> shores_;
   std::vector<char> known_;
   std::vector<Index> chain_;
   std::vector<CurveArrival> result_;
 };
 
-// Throws Error(InvalidArgument) for what has no sides or no distance of its own.
-void check_have_sides(std::span<const Source> curves) {
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    const Source& s = curves[i];
-    if (!s.curve) {
-      throw Error(ErrorCode::InvalidArgument, "source " + std::to_string(i) + " is a point, which has no sides");
-    }
-    const auto is_zero = [](double offset) { return offset == 0; };
-    if (s.offset != 0 || !std::all_of(s.curve->offsets.begin(), s.curve->offsets.end(), is_zero)) {
-      throw Error(ErrorCode::InvalidArgument, "source " + std::to_string(i) + " has offsets: a sign needs distances");
-    }
+// Of the sides of each vertex the nearest; of those that are equally near the one of the lowest source, and not the
+// left.
+std::vector<CurveArrival> nearest_side(const Domain& domain, std::span<const double> distance,
+                                       std::vector<CurveArrival> on_open) {
+  const Index count = domain.mesh().vertex_count();
+  const auto rank = [&](Index v) {
+    return std::tuple(distance[v], on_open[v].source, on_open[v].side == CurveSide::Left);
+  };
+  std::vector<Index> best(count);
+  std::iota(best.begin(), best.end(), 0u);
+  for (Index v = count; v < on_open.size(); ++v) {
+    Index& b = best[domain.vertex(v)];
+    if (rank(v) < rank(b)) b = v;
   }
+  std::vector<CurveArrival> result;
+  for (const Index b : best) result.push_back(on_open[b]);
+  return result;
 }
 
 }  // namespace
 
 std::vector<CurveArrival> arrivals(const WindowField& field, std::span<const Source> sources) {
-  return Arrivals(field, sources)();
+  return Arrivals(field.mesh(), field, sources, [](Index source) { return source; })();
 }
 
-std::vector<double> signed_distance(const DistanceField& field, std::span<const Source> curves) {
-  check_have_sides(curves);
-  if (!field.windows) throw Error(ErrorCode::InvalidArgument, "a sign needs the paths of the field: keep_paths");
-  std::vector<double> values = field.distance;
-  const std::vector<CurveArrival> sides = arrivals(*field.windows, curves);
-  for (std::size_t v = 0; v < values.size(); ++v) {
-    if (values[v] < kInfinity && sides[v].side == CurveSide::Left) values[v] = -values[v];
-  }
-  return values;
-}
-
-std::vector<double> signed_distance(const Mesh& mesh, std::span<const Source> curves, const DistanceOptions& how) {
-  check_have_sides(curves);
-  detail::check_lengths_only(how, "signs");
-  DistanceOptions exact;
-  exact.method = Method::Exact;
-  exact.keep_paths = true;
-  exact.max_distance = how.max_distance;
-  exact.threads = how.threads;
-  exact.progress = how.progress;
-  exact.cancel = how.cancel;
-  const CancelScope listen(how.cancel);
-  return signed_distance(distance(mesh, curves, exact), curves);
+std::vector<CurveArrival> arrivals(const Domain& domain, const DistanceField& field, std::span<const Source> sources) {
+  if (!field.windows) throw Error(ErrorCode::InvalidArgument, "arrivals need the paths of the field: keep_paths");
+  if (!domain.has_walls()) return arrivals(*field.windows, sources);
+  const detail::WalledRun run(domain, sources, {});
+  Arrivals on_open(domain, *field.windows, sources, [&](Index source) { return run.origin(source); });
+  return nearest_side(domain, field.side_distance, on_open());
 }
 
 }  // namespace brushfire

@@ -1,7 +1,7 @@
 // Where on a curve, and on which side of it, shortest paths arrive: nearest places and signed distances.
 #pragma once
 
-#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/domain.h>
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/window_field.h>
 
@@ -27,21 +27,28 @@ struct CurveArrival {
 // The rule of sides: a path that arrives inside a segment arrives on its left or on its right. At a place, segments
 // leave in directions around it; the path lies between two of them, and its side is that of the first one clockwise:
 // left if the curve goes out there, right if it comes in. (So it is also where a curve passes a place more than once.)
-// At the end of an open curve it is the side of the line straight on, which halves the directions; on a curve itself,
-// and at a point, there is none.
+// At the end of an open curve it is the side of the line straight on, which halves the directions (on a boundary the
+// two sides of the segment, as far as there is surface); on a curve itself, and at a point, there is none.
 //
 // `field`: of an exact run from these sources with DistanceOptions::keep_paths, on this mesh, without walls. Throws
 // what WindowField::last_leg() throws, and Error(InvalidArgument) where a curve has a place at a vertex whose faces
 // form neither a circle nor an arc. O(edges crossed by paths).
 std::vector<CurveArrival> arrivals(const WindowField& field, std::span<const Source> sources);
+// The same within walls: paths keep to what is open, and sides are those of the whole mesh, from whatever face of it a
+// path arrives, whether or not there is a wall along the curve or across it. A vertex on a wall has the arrival of its
+// nearest side; of several that are equally near that of the lowest source, and rather not on the left.
+// `field`: of an exact run in the domain from these sources with DistanceOptions::keep_paths.
+std::vector<CurveArrival> arrivals(const Domain& domain, const DistanceField& field, std::span<const Source> sources);
 
 // Distance with a sign, [vertex_count]: negative on the left of the nearest curve, positive on its right (and where
 // there is no side), +inf where unreachable. So the inside of a closed curve that runs counter-clockwise is negative,
 // and curves that nest with opposite senses bound what lies between them. An exact run; of `how` max_distance, threads,
 // progress and cancel count. Throws Error(InvalidArgument) for a source that is a point, for offsets, and what
 // arrivals() and distance() throw.
-std::vector<double> signed_distance(const Mesh& mesh, std::span<const Source> curves, const DistanceOptions& how = {});
-// The same from a field: that of an exact run from these curves with DistanceOptions::keep_paths, without walls.
-std::vector<double> signed_distance(const DistanceField& field, std::span<const Source> curves);
+// Within walls: of the sides that arrivals() tells.
+std::vector<double> signed_distance(const Domain& domain, std::span<const Source> curves,
+                                    const DistanceOptions& how = {});
+// The same from a field: that of an exact run in the domain from these curves, with DistanceOptions::keep_paths.
+std::vector<double> signed_distance(const Domain& domain, const DistanceField& field, std::span<const Source> curves);
 
 }  // namespace brushfire

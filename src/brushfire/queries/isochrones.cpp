@@ -132,17 +132,15 @@ std::string json_of(const MapRing& ring) {
 
 }  // namespace
 
-std::vector<MapPolygon> isochrone(const Mesh& mesh, std::span<const double> values, double level) {
-  if (values.size() != mesh.vertex_count()) {
-    throw Error(ErrorCode::InvalidArgument,
-                std::to_string(values.size()) + " values for " + std::to_string(mesh.vertex_count()) + " vertices");
-  }
+std::vector<MapPolygon> isochrone(const Domain& domain, std::span<const double> values, double level) {
+  const Mesh& mesh = domain.open();
+  const std::vector<double> on_open = domain.spread(values);
   if (!mesh.has_positions()) throw Error(ErrorCode::InvalidArgument, "a mesh from lengths is no map");
   if (!std::isfinite(level))
     throw Error(ErrorCode::InvalidArgument, "level " + number_as_text(level) + " is not finite");
   std::vector<MapPolygon> polygons;
   std::vector<MapRing> holes;
-  for (MapRing& ring : Rim(mesh, values, level).rings()) {
+  for (MapRing& ring : Rim(mesh, on_open, level).rings()) {
     if (area(ring) > 0)
       polygons.push_back({std::move(ring), {}});
     else if (area(ring) < 0)
@@ -159,13 +157,14 @@ std::vector<MapPolygon> isochrone(const Mesh& mesh, std::span<const double> valu
   return polygons;
 }
 
-std::string isochrones_as_geojson(const Mesh& mesh, std::span<const double> values, std::span<const double> levels) {
+std::string isochrones_as_geojson(const Domain& domain, std::span<const double> values,
+                                  std::span<const double> levels) {
   std::string text = "{\"type\":\"FeatureCollection\",\"features\":[";
   for (std::size_t k = 0; k < levels.size(); ++k) {
     text += std::string(k > 0 ? "," : "") + "\n{\"type\":\"Feature\",\"properties\":{\"level\":" + exactly(levels[k]) +
             "},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":[";
     bool first = true;
-    for (const MapPolygon& polygon : isochrone(mesh, values, levels[k])) {
+    for (const MapPolygon& polygon : isochrone(domain, values, levels[k])) {
       text += std::string(first ? "" : ",") + "[" + json_of(polygon.outer);
       for (const MapRing& hole : polygon.holes) text += "," + json_of(hole);
       text += "]";

@@ -101,7 +101,8 @@ class CutLocus {
       const double turned = std::min(*turn, kPi);
       const double x = edge - other.length * std::cos(turned), y = other.length * std::sin(turned);
       const double way = std::hypot(x, y), length = other.start + way;
-      if (!(way > kNoWay * edge)) continue;  // w's path comes from v
+      if (!(way > kNoWay * edge)) continue;            // w's path comes from v
+      if (turned < kSameDirection && x < 0) continue;  // or through it
       if (!(std::abs(length - value_[v]) <= tie_ * value_[v])) continue;
       const double aside = side * (from_v.reversed == from_w.reversed ? 1 : -1) * std::atan2(y, x);
       if (differ(fans_[v], own.angle, from_v.angle + aside)) return true;

@@ -94,16 +94,41 @@ double level_length(const SortedFace& f, double r) {
   return std::sqrt(std::max(0.0, s * s + t * t - 2 * s * t * cosine));
 }
 
+// The open mesh's components, and how large they are.
+struct ComponentAreas {
+  explicit ComponentAreas(const Mesh& open) : components(detail::components_of(open)), area(components.count, 0) {
+    const double unit = open.unit();
+    for (Index f = 0; f < open.face_count(); ++f) {
+      area[components.of_vertex[open.faces()[f][0]]] += 0.5 * open.double_areas()[f] * unit * unit;
+    }
+  }
+
+  // Of those that these points are in: several for a point on a wall that parts the surface.
+  double around(const Mesh& open, std::span<const Source> points) const {
+    std::vector<Index> known;
+    double sum = 0;
+    for (const Source& p : points) {
+      const Index c = components.of_vertex[open.faces()[p.point.face][0]];
+      if (std::find(known.begin(), known.end(), c) != known.end()) continue;
+      known.push_back(c);
+      sum += area[c];
+    }
+    return sum;
+  }
+
+  detail::Components components;
+  std::vector<double> area;
+};
+
 // Measures discs around one place after the other, on the open mesh.
 class DiscMeter {
  public:
-  DiscMeter(const Domain& domain, const DistanceOptions& options, std::span<const double> component_area,
-            double longest_edge)
+  DiscMeter(const Domain& domain, const DistanceOptions& options, const ComponentAreas& areas, double longest_edge)
       : mesh_(domain.open()),
         domain_(domain),
         solver_(mesh_),
         options_(options),
-        component_area_(component_area),
+        areas_(areas),
         longest_edge_(longest_edge),
         value_(mesh_.vertex_count(), kInfinity) {}
 
@@ -115,7 +140,7 @@ class DiscMeter {
     std::vector<Source> sources;
     for (const SurfacePoint& p : domain_.on_open(place)) sources.push_back({p});
     if (sources.empty()) return {};
-    const double wanted = share * component_area_[mesh_.faces()[sources.front().point.face][0]];
+    const double wanted = share * areas_.around(mesh_, sources);
     // A run holds the disc where it goes an edge farther than the disc's radius: faces on the rim are whole then.
     constexpr double kFarther = 1.5;  // than a flat disc: most are found by the first run
     for (double limit = kFarther * std::sqrt(wanted / kPi) + longest_edge_;; limit *= 2) {
@@ -206,7 +231,7 @@ class DiscMeter {
   const Domain& domain_;
   DistanceSolver solver_;
   DistanceOptions options_;
-  std::span<const double> component_area_;
+  const ComponentAreas& areas_;
   double longest_edge_;
   std::vector<double> value_;  // +inf between runs
   SparseField field_;
@@ -220,16 +245,9 @@ Discs discs_of_share(const Domain& domain, double share, Places places, const Ma
     throw Error(ErrorCode::InvalidArgument, "a share of the surface is in (0, 1], not " + std::to_string(share));
   }
   const Mesh& open = domain.open();
-  const detail::Components components = detail::components_of(open);
-  std::vector<double> of_component(components.count, 0), component_area(open.vertex_count(), 0);
+  const ComponentAreas areas(open);
   double longest_edge = 0;
-  for (Index f = 0; f < open.face_count(); ++f) {
-    of_component[components.of_vertex[open.faces()[f][0]]] += 0.5 * open.double_areas()[f] * open.unit() * open.unit();
-  }
   for (const double l : open.lengths()) longest_edge = std::max(longest_edge, l * open.unit());
-  for (Index v = 0; v < open.vertex_count(); ++v) {
-    if (components.of_vertex[v] != kNoIndex) component_area[v] = of_component[components.of_vertex[v]];
-  }
   const std::size_t count = places ? places->size() : domain.mesh().vertex_count();
   Discs discs{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count)};
   DistanceOptions run = options.distance;
@@ -242,7 +260,7 @@ Discs discs_of_share(const Domain& domain, double share, Places places, const Ma
       count, threads,
       [&](unsigned worker, std::size_t i) {
         if (!meters[worker]) {
-          meters[worker] = std::make_unique<DiscMeter>(domain, run, component_area, longest_edge);
+          meters[worker] = std::make_unique<DiscMeter>(domain, run, areas, longest_edge);
         }
         const Place place = places ? (*places)[i] : Place(static_cast<Index>(i));
         const Index* v = std::get_if<Index>(&place);

@@ -28,7 +28,8 @@ struct Discs {
   std::vector<double> area;       // [places] share times the area of the place's component, to rounding
 };
 
-// The disc around each place that holds `share` (in (0, 1]) of the area of its component: fields are linear in every
+// The disc around each place that holds `share` (in (0, 1]) of the area of its component (of those on both sides of a
+// wall that parts the surface, for a place on it): fields are linear in every
 // face, as for isolines, and the disc is what is nearer than its radius. Small shares cost what they reach. Throws
 // Error(InvalidArgument) for another share, and as distance_matrix() does.
 // Compare: surfdist, Connectome Workbench (-surface-geodesic-rois), which take vertices or radii.

@@ -58,11 +58,10 @@ TEST(SheetCopies, HaveTheBitsOfOneAndCostNoMore) {
   }
 }
 
+Mesh in_cases(const char* name) { return read_mesh((test::shared_directory() / "cases" / name).string()).mesh; }
+
 TEST(SheetCopies, OfTheSharedCaseAndOfAScanAreTheSingleOne) {
   BRUSHFIRE_NEEDS_SHARED_DATA();
-  const auto in_cases = [](const char* name) {
-    return read_mesh((test::shared_directory() / "cases" / name).string()).mesh;
-  };
   const DistanceField prism = exact(in_cases("01-doubled-prism.obj"), 0);
   EXPECT_EQ(prism.distance, exact(in_cases("01-single-prism.obj"), 0).distance);
   EXPECT_NEAR(*std::max_element(prism.distance.begin(), prism.distance.end()), 10.481198390235813, 1e-12);
@@ -77,6 +76,14 @@ TEST(SheetCopies, OfTheSharedCaseAndOfAScanAreTheSingleOne) {
     EXPECT_EQ(one.distance, two.distance);
     EXPECT_EQ(one.updates, two.updates);
   }
+}
+
+TEST(SheetCopies, OfTheSharedCaseHaveThePathThatOnceWasLost) {
+  BRUSHFIRE_NEEDS_SHARED_DATA();
+  const Mesh mesh = in_cases("19-path-lost-doubled-prism.obj");
+  const SurfacePath path = PathFinder(mesh).between(vertex_point(mesh, 0), vertex_point(mesh, 30));
+  EXPECT_NEAR(path.length, 10.478010151462053, 1e-12);
+  EXPECT_EQ(test::judge(mesh, path), "");
 }
 
 // 8 vertices and 18 different faces, 944 in all.

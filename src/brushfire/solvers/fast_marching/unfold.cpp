@@ -77,7 +77,7 @@ Unfolder::Behind Unfolder::look_over(Index f, Index left, Index right) const {
   return behind;
 }
 
-Unfolding Unfolder::unfold(Index h, std::vector<UnfoldedTriangle>& triangles) const {
+Unfolding Unfolder::unfold(Index h, int most, std::vector<UnfoldedTriangle>& triangles) const {
   Index f = h / 3;
   const Index own = h - 3 * f, corner = faces_[f][own];
   const Mesh::FaceGeometry face = geometry(f);
@@ -92,7 +92,7 @@ Unfolding Unfolder::unfold(Index h, std::vector<UnfoldedTriangle>& triangles) co
   Index left_end = left, right_end = right;
   Vec2 at_left_end = at_left, at_right_end = at_right;
   double crossed = across;  // the length of that edge
-  while (result.crossed < kMaxUnfolded && crossed > 0) {
+  while (result.crossed < most && crossed > 0) {
     const Behind behind = look_over(f, left_end, right_end);
     if (behind.face == kNoIndex) return result;
     ++result.crossed;

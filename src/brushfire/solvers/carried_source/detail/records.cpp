@@ -5,6 +5,7 @@
 #include <brushfire/core/cancel.h>
 #include <brushfire/solvers/carried_source/detail/optics.h>
 #include <brushfire/solvers/carried_source/detail/unrolled.h>
+#include <brushfire/solvers/detail/unfolding_limit.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,12 +80,15 @@ class RecordBuilder {
   void unroll_all() {
     split_.resize(mesh_.halfedge_count());
     std::vector<Index> count(mesh_.vertex_count() + std::size_t{1}, 0);
+    detail::UnfoldingLimit limit(mesh_.face_count());
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
       poll_();
       sum_of_lengths_ += lengths_[h];
       if (!mesh_.is_face_usable(Mesh::face_of(h)) || !unroller_.is_obtuse(h)) continue;
       int crossed = 0;
-      split_[h] = unroller_.unroll(h, triangles_, crossed);
+      const std::size_t before = triangles_.size();
+      split_[h] = unroller_.unroll(h, limit.faces(), triangles_, crossed);
+      limit.add(triangles_.size() - before);
       out_.most_unrolled = std::max(out_.most_unrolled, crossed);
     }
     for (const UnrolledTriangle& t : triangles_) ++count[t.right.vertex], ++count[t.left.vertex];

@@ -47,7 +47,7 @@ UnrolledEnd Unroller::end(Index corner, const Anchor& at, const Anchor& other, I
   return e;
 }
 
-bool Unroller::unroll(Index corner, std::vector<UnrolledTriangle>& triangles, int& crossed) const {
+bool Unroller::unroll(Index corner, int most, std::vector<UnrolledTriangle>& triangles, int& crossed) const {
   const Index across = Mesh::next(corner), third = Mesh::previous(corner);
   const double to_right = lengths_[corner], to_left = lengths_[third];
   const bool same_turn = !fans_.corner(corner).mirrored;
@@ -57,7 +57,7 @@ bool Unroller::unroll(Index corner, std::vector<UnrolledTriangle>& triangles, in
   right.side_to_corner = fans_.side(across, false), left.side_to_corner = fans_.side(third, true);
   Anchor right_end = right, left_end = left;
   Index over = across;
-  for (crossed = 0; crossed < kMostFaces && lengths_[over] > 0;) {
+  for (crossed = 0; crossed < most && lengths_[over] > 0;) {
     const Index g = mesh_.neighbour(over);
     if (g == over) return false;
     ++crossed;

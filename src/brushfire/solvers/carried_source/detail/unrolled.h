@@ -32,13 +32,11 @@ class Unroller {
 
   bool is_obtuse(Index corner) const;
   // Appends the triangles that split the angle at an obtuse corner. Whether they split it into acute ones; false where
-  // it ended before: at a boundary, at an edge of more faces, after kMostFaces. `crossed`: how many
+  // it ended before: at a boundary, at an edge of more faces, after `most`. `crossed`: how many
   // faces it looked at.
-  bool unroll(Index corner, std::vector<UnrolledTriangle>& triangles, int& crossed) const;
+  bool unroll(Index corner, int most, std::vector<UnrolledTriangle>& triangles, int& crossed) const;
 
  private:
-  static constexpr int kMostFaces = 64;
-
   // A vertex of the unrolled faces, and how its fan lies in the plane.
   struct Anchor {
     Index vertex = kNoIndex;

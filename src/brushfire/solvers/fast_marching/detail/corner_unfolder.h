@@ -3,6 +3,7 @@
 
 #include <brushfire/core/detail/planar.h>
 #include <brushfire/mesh/mesh.h>
+#include <brushfire/solvers/detail/unfolding_limit.h>
 #include <brushfire/solvers/fast_marching/detail/face_costs.h>
 #include <brushfire/solvers/fast_marching/detail/lane_writer.h>
 #include <brushfire/solvers/fast_marching/detail/unfold.h>
@@ -19,7 +20,12 @@ template <class T>
 class CornerUnfolder {
  public:
   CornerUnfolder(const Mesh& mesh, Variant variant, const FaceCosts& costs)
-      : mesh_(mesh), costs_(costs), unfolder_(mesh), variant_(variant), scale_(1 / mesh.unit()) {}
+      : mesh_(mesh),
+        costs_(costs),
+        unfolder_(mesh),
+        limit_(mesh.face_count()),
+        variant_(variant),
+        scale_(1 / mesh.unit()) {}
 
   // Unfolds those of some corners that are obtuse. rings.add_unfolded(v, Corner): a triangle over which v updates the
   // corner; its sides at v go to that (a) and to the third vertex (b). rings.prefetch(v): the former will soon be
@@ -70,8 +76,9 @@ class CornerUnfolder {
   template <class Rings>
   void unfold_any(Index h, Rings& rings) {
     triangles_.clear();
-    const Unfolding result = unfolder_.unfold(h, triangles_);
+    const Unfolding result = unfolder_.unfold(h, limit_.faces(), triangles_);
     if (!result.obtuse) return;
+    limit_.add(triangles_.size());
     most_crossed_ = std::max(most_crossed_, result.crossed);
     if (!costs_.any()) {
       if (!result.split) unsplit_.push_back(h);
@@ -100,6 +107,7 @@ class CornerUnfolder {
   const Mesh& mesh_;
   FaceCosts costs_;
   Unfolder unfolder_;
+  brushfire::detail::UnfoldingLimit limit_;
   Variant variant_;
   double scale_;
   std::vector<FacePair> pairs_;  // of the corners at hand

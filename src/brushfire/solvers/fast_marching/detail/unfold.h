@@ -24,7 +24,7 @@ inline constexpr double kRightAngle = 1e-9;  // rounding of coordinates tilts ri
 struct Unfolding {
   bool obtuse = true;  // false: the corner is not, nothing was done
   int crossed = 0;     // edges that were crossed
-  bool split = false;  // false: it ended at a boundary, a non-manifold edge or after kMaxUnfolded faces
+  bool split = false;  // false: it ended at a boundary, a non-manifold edge or after as many faces as it may
 };
 
 // Unrolls faces, one corner after the other.
@@ -34,8 +34,8 @@ class Unfolder {
 
   // Splits the angle at the corner of halfedge h, where it is obtuse, into acute ones: unrolls faces behind the
   // opposite edge, one by one, until a vertex appears that splits it, and the same with what is left of the angle.
-  // Appends the triangles.
-  Unfolding unfold(Index h, std::vector<UnfoldedTriangle>& triangles) const;
+  // Appends the triangles. `most`: faces.
+  Unfolding unfold(Index h, int most, std::vector<UnfoldedTriangle>& triangles) const;
 
   bool is_plain() const { return plain_; }  // positions, and no slits
   // The other face at the edge of face f between v and w; kNoIndex where there is not exactly one.
@@ -59,7 +59,5 @@ class Unfolder {
   std::span<const Index> corner_offsets_, corners_;
   double scale_;
 };
-
-inline constexpr int kMaxUnfolded = 64;
 
 }  // namespace brushfire::fast_marching

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# The tolerance of windows against exact on the shared meshes and on libcgal-demo's: one table, one summary.
-# ./run tolerance [--limit VERTICES]; the table is left in build/benchmark/tolerance.md.
+# A program of benchmarks/ on the shared meshes and on libcgal-demo's:
+# on_meshes.sh tolerance_table | curve_samples [--limit VERTICES]; what it prints is left in build/benchmark/PROGRAM.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+program=$1
+shift
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -15,4 +17,4 @@ if [ -f $archive ]; then
 else
   echo "libcgal-demo is not installed: its meshes are left out" >&2
 fi
-build/benchmark/benchmarks/tolerance_table "$@" "${meshes[@]}" | tee build/benchmark/tolerance.md
+"build/benchmark/benchmarks/$program" "$@" "${meshes[@]}" | tee "build/benchmark/$program.md"
