@@ -33,6 +33,12 @@ class Needed:
 
     ``refinements``: how many more, for ``refine=``; None where more of them would bring the bounds no nearer. ``points``: on
     edges, in the last of them, 0 where windows answer. ``time``: of the last of them, in times of the run that is done.
+
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> needed = mesh.weighted([1, 2], [[0, 2, float("inf"), 1]]).costs(1, tolerance=1e-4).needed
+    >>> needed.refinements > 0, needed.time == 4**needed.refinements
+    (True, True)
     """
 
     refinements: int | None
