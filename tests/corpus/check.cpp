@@ -370,7 +370,7 @@ void Examination::hold_path(const WindowField& field, const SurfacePoint& to, Re
   // Of adding the offset. Where it changes along the curve, a leg may miss the value by 8 epsilons of what both count
   // from the least of them (WindowFieldData::room_for()), which is no more than twice these numbers together.
   const Real same = sloped_ ? 16 : 2;
-  room += same * kEpsilon * (std::abs(truth) + std::abs(offset)) + kLeastStep;
+  room += same * kEpsilon * (std::abs(truth) + std::abs(offset)) + kLeastStep * static_cast<double>(path.points.size());
   const Real off_field = std::abs(length + offset - value.distance), off_truth = std::abs(length + offset - truth);
   if (length > 0) out.worst = std::max(out.worst, static_cast<double>(off_field / length));
   if (off_field <= room && off_truth <= room) return;

@@ -80,6 +80,13 @@ Point<R> mirrored(Point<R> direction) {
   return {-direction.x, direction.y};
 }
 
+// Where within a corner light comes from. In a face without area that is one side or the other: rounding may put it a
+// little outside, and beyond the side of an angle of pi atan2 would say -pi.
+template <class R>
+R angle_in(R corner, Point<R> side, Point<R> back) {
+  return std::min(R(atan2(abs(cross(side, back)), dot(side, back))), corner);
+}
+
 template <class R>
 class Solver {
   using Point = oracle::Point<R>;
@@ -238,8 +245,7 @@ class Solver {
       const Corner& c = complex_.corner[g];
       if (!(on_edge && k < 2)) {  // the ends of the edge are reached along the edge
         const Point to_point = q, to_end{c.length, 0};
-        const R angle = atan2(cross(to_end, to_point), dot(to_end, to_point));
-        reach({offset + norm(q), c.from, Arrival::By::Corner, g, std::clamp(angle, R{0}, c.angle)});
+        reach({offset + norm(q), c.from, Arrival::By::Corner, g, angle_in(c.angle, to_end, to_point)});
       }
       if (!(on_edge && k == 0)) leave(g, q, offset);
       q = next_frame(c, q);
@@ -331,7 +337,7 @@ class Solver {
         reach({seen->value, c.from, Arrival::By::Start, 0, 0});
       } else if (seen) {
         const Point back = Point{0, 0} - s.light(seen->side);
-        reach({seen->value, c.from, Arrival::By::Corner, g, std::clamp(R(atan2(back.y, back.x)), R{0}, c.angle)});
+        reach({seen->value, c.from, Arrival::By::Corner, g, angle_in(c.angle, Point{1, 0}, back)});
       }
       for (const int side : {1, -1}) leave(g, s, side);
       s.from = next_frame(c, s.from);
@@ -594,8 +600,7 @@ class Solver {
       return;
     }
     const Point ahead = Point{0, 0} - c.apex, back = Point{0, 0} - to_apex;
-    const R angle = atan2(cross(ahead, back), dot(ahead, back));
-    reach({d, c.apex_vertex, Arrival::By::Corner, at, std::clamp(angle, R{0}, complex_.corner[at].angle)});
+    reach({d, c.apex_vertex, Arrival::By::Corner, at, angle_in(complex_.corner[at].angle, ahead, back)});
   }
 
   // ---- vertices

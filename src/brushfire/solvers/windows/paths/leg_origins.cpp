@@ -47,7 +47,7 @@ std::vector<PointInFace> names_of(const Mesh& mesh, const PointLocation& at) {
 }
 
 LegOrigins::LegOrigins(const Mesh& mesh, const PointLocation& at, double value) : mesh_(mesh), value_(value) {
-  offer({at, 0, kNoIndex});
+  offer({at, 0, kNoIndex, 0});
   // Nearest first: where offsets are large, vertices that are far apart count, and the way between them with them.
   while (!open_.empty()) {
     const auto [before, i] = open_.top();
@@ -65,8 +65,8 @@ void LegOrigins::spread(Index i) {
     here.weights = f.weights;
     const std::array<double, 3> d = corner_distances(mesh_, here);
     for (Index k = 0; k < 3; ++k) {
-      const double way = from.before + d[k];
-      if (way <= no_distance(from.at, f.face)) offer({at_corner(3 * f.face + k), way, i});
+      const double way = from.before + d[k], rounded = from.at.on == On::Vertex ? from.rounded : from.rounded + d[k];
+      if (way <= no_distance(from, f.face)) offer({at_corner(3 * f.face + k), way, i, rounded});
     }
     for (Index k = 0; k < 3; ++k) offer_across(f, 3 * f.face + k, i);
   }
@@ -75,10 +75,11 @@ void LegOrigins::spread(Index i) {
 // Values beside a source may be rounded to less than nothing.
 double LegOrigins::no_distance() const { return std::max(kNoDistance * value_, rounding_); }
 
-// A point of an edge is known to an epsilon of the edge, whatever the value; a vertex is where it is.
-double LegOrigins::no_distance(const PointLocation& from, Index face) const {
-  if (from.on == On::Vertex) return no_distance();
-  return std::max(no_distance(), kNoPlace * longest_edge(mesh_, face));
+// How long a way may be that goes on from there into the face. A point of an edge is known to an epsilon of the edge,
+// whatever the value; a vertex is where it is.
+double LegOrigins::no_distance(const LegOrigin& from, Index face) const {
+  if (from.at.on == On::Vertex) return from.rounded + no_distance();
+  return from.rounded + std::max(no_distance(), kNoPlace * longest_edge(mesh_, face));
 }
 
 void LegOrigins::offer(const LegOrigin& origin) {
@@ -112,7 +113,7 @@ bool LegOrigins::has_value_of(Index v) const {
 // The foot of the point on an edge at no distance: other corners of faces without area may lie there.
 void LegOrigins::offer_across(const PointInFace& f, Index h, Index previous) {
   const double weight = f.weights[Mesh::previous(h) % 3], length = mesh_.length(h);
-  const double room = no_distance(origins_[previous].at, f.face);
+  const double room = no_distance(origins_[previous], f.face);
   if (weight == 0 || !(length > 0) || mesh_.opposite()[h] == h) return;
   if (!(weight * mesh_.double_areas()[f.face] <= 2 * room * length)) return;
   const std::array<WideVec2, 3> corners = wide_corners(mesh_, f.face, h % 3);
@@ -126,7 +127,7 @@ void LegOrigins::offer_across(const PointInFace& f, Index h, Index previous) {
   at.face = f.face;
   at.weights[h % 3] = (DoubleDouble(1) - share).high;
   at.weights[Mesh::next(h) % 3] = share.high;
-  offer({at, way, previous});
+  offer({at, way, previous, origins_[previous].rounded});
 }
 
 // The least of its halfedges.

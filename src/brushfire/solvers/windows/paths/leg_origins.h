@@ -29,6 +29,7 @@ struct LegOrigin {
   PointLocation at;
   double before = 0;          // the way from the point
   Index previous = kNoIndex;  // over which other one
+  double rounded = 0;         // of `before`, what lies between places of edges and vertices that they cannot tell apart
 };
 
 class LegOrigins {
@@ -45,7 +46,7 @@ class LegOrigins {
 
  private:
   double no_distance() const;
-  double no_distance(const PointLocation& from, Index face) const;
+  double no_distance(const LegOrigin& from, Index face) const;
   void spread(Index origin);
   // Keeps the nearest of each vertex and edge.
   void offer(const LegOrigin& origin);
