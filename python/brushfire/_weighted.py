@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -17,6 +17,7 @@ from brushfire._options import Options, options, thread_count, tolerance_of
 from brushfire._places import Places
 from brushfire._progress import Progress, shown
 from brushfire._sources import Sources, sources_of
+from brushfire._weights import Slope, edges_of, grain_of, pace_of
 
 if TYPE_CHECKING:
     from brushfire._mesh import Mesh
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
 
 _TOLERANCE = 0.01
 
-Slope: TypeAlias = "str | tuple[npt.ArrayLike, npt.ArrayLike] | Callable[[float], float]"
-
 
 @dataclass(frozen=True)
 class Needed:
@@ -34,6 +33,12 @@ class Needed:
 
     ``refinements``: how many more, for ``refine=``; None where more of them would bring the bounds no nearer. ``points``: on
     edges, in the last of them, 0 where windows answer. ``time``: of the last of them, in times of the run that is done.
+
+    >>> import brushfire as bf
+    >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+    >>> needed = mesh.weighted([1, 2], [[0, 2, float("inf"), 1]]).costs(1, tolerance=1e-4).needed
+    >>> needed.refinements > 0, needed.time == 4**needed.refinements
+    (True, True)
     """
 
     refinements: int | None
@@ -91,57 +96,6 @@ class WeightedPath:
         return f"WeightedPath({len(self.path.points)} points, cost {self.cost:.6g}, length {self.length:.6g})"
 
 
-def _edges(edge_weights: Any) -> tuple[npt.NDArray[np.int64], Floats, Floats]:
-    """Vertices, cost along, cost to cross: from rows of three or four numbers."""
-    table = floats([] if edge_weights is None else edge_weights, "edge_weights")
-    if table.size == 0:
-        return np.zeros(0, np.int64), np.zeros(0), np.zeros(0)
-    if table.ndim != 2 or table.shape[1] not in (3, 4):
-        raise BrushfireError(
-            "edge_weights: rows of two vertices, the cost along the edge (inf: as in its faces) and, if wanted, the cost "
-            f"to cross it are needed, not an array of shape {table.shape}"
-        )
-    ends = table[:, :2]
-    if not (np.isfinite(ends).all() and (ends == np.floor(ends)).all()):
-        raise BrushfireError("edge_weights: the first two columns are numbers of vertices")
-    crossing = table[:, 3] if table.shape[1] == 4 else np.zeros(len(table))
-    vertices = np.ascontiguousarray(ends.astype(np.int64).ravel())
-    return vertices, np.ascontiguousarray(table[:, 2]), np.ascontiguousarray(crossing)
-
-
-def _grain(mesh: Mesh, grain: npt.ArrayLike | None) -> Floats | None:
-    if grain is None:
-        return None
-    rows = floats(grain, "grain")
-    if rows.ndim != 2 or rows.shape[1] != 4 or len(rows) != mesh.face_count:
-        raise BrushfireError(
-            f"grain: x, y, z of a direction and the cost across it for each of {mesh.face_count} faces are needed, not an "
-            f"array of shape {rows.shape}"
-        )
-    return np.array(rows).ravel()
-
-
-def _sampled(pace: Callable[[float], float]) -> tuple[Floats, Floats]:
-    """Where it is finite between slopes of -2 and 2, in steps of 2.5e-4, which is how the core keeps paces."""
-    slopes = np.linspace(-2, 2, 16001)
-    paces = np.array([number(pace(float(s)), "slope: the pace") for s in slopes])
-    walked = np.flatnonzero(paces < np.inf)
-    if len(walked) < 2 or walked[-1] - walked[0] + 1 != len(walked):
-        raise BrushfireError("slope: the pace may be inf beyond the steepest slopes, up and down, only")
-    return slopes[walked], paces[walked]
-
-
-def _pace(slope: Slope | None) -> tuple[str, Floats | None, Floats | None]:
-    """A name, or slopes and paces."""
-    if slope is None or isinstance(slope, str):
-        return slope or "", None, None
-    if callable(slope):
-        return "", *_sampled(slope)
-    if not isinstance(slope, Sequence) or len(slope) != 2:
-        raise BrushfireError("slope: a name, a function, or slopes and the paces there, two arrays, are needed")
-    return "", floats(slope[0], "slopes").ravel(), floats(slope[1], "paces").ravel()
-
-
 def _refinements(refine: bool | int) -> int:
     if isinstance(refine, (bool, np.bool_)):
         return 4 if refine else 0
@@ -174,12 +128,12 @@ class Weighted:
         self._on = mesh
         self._towards = bool(towards)
         edges = None if edge_weights is None else np.array(edge_weights)
-        self._given = (None if face is None else face.copy(), edges, slope, steepest, bool(tacking), _grain(mesh, grain))
+        self._given = (None if face is None else face.copy(), edges, slope, steepest, bool(tacking), grain_of(mesh, grain))
         self._solver = _core.WeightedSolver(
             mesh._space,
             face,
-            *_edges(edge_weights),
-            *_pace(slope),
+            *edges_of(edge_weights),
+            *pace_of(slope),
             number(steepest, "steepest"),
             bool(tacking),
             self._given[-1],
@@ -436,7 +390,7 @@ def weighted(
     >>> road = mesh.weighted(edge_weights=[[0, 2, 0.5]]).path(0, 2)
     >>> road.cost, road.edge.tolist()
     (2.5, [[2, 0]])
-    >>> mesh.weighted(slope=lambda s: 2 + abs(s)).distance(0, targets=2).tolist()
+    >>> mesh.weighted(slope=lambda s: 2 + abs(s)).distance(0, targets=2).round(6).tolist()
     [10.0]
     """
     return Weighted(mesh, weights, edge_weights, slope, steepest, towards, grain, tacking)

@@ -37,15 +37,21 @@ def test_costs_lie_between_their_bounds(strip: bf.Mesh) -> None:
 
 def test_a_wish_that_is_not_met_says_what_it_would_take(strip: bf.Mesh) -> None:
     weighted = strip.weighted(W, [[2, 7, np.inf, 5]])
-    once = weighted.costs(5, tolerance=0.03)
-    assert once.max_error_bound > 0.03 and once.needed is not None and once.needed.refinements
+    once = weighted.costs(5, tolerance=0.08)
+    assert once.max_error_bound > 0.08 and once.needed is not None and once.needed.refinements
     assert once.needed.points > 0 and once.needed.time >= 4
-    too_few = weighted.costs(5, tolerance=0.03, refine=once.needed.refinements - 1)
+    too_few = weighted.costs(5, tolerance=0.08, refine=once.needed.refinements - 1)
     assert too_few.needed == once.needed
-    met = weighted.costs(5, tolerance=0.03, refine=True)
-    assert met.max_error_bound <= 0.03 and met.needed is None
+    met = weighted.costs(5, tolerance=0.08, refine=True)
+    assert met.max_error_bound <= 0.08 and met.needed is None
     with pytest.raises(bf.BrushfireError, match="refine"):
         weighted.costs(5, refine=-1)
+
+
+def test_rows_of_costs_are_the_same_on_any_number_of_threads(strip: bf.Mesh) -> None:
+    for bound in ("upper", "lower"):
+        one, three = (strip.distance_matrix(weights=W, bound=bound, threads=n, dtype=np.float64) for n in (1, 3))
+        assert (one == three).all()
 
 
 def test_paths_are_those_of_the_weights_leg_by_leg(strip: bf.Mesh) -> None:

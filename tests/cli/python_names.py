@@ -15,7 +15,7 @@ from pathlib import Path
 # What does the same as a verb, and what is done for every verb by functions that read, place, block and write.
 FUNCTIONS = {
     "info": [],
-    "distance": ["distance", "weighted"],
+    "distance": ["distance", "weighted", "costs"],
     "path": ["paths", "weighted"],
     "isolines": ["isolines", "curved_isolines", "distance", "weighted"],
     "log-map": ["log_map"],

@@ -53,19 +53,19 @@ TEST_F(WeightFiles, DistancesAndPathsPayForFacesFencesAndRoads) {
 TEST_F(WeightFiles, WhatIsNotMetEverywhereIsToldWithWhatItWouldTake) {
   const std::string mesh = path("m.off");
   const std::vector<std::string> run{"distance",        mesh,          "-s",  "5", "--edge-weights",
-                                     path("fence.txt"), "--tolerance", "0.05"};
+                                     path("fence.txt"), "--tolerance", "0.08"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), run.begin(), run.end());
     return run_program(more);
   };
   const auto once = nlohmann::json::parse(with({"--json"}).out);
-  ASSERT_GT(once.at("max_error_bound").get<double>(), 0.05);
+  ASSERT_GT(once.at("max_error_bound").get<double>(), 0.08);
   const int needed = once.at("needed_refinements").get<int>();
   ASSERT_GT(needed, 0);
   EXPECT_GT(once.at("needed_points").get<int>(), once.at("points").get<int>());
   EXPECT_NE(with({}).out.find("; everywhere with --refine " + std::to_string(needed) + ": some "), std::string::npos);
   const auto met = nlohmann::json::parse(with({"--json", "--refine", std::to_string(needed + 1)}).out);
-  EXPECT_LE(met.at("max_error_bound").get<double>(), 0.05);
+  EXPECT_LE(met.at("max_error_bound").get<double>(), 0.08);
   EXPECT_EQ(met.at("needed_refinements"), 0);
   EXPECT_GE(met.at("refinements").get<int>(), 1);
   EXPECT_EQ(run_program({"distance", mesh, "-s", "5", "--refine", "1"}).code, 2);  // without weights
@@ -148,6 +148,11 @@ TEST_F(WeightFiles, CountInWhateverReadsAField) {
   run({"matrix", mesh, "--rows", "5", "--columns", "9,7", "--dtype", "float64", "-o", path("d.npy")});
   EXPECT_NEAR(read_npy(path("d.npy")).values[0], 8, 1e-9);
   EXPECT_NEAR(read_npy(path("d.npy")).values[1], 2, 1e-9);
+  for (const char* bound : {"upper", "lower"}) {  // rows on threads, the same bits
+    run({"matrix", mesh, "--bound", bound, "--threads", "1", "--dtype", "float64", "-o", path("one.npy")});
+    run({"matrix", mesh, "--bound", bound, "--threads", "3", "--dtype", "float64", "-o", path("three.npy")});
+    EXPECT_EQ(read_npy(path("one.npy")).values, read_npy(path("three.npy")).values);
+  }
   const auto lines =
       nlohmann::json::parse(run({"isolines", mesh, "-s", "5", "--levels", "7", "-o", path("l.obj"), "--json"}));
   EXPECT_GT(lines.at("greatest").get<double>(), 8);

@@ -246,7 +246,7 @@ void add_distance(CommandLine& command_line) {
     verb.flag("--signed", arguments->is_signed,
               "From curves: negative on their left, as inside of those that run counter-clockwise");
     verb.option("--refine", arguments->refine, "N", whole_from(0, 30),
-                "With --weights: run again more finely until the tolerance is met everywhere, N times at most");
+                "With --weights: run again, N times at most, until the tolerance is met everywhere");
     verb.talks();
     add_shared(verb, arguments->shared,
                {.without = {{{Shared::Scalar, Shared::Name}, "distances are computed here, not read"}}});

@@ -82,6 +82,12 @@ TEST(Weighting, RowsOfAMatrixAreFieldsForAnyNumberOfThreads) {
   EXPECT_EQ(distance_matrix<double>(mesh, Places(rows), std::nullopt, options), one);
   const std::vector<double> last = weighted_distance(mesh, weights, sources_at(mesh, {48}), {.lower = false}).distance;
   EXPECT_TRUE(std::equal(last.begin(), last.end(), one.end() - mesh.vertex_count()));
+  MatrixOptions below = options;  // by windows
+  below.distance.bound = Bound::Lower;
+  const std::vector<double> lower = distance_matrix<double>(mesh, Places(rows), std::nullopt, below);
+  below.threads = 1;
+  EXPECT_EQ(distance_matrix<double>(mesh, Places(rows), std::nullopt, below), lower);
+  EXPECT_TRUE(std::equal(lower.begin(), lower.end(), one.begin(), [](double a, double b) { return a <= b; }));
   const SparseMatrix<double> near = distances_within<double>(mesh, 4.0, Places(rows), options);
   const auto within = std::count_if(one.begin(), one.end(), [](double d) { return d <= 4; });
   EXPECT_EQ(near.value.size(), static_cast<std::size_t>(within));
