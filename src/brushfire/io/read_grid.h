@@ -18,11 +18,11 @@ struct Grid {
   Terrain terrain() const { return Terrain(heights, columns, rows, placement); }
 };
 
-// .asc, and - for standard input: an ESRI ASCII grid, whose header places it (the northernmost row comes first). .npy: an array of rows x
-// columns, placed at the origin in steps of 1, rows running down; NaN is no height. By extension. Other files are
-// GDAL's, in builds with it (BRUSHFIRE_WITH_GDAL): the first band. Throws Error(FileNotReadable), Error(FileMalformed),
-// Error(TooLarge), Error(InvalidArgument) for a map in degrees, Error(UnknownFormat) for other files where there is no
-// GDAL: `gdal_translate -of AAIGrid` makes one of these of them.
+// .asc, and - for standard input: an ESRI ASCII grid, whose header places it (the northernmost row comes first). .npy:
+// an array of rows x columns, placed at the origin in steps of 1, rows running down; NaN is no height. By extension.
+// Other files are GDAL's, in builds with it (BRUSHFIRE_WITH_GDAL): the first band. Throws Error(FileNotReadable),
+// Error(FileMalformed), Error(TooLarge), Error(InvalidArgument) for a map in degrees, Error(UnknownFormat) for other
+// files where there is no GDAL: `gdal_translate -of AAIGrid` makes one of these of them.
 Grid read_grid(const std::string& path);
 
 }  // namespace brushfire
