@@ -65,6 +65,7 @@ class WallsInEveryVerb : public InFolder {
     write("edges.txt", "2 7\n7 12\n");
     write("x.txt", "0 1 2 3 4\n0 1 2 3 4\n0 1 2 3 4\n");
     write("y.txt", "0 1 2 3 5\n0 1 2 3 5\n0 1 2 3 5\n");
+    write("pairs.txt", "0 4\n5 7\n5 2\n");
     write("labels.txt", "1 1 2 2 3\n1 1 2 2 3\n1 1 2 2 3\n");
     write("empty.html", "<html>\n<!-- brushfire view: the mesh -->\n</html>\n");
     setenv("BRUSHFIRE_VIEWER", path("empty.html").c_str(), 1);
@@ -88,6 +89,7 @@ class WallsInEveryVerb : public InFolder {
         {"flatten", {{m, "-o", "-"}}},
         {"gradient", {{m, s, "0", "-o", "-"}}},
         {"matrix", {{m}, "d.npy"}},
+        {"pairs", {{m, path("pairs.txt")}}},
         {"voronoi", {{m, s, "0,1", "-o", "-"}}},
         {"sample", {{m, "--count", "3"}}},
         {"measure", {{m}}},

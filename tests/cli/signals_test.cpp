@@ -59,6 +59,7 @@ class Folder {
     std::ofstream(path("viewer.html")) << "<html>\n<!-- brushfire view: the mesh -->\n</html>\n";
     setenv("BRUSHFIRE_VIEWER", path("viewer.html").c_str(), 1);
     write_labels();
+    write_pairs();
     write_heights();
     for (const char* shard : {"1/2", "2/2"}) {
       run({"matrix", path("sphere.ply"), "--rows", "0:2000", "-m", "dijkstra", "-r", "0.05", "--dtype", "float64",
@@ -81,6 +82,10 @@ class Folder {
   void write_labels() const {
     std::ofstream labels(path("labels.txt"));
     for (int i = 0; i < 10242; ++i) labels << i / 300 << '\n';
+  }
+  void write_pairs() const {
+    std::ofstream pairs(path("pairs.txt"));
+    for (int i = 0; i < 10242; ++i) pairs << i << ' ' << (i + 5000) % 10242 << '\n';
   }
   void write_heights() const {
     std::ofstream grid(path("grid.asc"));
@@ -201,6 +206,7 @@ std::vector<Case> cases(const Folder& f) {
        {"isolines", small, "-s", "0", "--count", "300", "--chord-error", "1e-13", "-o", out + ".json"},
        milliseconds(500)},
       {"rows", {"matrix", sphere, "-o", out + ".npy", "-m", "exact"}, milliseconds(500)},
+      {"pairs", {"pairs", sphere, f.path("pairs.txt"), "-m", "exact", "-o", out + ".npy"}, milliseconds(500)},
       {"shards",
        {"merge", f.path("shard.1-of-2.npy"), f.path("shard.2-of-2.npy"), "-o", out + "-merged.npy"},
        milliseconds(60)},
