@@ -27,6 +27,7 @@
 
 #include "curves/random_curves.h"
 #include "curves/samples.h"
+#include "measure.h"
 #include "mesh_files.h"
 
 namespace brushfire::benchmark {
@@ -152,15 +153,7 @@ bool has_usable_faces(const Mesh& mesh) {
 }
 
 int run(int count, char** arguments) {
-  Index limit = 60'000;
-  std::vector<fs::path> files;
-  for (int i = 1; i < count; ++i) {
-    if (std::string(arguments[i]) == "--limit" && i + 1 < count) {
-      limit = static_cast<Index>(std::stoul(arguments[++i]));
-      continue;
-    }
-    for (fs::path& file : files_of(arguments[i])) files.push_back(std::move(file));
-  }
+  const auto [limit, files] = MeshArguments(count, arguments, 60'000);
   std::printf(
       "| mesh | vertices | segments | mean excess: 4 | 8 | 16 | 32 points | order | largest / half spacing |"
       " violations |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
@@ -188,10 +181,5 @@ int run(int count, char** arguments) {
 }  // namespace brushfire::benchmark
 
 int main(int count, char** arguments) {
-  try {
-    return brushfire::benchmark::run(count, arguments);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "curve_samples: %s\n", e.what());
-    return 2;
-  }
+  return brushfire::benchmark::guarded("curve_samples", brushfire::benchmark::run, count, arguments);
 }

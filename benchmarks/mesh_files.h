@@ -1,8 +1,12 @@
 // Meshes named on a command line, or found in folders.
 #pragma once
 
+#include <brushfire/core/types.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace brushfire::benchmark {
@@ -21,5 +25,21 @@ inline std::vector<std::filesystem::path> files_of(const std::filesystem::path& 
   std::sort(files.begin(), files.end());
   return files;
 }
+
+// [--limit VERTICES] FILE | FOLDER ...
+struct MeshArguments {
+  Index limit;
+  std::vector<std::filesystem::path> files;
+
+  MeshArguments(int count, char** arguments, Index most) : limit(most) {
+    for (int i = 1; i < count; ++i) {
+      if (std::string(arguments[i]) == "--limit" && i + 1 < count) {
+        limit = static_cast<Index>(std::stoul(arguments[++i]));
+        continue;
+      }
+      for (std::filesystem::path& file : files_of(arguments[i])) files.push_back(std::move(file));
+    }
+  }
+};
 
 }  // namespace brushfire::benchmark

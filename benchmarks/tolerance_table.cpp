@@ -193,15 +193,7 @@ std::size_t print(const char* title, Summaries& summaries) {
 }
 
 int run(int count, char** arguments) {
-  Index limit = 200'000;
-  std::vector<fs::path> files;
-  for (int i = 1; i < count; ++i) {
-    if (std::string(arguments[i]) == "--limit" && i + 1 < count) {
-      limit = static_cast<Index>(std::stoul(arguments[++i]));
-      continue;
-    }
-    for (fs::path& file : files_of(arguments[i])) files.push_back(std::move(file));
-  }
+  const auto [limit, files] = MeshArguments(count, arguments, 200'000);
   std::printf(
       "| mesh | source | t | vertices | mean error | largest error | near the source | median bound | largest bound |"
       " median bound / error | us/vertex | violations | wrong reach |\n"
@@ -230,10 +222,5 @@ int run(int count, char** arguments) {
 }  // namespace brushfire::benchmark
 
 int main(int count, char** arguments) {
-  try {
-    return brushfire::benchmark::run(count, arguments);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "tolerance_table: %s\n", e.what());
-    return 2;
-  }
+  return brushfire::benchmark::guarded("tolerance_table", brushfire::benchmark::run, count, arguments);
 }

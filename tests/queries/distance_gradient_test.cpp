@@ -11,15 +11,12 @@
 #include <random>
 #include <vector>
 
+#include "moved_meshes.h"
+
 namespace brushfire {
 namespace {
 
-DistanceField traced(const Domain& domain, std::span<const Source> sources) {
-  DistanceOptions options;
-  options.method = Method::Exact;
-  options.keep_paths = true;
-  return distance(domain, sources, options);
-}
+using test::traced, test::jittered;
 
 double weighted_sum(const Mesh& mesh, std::span<const Vec3> positions, std::span<const Source> sources,
                     std::span<const double> weights) {
@@ -29,15 +26,6 @@ double weighted_sum(const Mesh& mesh, std::span<const Vec3> positions, std::span
     if (field.distance[v] < kInfinity) sum += weights[v] * field.distance[v];
   }
   return sum;
-}
-
-// Positions moved at random, so that no two paths are equally long by symmetry.
-Mesh jittered(const Mesh& mesh, double by, unsigned seed) {
-  std::mt19937 dice(seed);
-  std::uniform_real_distribution<double> any(-by, by);
-  std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
-  for (Vec3& p : positions) p = p + Vec3{any(dice), any(dice), any(dice)};
-  return Mesh(positions, mesh.faces());
 }
 
 std::vector<double> random_weights(Index count, unsigned seed) {

@@ -15,24 +15,12 @@
 #include <random>
 #include <vector>
 
+#include "moved_meshes.h"
+
 namespace brushfire {
 namespace {
 
-DistanceField traced(const Domain& domain, std::span<const Source> sources) {
-  DistanceOptions options;
-  options.method = Method::Exact;
-  options.keep_paths = true;
-  return distance(domain, sources, options);
-}
-
-// Positions moved at random, so that no path goes straight through a vertex.
-Mesh jittered(const Mesh& mesh, double by, unsigned seed) {
-  std::mt19937 dice(seed);
-  std::uniform_real_distribution<double> any(-by, by);
-  std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
-  for (Vec3& p : positions) p = p + Vec3{any(dice), any(dice), any(dice)};
-  return Mesh(positions, mesh.faces());
-}
+using test::traced, test::jittered;
 
 std::vector<Vec3> random_moves(std::size_t count, unsigned seed) {
   std::mt19937 dice(seed);
