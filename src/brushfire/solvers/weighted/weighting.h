@@ -10,6 +10,7 @@
 
 #include <brushfire/mesh/cut.h>
 #include <brushfire/mesh/domain.h>
+#include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/steiner/weights.h>
 #include <brushfire/solvers/weighted/weighted_distance.h>
 
