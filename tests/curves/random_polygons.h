@@ -29,6 +29,14 @@ inline bool is_inside(const std::vector<Vec3>& polygon, const Vec3& p) {
   return inside;
 }
 
+inline double area(const std::vector<Vec3>& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    twice += (polygon[j].x - polygon[i].x) * (polygon[j].y + polygon[i].y);
+  }
+  return 0.5 * twice;
+}
+
 // The corners of a star-shaped polygon, counter-clockwise, at vertices, on edges and inside faces.
 inline std::vector<SurfacePoint> star_shaped(const Mesh& mesh, std::mt19937& random) {
   std::vector<SurfacePoint> corners;
@@ -53,8 +61,11 @@ struct SimplePolygon {
 
   SimplePolygon(const Mesh& mesh, std::mt19937& random, bool turned) {
     PathFinder paths(mesh);
-    curve = {paths.through(star_shaped(mesh, random), true).points, true};
-    for (const SurfacePoint& p : curve.places) corners.push_back(position(mesh, p));
+    do {  // there and back along one line has no inside
+      curve = {paths.through(star_shaped(mesh, random), true).points, true};
+      corners.clear();
+      for (const SurfacePoint& p : curve.places) corners.push_back(position(mesh, p));
+    } while (!(std::abs(area(corners)) > 1e-6));
     if (turned) std::reverse(curve.places.begin(), curve.places.end());
   }
   bool holds(const Vec3& p) const { return is_inside(corners, p); }

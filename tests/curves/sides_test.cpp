@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "curves/random_curves.h"
 #include "curves/random_polygons.h"
@@ -19,7 +21,11 @@ namespace brushfire {
 namespace {
 
 TEST(Sides, OfRandomSimplePolygonsInEitherSenseAreInsideAndOutside) {
-  for (unsigned seed = 0; seed < 1000; ++seed) {
+  std::vector<unsigned> seeds(1000);
+  std::iota(seeds.begin(), seeds.end(), 0u);
+  // A corner that is there twice, 1e-16 apart: what lies between has no direction.
+  seeds.insert(seeds.end(), {1435, 1494, 1749, 1925, 1975});
+  for (const unsigned seed : seeds) {
     std::mt19937 random(seed);
     const Mesh mesh = test::random_triangulation(random);
     const bool turned = seed % 2 == 1;

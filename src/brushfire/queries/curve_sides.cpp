@@ -217,8 +217,9 @@ class Shore {
     const double away = norm(way - share * along);
     if (!(away < least)) return;
     least = away;
-    const bool at_place = share <= kAtPlace || share >= 1 - kAtPlace;
-    found = {at_place ? share <= kAtPlace ? s.from_place : s.to_place : kNoIndex, i, face, share};
+    const bool has_direction = norm(along) > kNoDirection * longest_edge(mesh_, face);
+    const bool at_place = share <= kAtPlace || share >= 1 - kAtPlace || !has_direction;
+    found = {at_place ? share < 0.5 ? s.from_place : s.to_place : kNoIndex, i, face, share};
   }
 
   // Light of a place may be in faces that none of its segments is in.
