@@ -13,22 +13,16 @@
 #include <string>
 #include <vector>
 
+#include "support/uneven_wheel.h"
+
 namespace brushfire {
 namespace {
 
 // A pyramid without a floor, whose rim is as uneven as a needle's sides: vertex 0 is its tip.
 Mesh wheel(std::mt19937_64& random, int i) {
-  std::uniform_real_distribution<double> part(0, 1);
   const Index count = std::array{3U, 5U, 8U, 20U}[static_cast<std::size_t>(i) % 4];
   const double height = std::array{0.0, 0.3, 3.0}[static_cast<std::size_t>(i / 4) % 3];
-  std::vector<Vec3> p{{0, 0, height}};
-  std::vector<Face> t;
-  for (Index k = 0; k < count; ++k) {
-    const double angle = 2 * kPi * k / count, radius = i % 3 == 0 ? 1 : std::exp2(-5 * part(random));
-    p.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
-    t.push_back({0, 1 + k, 1 + (k + 1) % count});
-  }
-  return {p, t};
+  return test::uneven_wheel(count, height, i % 3 == 0 ? 0 : 5, random);
 }
 
 Weights some_weights(const Mesh& mesh, std::mt19937_64& random, int kind) {

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "support/uneven_wheel.h"
+
 namespace brushfire {
 namespace {
 
@@ -73,18 +75,11 @@ TEST(Turns, AreFewForEachFaceOfAFanAndABook) {
 // before the next spoke, and go round for ever. Shares of a face down to its own last bits, whatever lies around it.
 TEST(Turns, ASourceBesideAVertexDoesNotGoRoundIt) {
   std::mt19937_64 random(20261130);
-  std::uniform_real_distribution<double> part(0, 1), power(-62, -36);
+  std::uniform_real_distribution<double> power(-62, -36);
   for (int i = 0; i < 4000; ++i) {
     const Index count = std::array{3U, 4U, 6U, 8U, 17U, 60U, 200U}[static_cast<std::size_t>(i) % 7];
     const double height = std::array{0.0, 0.3, 3.0, 30.0, 200.0}[static_cast<std::size_t>(i / 7) % 5];
-    std::vector<Vec3> p{{0, 0, height}};
-    std::vector<Face> t;
-    for (Index k = 0; k < count; ++k) {
-      const double angle = 2 * kPi * k / count, radius = i % 3 == 0 ? 1 : std::exp2(-6 * part(random));
-      p.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
-      t.push_back({0, 1 + k, 1 + (k + 1) % count});
-    }
-    const Mesh mesh(p, t);
+    const Mesh mesh = test::uneven_wheel(count, height, i % 3 == 0 ? 0 : 6, random);
     const double a = std::exp2(power(random)), b = i % 5 == 0 ? 0 : std::exp2(power(random));
     Source source;
     const SurfacePoint place{static_cast<Index>(random() % count), {1 - a - b, a, b}};
@@ -100,7 +95,8 @@ TEST(Turns, ASourceBesideAVertexDoesNotGoRoundIt) {
     // No farther from the source than from the hub, or nearer, than these are apart.
     const double apart = (a + b) * (1 + height);
     for (Index v = 1; v <= count; ++v) {
-      EXPECT_NEAR(field.distance[v], norm(p[v] - p[0]), apart + field.error_bound[v]) << i;
+      EXPECT_NEAR(field.distance[v], norm(mesh.positions()[v] - mesh.positions()[0]), apart + field.error_bound[v])
+          << i;
     }
   }
 }
