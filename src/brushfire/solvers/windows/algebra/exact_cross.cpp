@@ -286,10 +286,10 @@ Index cross_to_left(const WindowColumns& w, const Routes& routes, const Sight& s
   return dim ? without_slivers(out, count) : count;
 }
 
-Index cross_to_right(const WindowColumns& all, Index count, const Routes& routes, const Sight& sight,
+Index cross_to_right(const WindowColumns& windows, Index count, const Routes& routes, const Sight& sight,
                      const Frame& frame, const WindowColumns& out) {
   const Index begin = routes.right_begin;
-  const WindowColumns w = all.from(begin);
+  const WindowColumns w = windows.from(begin);
   count -= begin;
   if (!(frame.right > 0)) return 0;
   if (w.mixed) {
