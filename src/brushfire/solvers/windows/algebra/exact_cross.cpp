@@ -173,7 +173,7 @@ Index least_of(const Real* numbers, Index count) {
     for (Index k = 0; k < 4; ++k) least[k] = numbers[i + k] < least[k] ? numbers[i + k] : least[k];
   }
   for (; i < count; ++i) least[0] = std::min(least[0], numbers[i]);
-  const Real of_all = std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+  const Real of_all = std::min({least[0], least[1], least[2], least[3]});
   return static_cast<Index>(std::find(numbers, numbers + count, of_all) - numbers);
 }
 
