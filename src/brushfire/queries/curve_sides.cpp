@@ -140,8 +140,9 @@ class Shore {
       part(i, star(places_at(from)).side_of(point_of(curve_.places[to])));
       part(i, star(places_at(to)).side_of(point_of(curve_.places[from])));
     }
-    for (std::size_t next = 0; next < parted.size(); ++next) {
-      const Index i = parted[next];
+    while (!parted.empty()) {
+      const Index i = parted.back();
+      parted.pop_back();
       for (const Index p : {curve_.segments[i].from_place, curve_.segments[i].to_place}) {
         const std::vector<Index> places = places_at(p);
         if (!star(places).is_empty()) continue;
