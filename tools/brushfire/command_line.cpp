@@ -20,7 +20,8 @@ namespace {
 // Where to look next, for those who typed something wrong.
 std::string help_hint(const CLI::App& app) {
   std::string name = app.get_name();
-  for (const CLI::App* up = app.get_parent(); up != nullptr; up = up->get_parent()) name.insert(0, up->get_name() + " ");
+  for (const CLI::App* up = app.get_parent(); up != nullptr; up = up->get_parent())
+    name.insert(0, up->get_name() + " ");
   return " (see " + name + " --help)";
 }
 
