@@ -57,12 +57,15 @@ struct RowBeside {
 class Places {
  public:
   Places(const WeightedMesh& mesh, const PointLayout& layout, Costs costs, const Travel& travel)
-      : mesh_(mesh), layout_(layout), costs_(costs), travel_(travel) {}
+      : mesh_(mesh),
+        layout_(layout),
+        costs_(costs),
+        travel_(travel),
+        faces_(mesh.mesh().faces()),
+        lengths_(mesh.mesh().lengths()),
+        double_areas_(mesh.mesh().double_areas()) {}
 
-  Index end_of(Index edge, bool last) const {
-    const Index h = mesh_.edges().halfedge(edge);
-    return last ? mesh_.mesh().to(h) : mesh_.mesh().from(h);
-  }
+  Index end_of(Index edge, bool last) const { return mesh_.edges().end(edge, last); }
   // By how much an edge climbs per length, from its start on; 0 where slopes do not count.
   double gradient_along(Index edge) const;
   // The face of a halfedge over its edge.
@@ -85,6 +88,8 @@ class Places {
   const PointLayout& layout_;
   Costs costs_;
   Travel travel_;
+  std::span<const Face> faces_;
+  std::span<const double> lengths_, double_areas_;
 };
 
 }  // namespace brushfire::steiner
