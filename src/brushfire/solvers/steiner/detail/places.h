@@ -66,6 +66,10 @@ class Places {
         double_areas_(mesh.mesh().double_areas()) {}
 
   Index end_of(Index edge, bool last) const { return mesh_.edges().end(edge, last); }
+  bool is_usable(Index f) const {  // three distinct vertices
+    const Face& t = faces_[f];
+    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+  }
   // By how much an edge climbs per length, from its start on; 0 where slopes do not count.
   double gradient_along(Index edge) const;
   // The face of a halfedge over its edge.
