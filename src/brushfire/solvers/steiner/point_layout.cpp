@@ -53,7 +53,7 @@ Shapes shapes_of(const WeightedMesh& weighted) {
     const Index e = edges.edge(h), f = Mesh::face_of(h);
     EdgeShape& shape = shapes.edges[e];
     shape.length = lengths[h];
-    if (!mesh.is_face_usable(f) || weighted.face_weight(f) == kInfinity) continue;
+    if (!mesh.is_face_usable(f)) continue;  // but a wall counts: points stay where they are when it goes
     const Index from = faces[f][h % 3];
     const bool same_way = from == edges.end(e, false);
     // With a grain: as the face is laid out, where lengths are costs, but for the edge, which keeps its own.

@@ -86,7 +86,7 @@ void Replanner::change(Weights weights) {
   std::shared_ptr<const PointLayout> layout = state_->layout;
   if (state_->mesh) mesh = state_->mesh->reweighted(weights);
   if (!mesh) {
-    mesh = std::make_shared<WeightedMesh>(state_->domain, weights);
+    mesh = std::make_shared<WeightedMesh>(state_->domain, weights, Walls::Left);
     layout = std::make_shared<PointLayout>(*mesh, density_for(Costs::Real, state_->options.tolerance, 0));
   }
   const std::shared_ptr<Run> next = state_->located(std::move(mesh), std::move(layout), state_->sources);
