@@ -44,11 +44,13 @@ void Replanner::State::go_on(const std::shared_ptr<Run>& next) {
   layout = next->layout;
   const std::shared_ptr<Run> last = std::exchange(run, nullptr);
   field.run.reset();
-  Carried carried{unreached(*mesh, *layout), {}, 0};
+  Carried carried;
   if (last) {
     // Whoever keeps the field of before keeps its front.
     Run before = last.use_count() > 1 ? *last : std::move(*last);
     carried = carry(before, *next);
+  } else {
+    carried.front = unreached(*mesh, *layout);
   }
   renewed = 1 - carried.kept;
   Search search(*mesh, *layout, Costs::Real, options.towards);
