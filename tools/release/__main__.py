@@ -6,6 +6,7 @@ Without a word: sources, wheel, bill, sums. The others take long, or root and a 
   wheel    the wheel of this machine's Python, audited, and used where there is no compiler
   cross    wheels for other machines, by zig: cross manylinux-x86_64 musllinux-aarch64 ...; all of them without a name
   debs     Debian packages from clean machines of bookworm and trixie, lintian's words, symbols and ABI: debs trixie
+  clean    those in dist/ on bare machines: installed, the first tutorial run, timed: clean deb-trixie wheel npm ...
   again    sources and wheel once more: the same bytes?
   recipes  the recipes in packaging/ against what they speak of
   bill     SBOM (CycloneDX) and a list of licences of what the wheel has in it
@@ -25,7 +26,7 @@ import native
 import sources
 from common import DIST, SCRATCH, commit_date, run, version
 
-PARTS = ("sources", "wheel", "cross", "debs", "again", "recipes", "bill", "sums")
+PARTS = ("sources", "wheel", "cross", "debs", "clean", "again", "recipes", "bill", "sums")
 
 
 def wheel() -> None:
@@ -65,6 +66,10 @@ def do(part: str, names: list[str]) -> None:
 
         for release in names or debs.PROFILES:
             print(*debs.build(release), sep="\n")
+    elif part == "clean":
+        import clean
+
+        clean.try_all(names)
     elif part == "again":
         sources.again()
     elif part == "recipes":

@@ -12,6 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 DIST = ROOT / "dist"
 SCRATCH = ROOT / "build/dist"
+VIEWER = ROOT / "web/dist-single/index.html"  # of `brushfire view`; ./run web builds it
 FIRST_STEPS = """
 import brushfire as bf
 square = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])

@@ -18,7 +18,7 @@ import zipfile
 from pathlib import Path
 
 import third_party
-from common import DIST, ROOT, SCRATCH, commit_date, run, say, version
+from common import DIST, ROOT, SCRATCH, VIEWER, commit_date, run, say, version
 from zig import TARGETS, Target, cmake
 
 HEADERS = ("boost", "fast_float", "nlohmann", "stb", "eigen3")
@@ -104,9 +104,8 @@ def pack(target: Target, abi: str, compiled: Path, sources: Path) -> Path:
     files = {f"brushfire/{file.relative_to(sources / 'python/brushfire').as_posix()}": file.read_bytes()
              for file in sorted((sources / "python/brushfire").rglob("*"))
              if file.is_file() and "__pycache__" not in file.parts}  # fmt: skip
-    page = ROOT / "web/dist-single/index.html"
-    if page.exists():
-        files["brushfire/viewer.html"] = page.read_bytes()
+    if VIEWER.exists():
+        files["brushfire/viewer.html"] = VIEWER.read_bytes()
     files[f"brushfire/{module_name(target, abi)}"] = compiled.read_bytes()
     files |= metadata(sources)
     info = f"brushfire-{version()}.dist-info"
