@@ -8,7 +8,7 @@ Without a word: sources, wheel, bill, sums. The others take long, or root and a 
   debs     Debian packages from clean machines of bookworm and trixie, lintian's words, symbols and ABI: debs trixie
   clean    those in dist/ on bare machines: installed, the first tutorial run, timed: clean deb-trixie wheel npm ...
   again    sources and wheel once more: the same bytes?
-  recipes  the recipes in packaging/ against what they speak of
+  recipes  the recipes in packaging/ against what they speak of; workflows by actionlint, scripts by shellcheck
   bill     SBOM (CycloneDX) and a list of licences of what the wheel has in it
   sums     SHA256SUMS of all of it
 """
@@ -76,6 +76,7 @@ def do(part: str, names: list[str]) -> None:
         import recipes
 
         recipes.check()
+        recipes.lint()
     elif part == "bill":
         bill.write(libraries())
     else:
