@@ -75,7 +75,8 @@ def module(target: Target, abi: str, sources: Path) -> Path:
     nanobind = run(sys.executable, "-c", "import nanobind; print(nanobind.cmake_dir())")
     build = SCRATCH / target.name / "build"
     options = [f"-DPython_EXECUTABLE={python}", f"-DPython_INCLUDE_DIR={include}", f"-Dnanobind_DIR={nanobind}",
-               f"-Dnanobind_ROOT={nanobind}", "-DCMAKE_SHARED_LINKER_FLAGS=-s", "-DCMAKE_MODULE_LINKER_FLAGS=-s"]  # fmt: skip
+               f"-Dnanobind_ROOT={nanobind}", "-DCMAKE_SHARED_LINKER_FLAGS=-s", "-DCMAKE_MODULE_LINKER_FLAGS=-s",
+               "-DBRUSHFIRE_TOGETHER=ON", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON"]  # fmt: skip
     defines = re.search(r"\[tool.scikit-build.cmake.define\]\n(.*?)\n\n", (ROOT / "pyproject.toml").read_text(), re.DOTALL)[1]
     options += [f"-D{name}={value}" for name, value in re.findall(r'^(\w+) = "(\w+)"', defines, re.MULTILINE)]
     cmake(target, sources, build, "-UPython*", "-U_Python*", "-UNB_*", *options, targets=("_core",))
