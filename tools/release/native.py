@@ -21,8 +21,9 @@ def wheel(of_sdist: Path) -> tuple[Path, list[Path]]:
     with tarfile.open(of_sdist) as archive:
         archive.extractall(SCRATCH / "native", filter="data")
     sources = SCRATCH / "native" / of_sdist.name.removesuffix(".tar.gz")
-    # The compiler cache then knows the objects of ./run python.
-    run(sys.executable, "-m", "pip", "wheel", "--disable-pip-version-check", "--no-deps", "-w", SCRATCH / "native", sources,
+    # The compiler cache then knows the objects of ./run python: the same flags in a folder as deep.
+    run(sys.executable, "-m", "pip", "wheel", "--disable-pip-version-check", "--no-deps", "-w", SCRATCH / "native",
+        "--config-settings=cmake.define.BRUSHFIRE_WERROR=ON", sources,
         CCACHE_BASEDIR=str(sources), CCACHE_NOHASHDIR="1", CXX=os.environ.get("CXX", "c++"))  # fmt: skip
     raw = next((SCRATCH / "native").glob("*.whl"))
     with zipfile.ZipFile(raw) as archive:
