@@ -100,6 +100,7 @@ def try_out(place: Place) -> str:
         shutil.copy(file, packages)
     make_scan(home / "scan.ply")
     machine.inside("apt-get -qq update")
+    machine.inside("date --utc; cat /etc/debian_version /proc/loadavg; dpkg-query -W | wc -l; ! command -v cc python3 node", told=True)
     machine.inside(place.before, told=place.before != ":")
     machine.inside(f"cd /root/tutorial && {place.install}", told=True)
     row = [place.kind, place.release, f"{machine.seconds:.0f} s"]
