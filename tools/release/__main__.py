@@ -3,7 +3,7 @@
 Without a word: sources, wheel, bill, sums. The others take long, or root and a network:
 
   sources  source tarball, sdist, npm tarball (where ./run web has built the WebAssembly)
-  wheel    the wheel of this machine's Python, audited, and used where there is no compiler
+  wheel    wheels of this machine's Python, and of 3.12 and later where there is a 3.12; audited, used without a compiler
   cross    wheels for other machines, by zig: cross manylinux-x86_64 musllinux-aarch64 ...; all of them without a name
   debs     Debian packages from clean machines of bookworm and trixie, lintian's words, symbols and ABI: debs trixie
   clean    those in dist/ on bare machines: installed, the first tutorial run, timed: clean deb-trixie wheel npm ...
@@ -30,10 +30,11 @@ PARTS = ("sources", "wheel", "cross", "debs", "clean", "again", "recipes", "bill
 
 
 def wheel() -> None:
-    shutil.rmtree(SCRATCH / "native", ignore_errors=True)
-    made, libraries = native.wheel(sources.sdist())
-    (SCRATCH / "libraries.txt").write_text("\n".join(map(str, libraries)))
-    native.try_out(made)
+    sdist = sources.sdist()
+    for python in native.pythons():
+        made, libraries = native.wheel(sdist, python)
+        (SCRATCH / "libraries.txt").write_text("\n".join(map(str, libraries)))
+        native.try_out(made, python)
 
 
 def libraries() -> list[Path]:
