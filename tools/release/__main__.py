@@ -7,7 +7,7 @@ Without a word: sources, wheel, bill, sums. The others take long, or root and a 
   cross    wheels for other machines, by zig: cross manylinux-x86_64 musllinux-aarch64 ...; all of them without a name
   debs     Debian packages from clean machines of bookworm and trixie, lintian's words, symbols and ABI: debs trixie
   clean    those in dist/ on bare machines: installed, the first tutorial run, timed: clean deb-trixie wheel npm ...
-  again    sources and wheel once more: the same bytes?
+  again    sources and wheels twice: the same bytes?
   recipes  the recipes in packaging/ against what they speak of; workflows by actionlint, scripts by shellcheck
   bill     SBOM (CycloneDX) and a list of licences of what the wheel has in it
   sums     SHA256SUMS of all of it
@@ -29,12 +29,14 @@ from common import DIST, SCRATCH, commit_date, run, version
 PARTS = ("sources", "wheel", "cross", "debs", "clean", "again", "recipes", "bill", "sums")
 
 
-def wheel() -> None:
-    sdist = sources.sdist()
+def wheel() -> list[Path]:
+    sdist, wheels = sources.sdist(), []
     for python in native.pythons():
         made, libraries = native.wheel(sdist, python)
         (SCRATCH / "libraries.txt").write_text("\n".join(map(str, libraries)))
         native.try_out(made, python)
+        wheels.append(made)
+    return wheels
 
 
 def libraries() -> list[Path]:
@@ -72,7 +74,8 @@ def do(part: str, names: list[str]) -> None:
 
         clean.try_all(names)
     elif part == "again":
-        sources.again()
+        sources.again(sources.all_of_them)
+        sources.again(wheel)
     elif part == "recipes":
         import recipes
 
