@@ -29,6 +29,8 @@ struct CurveArrival {
 // left if the curve goes out there, right if it comes in. (So it is also where a curve passes a place more than once.)
 // At the end of an open curve it is the side of the line straight on, which halves the directions (on a boundary the
 // two sides of the segment, as far as there is surface); on a curve itself, and at a point, there is none.
+// Segments that the curve runs over once more, the other way round, part nothing: both of their sides are that of the
+// sector in which they lie where the curve's other segments leave them, and a curve without others has no sides.
 //
 // `field`: of an exact run from these sources with DistanceOptions::keep_paths, on this mesh, without walls. Throws
 // what WindowField::last_leg() throws, and Error(InvalidArgument) where a curve has a place at a vertex whose faces
