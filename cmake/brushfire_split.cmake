@@ -18,5 +18,6 @@ file(WRITE ${whole}.wide.txt "${wide}\n")
 execute_process(COMMAND ${wasm_split} ${features} ${whole} --split-funcs=@${whole}.wide.txt --export-prefix=%
   -o1 ${first} -o2 ${second} COMMAND_ERROR_IS_FATAL ANY)
 foreach(module ${first} ${second})
-  execute_process(COMMAND ${wasm_opt} ${features} --strip-debug -Oz ${module} -o ${module} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${wasm_opt} ${features} --strip-debug --post-emscripten -Oz --low-memory-unused --zero-filled-memory
+    ${module} -o ${module} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
