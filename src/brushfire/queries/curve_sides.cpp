@@ -2,6 +2,7 @@
 #include <brushfire/queries/curve_sides.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/curve_star.h>
@@ -198,7 +199,7 @@ class Shore {
       const PointLocation& other = curve_.places[p->second].at;
       if (other.on == at.on && distance_within(mesh_, at.face, at, other) <= near) found.push_back(p->second);
     }
-    std::sort(found.begin(), found.end());
+    detail::sort(found.begin(), found.end());
     return found;
   }
 
