@@ -34,6 +34,9 @@ struct Axes {
   Vec3 along, inward;
 };
 
+// Rays that are followed at once: enough for none to wait for memory, few enough for their crossings to stay near.
+constexpr std::size_t kTogether = 8;
+
 class Sweep {
  public:
   // value: of every vertex of the mesh.
@@ -249,7 +252,7 @@ class Sweep {
   std::vector<Pull> pull_;                                // [halfedge_count]
   std::vector<double> stray_;                             // [vertex_count] weight that still has to go on from there
   std::priority_queue<std::pair<double, Index>> strays_;  // by value: where there is some
-  std::array<windows::RayWalk::Ray, 8> together_;
+  std::array<windows::RayWalk::Ray, kTogether> together_;
   std::vector<windows::RayCrossing> crossings_;  // of the ray at hand
   DistanceGradient gradient_;
 };
