@@ -238,8 +238,7 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
   std::size_t place = 0;
   for (const auto& sides : run.targets) {
     refraction::Known there;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      const PointLocation& p = sides[i];
+    for (const PointLocation& p : sides) {
       there = better(there, p.on == PointLocation::On::Vertex ? at_vertex(p.vertex) : windows.at_target(place));
       ++place;
     }
