@@ -87,9 +87,9 @@ CurveSide CurveStar::side_of(const SurfacePoint& from) const {
 // next one.
 template <class FromArm>
 CurveSide CurveStar::side_between_borders(const FromArm& from_arm) const {
-  const Arm* best = nullptr;
+  const Arm* best = &arms_.front();
   for (const Arm& a : arms_) {
-    const double there = from_arm(a), known = best != nullptr ? from_arm(*best) : -kInfinity;
+    const double there = from_arm(a), known = from_arm(*best);
     if (there >= 0 ? !(known >= 0 && known <= there) : known < 0 && there > known) best = &a;
   }
   return best->goes_out == (from_arm(*best) >= 0) ? CurveSide::Left : CurveSide::Right;
