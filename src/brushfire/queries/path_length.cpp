@@ -224,7 +224,7 @@ PathLength path_length(const Domain& domain, const DistanceField& field, Index t
     SurfacePath path = path_to(*field.windows, side);
     if (best.points.empty() || path.length < best.length) best = std::move(path);
   }
-  const PathLength found(open, best.points);
+  PathLength found(open, best.points);
   if (!domain.has_walls()) return found;
   return found.renumbered(domain.cut()->original_vertex);
 }

@@ -77,7 +77,9 @@ class Dijkstra final : public Engine {
   }
   // Whether the last one of them is final now that v is.
   bool was_last(Index v) {
-    return to_come_ > 0 && std::binary_search(awaited_.begin(), awaited_.end(), v) && --to_come_ == 0;
+    if (to_come_ == 0 || !std::binary_search(awaited_.begin(), awaited_.end(), v)) return false;
+    --to_come_;
+    return to_come_ == 0;
   }
 
   // By more than what keys are rounded by.

@@ -36,7 +36,7 @@ void FacePartition::close_rings(std::vector<std::pair<Index, Index>> links) {
     return at != first_of.end() && at->first == v ? at->second : v;
   };
   for (const auto& [from, to] : links) first_of.emplace_back(to, first(from));
-  ghosts_ = links;
+  ghosts_ = std::move(links);
   for (const auto& [to, its_first] : first_of) ghosts_.emplace_back(to, its_first);
   // Where a vertex has two entries, the one that leads on is the larger; the one that leads back goes.
   detail::sort(ghosts_.begin(), ghosts_.end(), [](const auto& a, const auto& b) {
