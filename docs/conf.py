@@ -32,6 +32,7 @@ maximum_signature_line_length = 90
 html_theme = "furo"
 html_title = "Brushfire"
 html_static_path = ["_static"]
+html_favicon = "_static/icon.svg"
 html_extra_path = ["extra"]  # the viewer
 html_css_files = ["site.css"]
 html_copy_source = False

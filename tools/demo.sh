@@ -49,7 +49,7 @@ $brushfire distance "$scan" --source 0 --method exact -o "$result-exact.npy" --j
 echo "  on this mesh against exact window propagation ($(round "$(value solve_s <demo/exact.json)" %.2g) s):"
 for field in "$result.ply" "$fast"; do
   error=$($brushfire compare "$field" "$result-exact.npy" --json)
-  echo "    $([ "$field" = "$fast" ] && echo novotni-klein || value method <<<"$told"):" \
+  echo "    $(if [ "$field" = "$fast" ]; then echo novotni-klein; else value method <<<"$told"; fi):" \
     "mean error $(percent "$(value mean_relative <<<"$error")"), largest $(percent "$(value max_relative <<<"$error")")"
 done
 

@@ -56,7 +56,7 @@ finish() {
   printf '\n%-9s %-5s %-11s %-7s %8s\n' release user command result seconds
   if [ ${#table[@]} -gt 0 ]; then printf '%s\n' "${table[@]}"; fi
   echo "Processors: $(nproc). Compiled files from a cache: $(if [ -n "$cache" ]; then echo "yes, $cache"; else echo no; fi)."
-  exit $status
+  exit "$status"
 }
 trap finish EXIT
 trap 'kill -KILL "$worker" 2>/dev/null; wait; exit 130' INT TERM

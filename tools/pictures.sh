@@ -12,7 +12,7 @@ $brushfire render "$scan" --source 0 --isolines 30 --path "$far" --path 20000 --
   --ambient-occlusion --size 720x600 -o docs/images/bunny.png
 $brushfire render "$scan" --source 0 --isolines 30 --bar-title distance "${view[@]}" \
   --method kimmel-sethian --method exact --error --size 440x400 -o docs/images/error.png
-$brushfire render "$scan" --source 0 --wave 60 "${view[@]}" --no-bar --size 420x360 -o docs/images/brushfire.webp
+$brushfire render "$scan" --source 0 --wave 60 "${view[@]}" --no-bar --size 720x600 -o docs/images/brushfire.webp
 # Walls and cells (docs/walls-and-cells.md): a mask that leaves out every fourth cell of twelve, and centroidal cells.
 temporary=$(mktemp -d)
 trap 'rm -rf "$temporary"' EXIT

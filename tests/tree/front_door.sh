@@ -20,7 +20,7 @@ machine() {
   place=$scratch/$1
   mkdir -p "$place/bin" "$place/tree"
   cp "$run" "$place/tree/run"
-  : >"$place/offered" >"$place/installed" >"$place/asked"
+  : | tee "$place/offered" "$place/installed" >"$place/asked"
   for tool in bash sh env dirname mktemp cat rm sed grep seq sleep nproc find xargs printf mkdir sort; do
     ln -s "$(command -v $tool)" "$place/bin/$tool"
   done
@@ -84,7 +84,7 @@ mapfile -t names < <(required "${all[@]}")
 apt "${names[@]}"
 for words in build lint fuzz; do
   job $words
-  packages=${words}_packages[@]
+  packages="${words}_packages[@]"
   for name in $(optional "${!packages}"); do
     expect "$words: each package that is not on offer is named" 'says "(no $name in this distribution: going on without)"'
   done
@@ -98,7 +98,7 @@ expect "clang-tidy, too" '[ $code = 77 ] && says "its checks are left out"'
 
 # Ubuntu 22.04: LLVM of other versions, and version 19 from elsewhere, under a name without the number.
 machine other_names
-mapfile -t names < <(words "${names[@]}" $(optional "${build_packages[@]}" +libembree-dev +valgrind +ccache))
+mapfile -t names < <({ words "${names[@]}"; optional "${build_packages[@]}" +libembree-dev +valgrind +ccache; } | sort -u)
 apt "${names[@]}"
 stub clang-format <<<'echo "Ubuntu clang-format version 14.0.0-1ubuntu1"'
 job format

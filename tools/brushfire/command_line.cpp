@@ -20,7 +20,8 @@ namespace {
 // Where to look next, for those who typed something wrong.
 std::string help_hint(const CLI::App& app) {
   std::string name = app.get_name();
-  for (const CLI::App* up = app.get_parent(); up != nullptr; up = up->get_parent()) name = up->get_name() + " " + name;
+  for (const CLI::App* up = app.get_parent(); up != nullptr; up = up->get_parent())
+    name.insert(0, up->get_name() + " ");
   return " (see " + name + " --help)";
 }
 
@@ -277,7 +278,7 @@ std::vector<VerbNames> CommandLine::names() const {
       for (const std::string& l : option->get_lnames()) names.names.push_back("--" + l);
       if (!dashed) names.names = {option->get_name()};
       names.takes_value = option->get_items_expected_max() > 0;
-      names.is_number = parser->numbers.count(option) > 0;
+      names.is_number = parser->numbers.contains(option);
       if (names.takes_value) names.placeholder = option->get_type_name();
       names.help = reason == parser->refused.end() ? option->get_description() : reason->second;
       std::replace(names.help.begin(), names.help.end(), '\n', ' ');

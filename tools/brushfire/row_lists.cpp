@@ -99,11 +99,10 @@ std::vector<Where> vertices_of(const std::string& file, const std::string& optio
   const bool is_mask = field.format != "NPY" || (field.values.size() == count && count > 2 &&
                                                  std::all_of(field.values.begin(), field.values.end(), is_bit));
   if (!is_mask) {
-    for (const double value : field.values) {
-      if (!(value >= 0 && value == std::floor(value)))
-        refuse(option + " " + file + ": " + exact(value) + " is no vertex");
-      places.push_back(vertex(static_cast<std::uint64_t>(value)));
-    }
+    const auto is_number = [](double value) { return value >= 0 && value == std::floor(value); };
+    const auto odd = std::find_if_not(field.values.begin(), field.values.end(), is_number);
+    if (odd != field.values.end()) refuse(option + " " + file + ": " + exact(*odd) + " is no vertex");
+    for (const double value : field.values) places.push_back(vertex(static_cast<std::uint64_t>(value)));
     return places;
   }
   const std::vector<double> values = values_on_vertices(field, count, 0);

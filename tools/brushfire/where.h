@@ -87,7 +87,7 @@ class PlaceFinder {
   SurfacePoint source(const Where& where);  // also for a vertex in no face
 
   // A curve that was put onto the surface, from so far away at most. Throws as target() does.
-  void moved(const Where& curve, double gap);
+  void moved(const Where& where, double distance);
 
   // How many positions were moved by more than the rounding of coordinates, and the farthest: one line, or nothing.
   void tell(const Talk& talk) const;

@@ -3,11 +3,12 @@
 Without a word: sources, wheel, bill, sums. The others take long, or root and a network:
 
   sources  source tarball, sdist, npm tarball (where ./run web has built the WebAssembly)
-  wheel    the wheel of this machine's Python, audited, and used where there is no compiler
+  wheel    wheels of this machine's Python, and of 3.12 and later where there is a 3.12; audited, used without a compiler
   cross    wheels for other machines, by zig: cross manylinux-x86_64 musllinux-aarch64 ...; all of them without a name
   debs     Debian packages from clean machines of bookworm and trixie, lintian's words, symbols and ABI: debs trixie
-  again    sources and wheel once more: the same bytes?
-  recipes  the recipes in packaging/ against what they speak of
+  clean    those in dist/ on bare machines: installed, the first tutorial run, timed: clean deb-trixie wheel npm ...
+  again    sources and wheels twice: the same bytes?
+  recipes  the recipes in packaging/ against what they speak of; workflows by actionlint, scripts by shellcheck
   bill     SBOM (CycloneDX) and a list of licences of what the wheel has in it
   sums     SHA256SUMS of all of it
 """
@@ -25,14 +26,17 @@ import native
 import sources
 from common import DIST, SCRATCH, commit_date, run, version
 
-PARTS = ("sources", "wheel", "cross", "debs", "again", "recipes", "bill", "sums")
+PARTS = ("sources", "wheel", "cross", "debs", "clean", "again", "recipes", "bill", "sums")
 
 
-def wheel() -> None:
-    shutil.rmtree(SCRATCH / "native", ignore_errors=True)
-    made, libraries = native.wheel(sources.sdist())
-    (SCRATCH / "libraries.txt").write_text("\n".join(map(str, libraries)))
-    native.try_out(made)
+def wheel() -> list[Path]:
+    sdist, wheels = sources.sdist(), []
+    for python in native.pythons():
+        made, libraries = native.wheel(sdist, python)
+        (SCRATCH / "libraries.txt").write_text("\n".join(map(str, libraries)))
+        native.try_out(made, python)
+        wheels.append(made)
+    return wheels
 
 
 def libraries() -> list[Path]:
@@ -65,12 +69,18 @@ def do(part: str, names: list[str]) -> None:
 
         for release in names or debs.PROFILES:
             print(*debs.build(release), sep="\n")
+    elif part == "clean":
+        import clean
+
+        clean.try_all(names)
     elif part == "again":
-        sources.again()
+        sources.again(sources.all_of_them)
+        sources.again(wheel)
     elif part == "recipes":
         import recipes
 
         recipes.check()
+        recipes.lint()
     elif part == "bill":
         bill.write(libraries())
     else:

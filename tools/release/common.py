@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 DIST = ROOT / "dist"
 SCRATCH = ROOT / "build/dist"
+VIEWER = ROOT / "web/dist-single/index.html"  # of `brushfire view`; ./run web builds it
 FIRST_STEPS = """
 import brushfire as bf
 square = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
@@ -32,6 +34,18 @@ def run(*command: str | Path, cwd: Path = ROOT, **more: str) -> str:
 
 def say(*words: object) -> None:
     print(*words, file=sys.stderr, flush=True)
+
+
+def interpreter(minor: str) -> Path | None:
+    """A Python of that version with its headers; those that are on the way come first."""
+    found = [shutil.which(f"python{minor}"), *(Path.home() / ".pyenv/versions").glob(f"{minor}.*/bin/python{minor}")]
+    for python in filter(None, found):
+        done = subprocess.run([python, "-c", "import sysconfig, pathlib; p = sysconfig.get_path('include'); "
+                               "assert (pathlib.Path(p) / 'Python.h').exists(); print(p)"],
+                              capture_output=True, text=True, check=False)  # fmt: skip
+        if done.returncode == 0:
+            return Path(python)
+    return None
 
 
 def version() -> str:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
-import sys
 from pathlib import Path
 
-from common import DIST, run, say, version
+from common import DIST, VIEWER, say, version
 from machine import Machine
 
 # Bookworm has no nanobind, so no python3-brushfire: the wheel serves there.
@@ -25,11 +25,15 @@ def build(release: str) -> list[Path]:
     say(f"{release}: installing what the packages are built with")
     machine.install("build-essential", "debhelper", "lintian", "abigail-tools", "ccache")
     machine.inside(f"cd /root && tar -xf *-source.tar.gz && mv brushfire-{version()} brushfire")
+    if VIEWER.exists():
+        page = machine.folder / "root/brushfire/web/dist-single"
+        page.mkdir()
+        shutil.copy(VIEWER, page)
     machine.inside("cd /root/brushfire && apt-get -qq build-dep -y --no-install-recommends ./", DEB_BUILD_PROFILES=profile)
     say(f"{release}: building the packages")
     launcher = {"CMAKE_CXX_COMPILER_LAUNCHER": "ccache", "CCACHE_DIR": "/var/cache/ccache", "CCACHE_NOHASHDIR": "1",
                 "CCACHE_BASEDIR": "/root/brushfire"} if machine.cache else {}  # fmt: skip
-    machine.inside("cd /root/brushfire && dpkg-buildpackage -b -us -uc -j4", DEB_BUILD_PROFILES=profile, **launcher)
+    machine.inside(f"cd /root/brushfire && dpkg-buildpackage -b -us -uc -j{os.cpu_count()}", DEB_BUILD_PROFILES=profile, **launcher)
     said = machine.inside("cd /root && lintian --allow-root --info --display-info brushfire_*.changes || true")
     (out / "lintian.txt").write_text(said or "(nothing)\n")
     found = sorted(machine.folder.glob("root/*.deb"))
@@ -53,8 +57,3 @@ def interface(machine: Machine, out: Path) -> None:
     )
     shutil.copy(machine.folder / "root/libbrushfire1.abi", out)
 
-
-if __name__ == "__main__":
-    for release in sys.argv[1:] or PROFILES:
-        print(*build(release), sep="\n")
-    run("true")

@@ -46,6 +46,7 @@ class Machine:
                             "TERM": "dumb", "LC_ALL": "C.UTF-8", "DEBIAN_FRONTEND": "noninteractive"}  # fmt: skip
         self.network()
         self.log: list[str] = []
+        self.seconds = 0.0  # that the last command took
 
     def network(self) -> None:
         """What this network asks of everyone in it."""
@@ -67,8 +68,9 @@ class Machine:
              "enter", str(self.folder), self.cache, *words, "bash", "-euo", "pipefail", "-c", command],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
         )  # fmt: skip
+        self.seconds = time.monotonic() - begin
         if told:
-            self.log += [f"$ {command}", *done.stdout.rstrip().splitlines()[-40:], f"[{time.monotonic() - begin:.1f} s]", ""]
+            self.log += [f"$ {command}", *done.stdout.rstrip().splitlines()[-40:], f"[{self.seconds:.1f} s]", ""]
         if done.returncode:
             raise SystemExit(f"{self.release}: {command}\n{done.stdout[-20000:]}")
         return done.stdout

@@ -1,39 +1,46 @@
-"""The wheel of this machine's own Python, with the system's libraries that it links put in by auditwheel."""
+"""Wheels of this machine's own Pythons, with the system's libraries that they link put in by auditwheel."""
 
 from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tarfile
 import tempfile
-import venv
 import zipfile
 from pathlib import Path
 
-from common import DIST, FIRST_STEPS, SCRATCH, run
+from common import DIST, FIRST_STEPS, SCRATCH, interpreter, run
 
 
-def wheel(of_sdist: Path) -> tuple[Path, list[Path]]:
+def pythons() -> list[Path]:
+    """This machine's own, and one whose wheel serves every later version, where there is one."""
+    return [Path(sys.executable), *filter(None, [interpreter("3.12")])]
+
+
+def wheel(of_sdist: Path, python: Path) -> tuple[Path, list[Path]]:
     """Made of the sdist, so that what it lacks is missed; and the system's libraries that are now in it."""
-    SCRATCH.mkdir(parents=True, exist_ok=True)
+    folder = SCRATCH / "native"
+    shutil.rmtree(folder, ignore_errors=True)
     with tarfile.open(of_sdist) as archive:
-        archive.extractall(SCRATCH / "native", filter="data")
-    sources = SCRATCH / "native" / of_sdist.name.removesuffix(".tar.gz")
-    # The compiler cache then knows the objects of ./run python.
-    run(sys.executable, "-m", "pip", "wheel", "--disable-pip-version-check", "--no-deps", "-w", SCRATCH / "native", sources,
+        archive.extractall(folder, filter="data")
+    sources = folder / of_sdist.name.removesuffix(".tar.gz")
+    # The compiler cache then knows the objects of ./run python: the same flags in a folder as deep.
+    run(python, "-m", "pip", "wheel", "--disable-pip-version-check", "--no-deps", "-w", folder,
+        "--config-settings=cmake.define.BRUSHFIRE_WERROR=ON", sources,
         CCACHE_BASEDIR=str(sources), CCACHE_NOHASHDIR="1", CXX=os.environ.get("CXX", "c++"))  # fmt: skip
-    raw = next((SCRATCH / "native").glob("*.whl"))
+    raw = next(folder.glob("*.whl"))
     with zipfile.ZipFile(raw) as archive:
-        archive.extractall(SCRATCH / "native/wheel")
-    module = next((SCRATCH / "native/wheel").rglob("_core*.so"))
-    needed = re.findall(r"=> (\S+)", run("ldd", module))
-    run(sys.executable, "-m", "auditwheel", "repair", "--strip", "-w", DIST, raw)
-    repaired = max(DIST.glob("*.whl"), key=lambda file: file.stat().st_mtime)
+        archive.extractall(folder / "wheel")
+    needed = re.findall(r"=> (\S+)", run("ldd", next((folder / "wheel").rglob("_core*.so"))))
+    run(sys.executable, "-m", "auditwheel", "repair", "--strip", "-w", folder / "audited", raw)
+    repaired = next((folder / "audited").glob("*.whl"))
     with zipfile.ZipFile(repaired) as archive:
         stems = {re.split(r"-[0-9a-f]{8}", Path(name).name)[0] for name in archive.namelist() if ".libs/" in name}
-    return repaired, [Path(path) for path in needed if any(Path(path).name.startswith(stem) for stem in stems if stem)]
+    shutil.copy(repaired, DIST)
+    return DIST / repaired.name, [Path(path) for path in needed if any(Path(path).name.startswith(s) for s in stems if s)]
 
 
 def owner(library: Path) -> str:
@@ -45,11 +52,11 @@ def owner(library: Path) -> str:
     raise SystemExit(f"no package owns {library}")
 
 
-def try_out(file: Path) -> None:
+def try_out(file: Path, with_python: Path) -> None:
     """Where there is no compiler to fall back on, and nothing else of ours."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        venv.create(folder / "venv", with_pip=True)
+        run(with_python, "-m", "venv", folder / "venv")
         python = folder / "venv/bin/python"
         run(python, "-m", "pip", "install", "--disable-pip-version-check", "--only-binary", ":all:", file,
             CC="false", CXX="false")  # fmt: skip

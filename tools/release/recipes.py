@@ -1,4 +1,7 @@
-"""The recipes in packaging/ against what they speak of: versions, CMake's options; and by their own tools where these are."""
+"""The recipes in packaging/ against what they speak of: versions, CMake's options; and by their own tools where these are.
+
+GitHub's workflows and all scripts, too, by actionlint and shellcheck.
+"""
 
 from __future__ import annotations
 
@@ -37,14 +40,30 @@ def check() -> None:
     if features != set(manifest["features"]):
         raise SystemExit(f"vcpkg: portfile.cmake has {sorted(features)}, vcpkg.json {sorted(manifest['features'])}")
     print(f"vcpkg, conda, conan: version {version()}, {len(used)} of CMake's options")
-    program = shutil.which("conan") or Path(sys.executable).with_name("conan")
-    if not Path(program).exists():
-        print("(no conan here: its recipe is not exported)")
-        return
-    with tempfile.TemporaryDirectory() as home:
-        run(program, "export", packaging / "conan", "--version", version(), CONAN_HOME=home)
-    print("conan: exported")
+    if conan := program("conan"):
+        with tempfile.TemporaryDirectory() as home:
+            run(conan, "export", packaging / "conan", "--version", version(), CONAN_HOME=home)
+        print("conan: exported")
+
+
+def program(name: str) -> str | None:
+    """Where it is: on the way, or in this virtual environment."""
+    found = shutil.which(name) or shutil.which(name, path=Path(sys.executable).parent)
+    if not found:
+        print(f"(no {name} here: what it checks is not checked)")
+    return found
+
+
+def lint() -> None:
+    if actionlint := program("actionlint"):
+        run(actionlint)
+        print("actionlint: nothing")
+    if shellcheck := program("shellcheck"):
+        scripts = run("git", "ls-files", "*.sh", "run", ".ci/run", "debian/tests/program", "debian/tests/library").split("\n")
+        run(shellcheck, *scripts)
+        print(f"shellcheck: nothing, in {len(scripts)} scripts")
 
 
 if __name__ == "__main__":
     check()
+    lint()

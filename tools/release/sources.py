@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from common import DIST, ROOT, commit_date, run, say, version
@@ -42,12 +43,12 @@ def all_of_them() -> list[Path]:
     return [file for file in (source_tarball(), sdist(), npm_tarball()) if file]
 
 
-def again() -> None:
-    """Builds what is in dist/ once more, and says whether every byte is the same."""
-    before = {file: hashlib.sha256(file.read_bytes()).hexdigest() for file in all_of_them()}
+def again(build: Callable[[], list[Path]]) -> None:
+    """Builds twice, and says whether every byte is the same."""
+    before = {file: hashlib.sha256(file.read_bytes()).hexdigest() for file in build()}
     for file in before:
         file.unlink()
-    for file in all_of_them():
+    for file in build():
         same = hashlib.sha256(file.read_bytes()).hexdigest() == before[file]
         print(f"{file.name}: {'the same bytes' if same else 'DIFFERENT'}")
         if not same:

@@ -1,41 +1,30 @@
 """Wheels for machines that are not this one: the sdist compiled by zig, its libraries inside of the module.
 
 A wheel is what scikit-build-core would make of the same sources: its metadata is asked of it. On Linux auditwheel says
-whether the platform tag is kept. What a target cannot run here is named in dist/BUILT.txt.
+whether the platform tag is kept. dist/BUILT.txt says which of them have been run, and which this machine cannot run.
 """
 
 from __future__ import annotations
 
 import base64
 import hashlib
+import platform
 import re
 import shutil
-import subprocess
 import sys
 import tarfile
 import time
 import zipfile
 from pathlib import Path
 
+import native
 import third_party
-from common import DIST, ROOT, SCRATCH, commit_date, run, say, version
+from common import DIST, ROOT, SCRATCH, VIEWER, commit_date, interpreter, run, say, version
 from zig import TARGETS, Target, cmake
 
 HEADERS = ("boost", "fast_float", "nlohmann", "stb", "eigen3")
 # The interpreter whose headers a build takes, and what its wheels are called. 3.12's stable ABI is that of all later ones.
 PYTHONS = {"cp311": ("3.11", "cp311-cp311"), "abi3": ("3.12", "cp312-abi3")}
-
-
-def interpreter(minor: str) -> Path | None:
-    """A Python of that version with numpy-less headers; the ones that are on the way come first."""
-    found = [shutil.which(f"python{minor}"), *Path("/root/.pyenv/versions").glob(f"{minor}.*/bin/python{minor}")]
-    for python in filter(None, found):
-        done = subprocess.run([python, "-c", "import sysconfig, pathlib; p = sysconfig.get_path('include'); "
-                               "assert (pathlib.Path(p) / 'Python.h').exists(); print(p)"],
-                              capture_output=True, text=True, check=False)  # fmt: skip
-        if done.returncode == 0:
-            return Path(python)
-    return None
 
 
 def unpacked_sdist() -> Path:
@@ -75,7 +64,8 @@ def module(target: Target, abi: str, sources: Path) -> Path:
     nanobind = run(sys.executable, "-c", "import nanobind; print(nanobind.cmake_dir())")
     build = SCRATCH / target.name / "build"
     options = [f"-DPython_EXECUTABLE={python}", f"-DPython_INCLUDE_DIR={include}", f"-Dnanobind_DIR={nanobind}",
-               f"-Dnanobind_ROOT={nanobind}", "-DCMAKE_SHARED_LINKER_FLAGS=-s", "-DCMAKE_MODULE_LINKER_FLAGS=-s"]  # fmt: skip
+               f"-Dnanobind_ROOT={nanobind}", "-DCMAKE_SHARED_LINKER_FLAGS=-s", "-DCMAKE_MODULE_LINKER_FLAGS=-s",
+               "-DBRUSHFIRE_TOGETHER=ON", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON"]  # fmt: skip
     defines = re.search(r"\[tool.scikit-build.cmake.define\]\n(.*?)\n\n", (ROOT / "pyproject.toml").read_text(), re.DOTALL)[1]
     options += [f"-D{name}={value}" for name, value in re.findall(r'^(\w+) = "(\w+)"', defines, re.MULTILINE)]
     cmake(target, sources, build, "-UPython*", "-U_Python*", "-UNB_*", *options, targets=("_core",))
@@ -104,9 +94,8 @@ def pack(target: Target, abi: str, compiled: Path, sources: Path) -> Path:
     files = {f"brushfire/{file.relative_to(sources / 'python/brushfire').as_posix()}": file.read_bytes()
              for file in sorted((sources / "python/brushfire").rglob("*"))
              if file.is_file() and "__pycache__" not in file.parts}  # fmt: skip
-    page = ROOT / "web/dist-single/index.html"
-    if page.exists():
-        files["brushfire/viewer.html"] = page.read_bytes()
+    if VIEWER.exists():
+        files["brushfire/viewer.html"] = VIEWER.read_bytes()
     files[f"brushfire/{module_name(target, abi)}"] = compiled.read_bytes()
     files |= metadata(sources)
     info = f"brushfire-{version()}.dist-info"
@@ -134,15 +123,24 @@ def build(target: Target, abis: tuple[str, ...] = tuple(PYTHONS)) -> list[Path]:
         wheels.append(pack(target, abi, module(target, abi, sources), sources))
         if target.system == "Linux" and "gnu" in target.triple:
             audit(wheels[-1])
+        note(wheels[-1], tried=target.name == f"manylinux-{platform.machine()}" and try_out(wheels[-1], abi))
     return wheels
+
+
+def try_out(wheel: Path, abi: str) -> bool:
+    native.try_out(wheel, interpreter(PYTHONS[abi][0]))
+    return True
+
+
+def note(wheel: Path, *, tried: bool) -> None:
+    """In dist/BUILT.txt: what has been made, and whether it has been run."""
+    file = DIST / "BUILT.txt"
+    others = [line for line in file.read_text().splitlines() if not line.startswith(wheel.name)] if file.exists() else []
+    here = f"{wheel.name}: built, {'installed and run here' if tried else 'not run: this machine is another one'}"
+    file.write_text("\n".join(sorted([*others, here])) + "\n")
 
 
 def audit(wheel: Path) -> None:
     said = run(sys.executable, "-m", "auditwheel", "show", wheel)
     if "manylinux_2_17" not in said.replace("\n", " "):
         raise SystemExit(said)
-
-
-if __name__ == "__main__":
-    for name in sys.argv[1:] or TARGETS:
-        print(*build(TARGETS[name]), sep="\n")

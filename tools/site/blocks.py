@@ -17,7 +17,6 @@ there as bf. The folder holds scan.ply, a sphere with dents of 642 vertices, and
 from __future__ import annotations
 
 import contextlib
-import difflib
 import io
 import os
 import re
@@ -28,84 +27,15 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
+from pages import PROGRAM, ROOT, Block, Failure, blocks_of, compare, make_scan
 
 import brushfire as bf
 
-ROOT = Path(__file__).parents[2]
-PROGRAM = ROOT / "build/release/brushfire"
 WASM = ROOT / "js/lib/brushfire.wasm"
 VIEWER = PROGRAM.with_name("viewer.html")
 SLOW = 2  # seconds of processor time of one block, beyond which it is told
-PROSE = {"", "text", "ts", "{toctree}", "{drawing}", "{eval-rst}", "{viewer}"}
-LANGUAGES = {"python": "python", "sh": "sh", "bash": "sh", "console": "console", "c++": "c++", "cpp": "c++", "js": "js"}
-
-
-@dataclass
-class Block:
-    page: str
-    line: int
-    language: str
-    text: str
-    expected: str | None = None
-    reason: str | None = None  # why it is not run
-    hidden: bool = False
-
-
-class Failure(Exception):
-    pass
-
-
-# ---- reading ---------------------------------------------------------------------------------------------------------
-def blocks_of(file: Path) -> list[Block]:
-    page = file.relative_to(ROOT).as_posix()
-    lines = file.read_text().splitlines()
-    found: list[Block] = []
-    reason: str | None = None
-    follows = False  # whether only blank lines lie between the last block and here
-    i = 0
-    while i < len(lines):
-        line = lines[i]
-        start = i + 1
-        if fence := re.match(r"(`{3,}|:{3,})(\S*)", line):
-            end = next((k for k in range(i + 1, len(lines)) if lines[k].strip() == fence[1]), None)
-            if end is None:
-                raise Failure(f"{page}:{start}: the block does not end")
-            text = "\n".join(lines[i + 1 : end])
-            i = end + 1
-            if fence[2] == "text" and follows and reason is None and found and found[-1].reason is None:
-                found[-1].expected = text
-                follows = False
-                continue
-            if fence[2] in PROSE:
-                continue
-            if fence[2] not in LANGUAGES and reason is None:
-                raise Failure(
-                    f"{page}:{start}: nobody runs a block of {fence[2]}; say why above it: <!-- not run: REASON -->"
-                )
-            found.append(Block(page, start, LANGUAGES.get(fence[2], fence[2]), text, reason=reason))
-            reason, follows = None, True
-            continue
-        if hidden := re.match(r"<!-- run: (\w[\w+]*)$", line):
-            end = next(k for k in range(i + 1, len(lines)) if lines[k].strip() == "-->")
-            found.append(Block(page, start, LANGUAGES[hidden[1]], "\n".join(lines[i + 1 : end]), hidden=True))
-            i = end + 1
-            continue
-        if said := re.search(r"<!-- not run: (.*) -->$", line):
-            reason, follows = said[1], False
-        elif re.match(r" {4}(brushfire|\./run|git) ", line) and (i == 0 or not lines[i - 1].strip()):
-            end = next((k for k in range(i, len(lines)) if not lines[k].startswith("    ")), len(lines))
-            found.append(Block(page, start, "sh", "\n".join(x[4:] for x in lines[i:end]), reason=reason))
-            reason, follows = None, True
-            i = end
-            continue
-        elif line.strip():
-            follows = False
-        i += 1
-    return found
 
 
 # ---- running ---------------------------------------------------------------------------------------------------------
@@ -180,15 +110,6 @@ class Session:
         return done.stdout
 
 
-def compare(expected: str, printed: str) -> None:
-    """`...` stands for anything, spaces for any spaces."""
-    wanted, got = " ".join(expected.split()), " ".join(printed.split())
-    pattern = r".*?".join(re.escape(part) for part in wanted.split("..."))
-    if not re.fullmatch(pattern, got):
-        difference = "\n".join(difflib.ndiff(expected.strip().splitlines(), printed.strip().splitlines()))
-        raise Failure(f"prints something else:\n{difference}")
-
-
 def run_cpp(pages: dict[str, list[Block]], scan: Path) -> None:
     """All C++ as one program: a function a page, run in a folder of its own."""
     includes, functions, calls = {"#include <brushfire/brushfire.h>"}, [], []
@@ -248,15 +169,6 @@ def link_line(release: Path) -> list[str]:
         else []
     )
     return [str(release / "libbrushfire.a"), *own, *others]
-
-
-def make_scan(file: Path) -> None:
-    """Round and dented as scanned things are; what is rougher makes all-pairs computations slow."""
-    subprocess.run([PROGRAM, "shape", "sphere", "-n", "642", "-o", file, "--quiet"], check=True)
-    mesh = bf.read(file)
-    x, y, z = np.array(mesh.vertices).T
-    radius = 1 + 0.12 * np.sin(4 * x + 1) * np.cos(3 * y) + 0.08 * np.sin(5 * z) * np.cos(4 * x)
-    bf.Mesh(np.stack([x, y, z], axis=-1) * radius[:, None], mesh.faces).save(file)
 
 
 def make_files(page: str, folder: Path) -> None:

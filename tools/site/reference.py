@@ -168,7 +168,7 @@ def cpp() -> dict[str, str]:
     for room, about in ROOMS.items():
         index += [
             f"## {room}/: {about}",
-            "| header | |\n|---|---|\n"
+            "| header | what it is |\n|---|---|\n"
             + "\n".join(f"| [{header}]({cpp_page(header)}.md) | {escaped(first)} |" for header, first in rows[room]),
             "```{toctree}\n:hidden:\n" + "\n".join(cpp_page(header) for header, _ in rows[room]) + "\n```",
         ]

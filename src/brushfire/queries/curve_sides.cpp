@@ -2,10 +2,11 @@
 #include <brushfire/queries/curve_sides.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
-#include <brushfire/queries/detail/leaving_angles.h>
-#include <brushfire/queries/straightest.h>
+#include <brushfire/queries/detail/curve_star.h>
+#include <brushfire/queries/detail/retraced_segments.h>
 #include <brushfire/solvers/detail/walls.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -26,92 +28,10 @@ namespace {
 // A path that ends this near (as a share of a segment) to where the segment ends, ends at the place.
 constexpr double kAtPlace = 1e-9;
 
-// Segments that are shorter than this share of their face's longest edge are rounding of their ends, and so is their
-// direction: that of what comes behind counts.
-constexpr double kNoDirection = 1e-12;
-
-double longest_edge(const Mesh& mesh, Index f) {
-  return std::max({mesh.length(3 * f), mesh.length(3 * f + 1), mesh.length(3 * f + 2)});
-}
-
-// The place towards which a curve leaves another one, forwards or backwards; kNoIndex: it ends there.
-Index next_place(const Mesh& mesh, const LocatedCurve& curve, Index place, bool forwards) {
-  Index at = place, first = kNoIndex;
-  for (std::size_t steps = 0; steps < curve.segments.size(); ++steps) {
-    const Index i = forwards ? curve.places[at].after : curve.places[at].before;
-    if (i == kNoIndex) break;
-    const CurveSegment& s = curve.segments[i];
-    at = forwards ? s.to_place : s.from_place;
-    if (first == kNoIndex) first = at;
-    if (s.length > kNoDirection * longest_edge(mesh, s.face) * mesh.unit()) {
-      return common_face(mesh, curve.places[place].at, curve.places[at].at) != kNoIndex ? at : first;
-    }
-  }
-  return kNoIndex;
-}
-
-double wrapped(double angle, double turn) {
-  const double a = std::fmod(angle, turn);
-  return a < 0 ? a + turn : a;
-}
-
-// The directions in which the segments at one place of a curve leave it; it has several numbers where the curve comes
-// there again.
-class Star {
- public:
-  Star(const Mesh& mesh, const LocatedCurve& curve, std::span<const Index> places)
-      : angles_(mesh, point_of(curve.places[places.front()])),
-        is_arc_(is_open(mesh, curve.places[places.front()])),
-        // The sector outside of a boundary is some angle more.
-        turn_(angles_.total() + (is_arc_ ? 1 : 0)),
-        grows_left_(is_counter_clockwise(mesh, point_of(curve.places[places.front()]))) {
-    for (const Index p : places) {
-      add(mesh, curve, p, false);
-      add(mesh, curve, p, true);
-    }
-  }
-
-  // Of a path that comes from a point in a face at the place.
-  CurveSide side_of(const SurfacePoint& from) const {
-    if (arms_.empty()) return CurveSide::None;
-    const double angle = angles_.towards(from);
-    // Counter-clockwise from an arm to the path.
-    const auto from_arm = [&](const Arm& a) { return grows_left_ ? angle - a.angle : a.angle - angle; };
-    const auto behind = [&](const Arm& a) { return wrapped(from_arm(a), turn_); };
-    if (arms_.size() == 1) {
-      return is_in_first_half(from_arm(arms_[0])) == arms_[0].goes_out ? CurveSide::Left : CurveSide::Right;
-    }
-    const auto nearer = [&](const Arm& a, const Arm& b) { return behind(a) < behind(b); };
-    return std::min_element(arms_.begin(), arms_.end(), nearer)->goes_out ? CurveSide::Left : CurveSide::Right;
-  }
-
- private:
-  struct Arm {
-    double angle;
-    bool goes_out;
-  };
-
-  // Of the two that an arm and the line straight on make of the directions. On an arc the latter may lie outside.
-  bool is_in_first_half(double from_arm) const {
-    if (is_arc_) return (from_arm >= 0) == (std::abs(from_arm) <= kPi);
-    return wrapped(from_arm, turn_) <= 0.5 * turn_;
-  }
-
-  static SurfacePoint point_of(const CurvePlace& p) { return {p.at.face, p.at.weights}; }
-  static bool is_open(const Mesh& mesh, const CurvePlace& p) {
-    return p.at.on == PointLocation::On::Vertex && mesh.links()[p.at.vertex] == Link::Arc;
-  }
-  void add(const Mesh& mesh, const LocatedCurve& curve, Index place, bool goes_out) {
-    const Index next = next_place(mesh, curve, place, goes_out);
-    if (next != kNoIndex) arms_.push_back({angles_.towards(point_of(curve.places[next])), goes_out});
-  }
-
-  detail::LeavingAngles angles_;
-  bool is_arc_;
-  double turn_;
-  bool grows_left_;
-  std::vector<Arm> arms_;
-};
+using detail::CurveStar;
+using detail::kNoDirection;
+using detail::longest_edge;
+using detail::point_of;
 
 // One curve, by the faces and vertices where paths may arrive at it.
 class Shore {
@@ -131,6 +51,8 @@ class Shore {
         for (const Index f : faces_at(mesh, at)) places_.emplace(f, i);
       }
     }
+    retraced_ = detail::retraced_segments(mesh, curve_, segments_);
+    if (std::find(retraced_.begin(), retraced_.end(), true) != retraced_.end()) part_beside_retraced();
   }
 
   bool has_vertex(Index v) const { return at_vertex_.contains(v); }
@@ -139,7 +61,7 @@ class Shore {
   CurveArrival at_vertex(Index v, const SurfacePoint& from) {
     const std::vector<Index>& places = at_vertex_.at(v);
     CurveArrival arrival = at_place(places.front());
-    arrival.side = star(places).side_of(from);
+    arrival.side = side_at(places, from);
     return arrival;
   }
 
@@ -181,15 +103,95 @@ class Shore {
     return arrival;
   }
 
-  const Star& star(std::vector<Index> places) {
-    std::unique_ptr<Star>& known = stars_[places.front()];
-    if (!known) known = std::make_unique<Star>(mesh_, curve_, places);
+  // What leaves a place, as far as it is seen from a point that shares a face with it.
+  const CurveStar& star(const std::vector<Index>& places, const SurfacePoint& from) {
+    const PointLocation& at = curve_.places[places.front()].at;
+    return star_in(places, is_in_several_fans(at) ? common_face(mesh_, at, locate(mesh_, from, 0)) : kNoIndex);
+  }
+  const CurveStar& star_in(const std::vector<Index>& places, Index fan) {
+    std::unique_ptr<CurveStar>& known = stars_[{places.front(), fan}];
+    if (!known) known = std::make_unique<CurveStar>(mesh_, curve_, places, retraced_, fan);
     return *known;
   }
 
-  // All that lie where one does, which is not a vertex: a curve may come there again, or be in pieces.
-  std::vector<Index> places_with(Index place) const {
+  bool is_in_several_fans(const PointLocation& at) const {
+    return at.on == PointLocation::On::Vertex && mesh_.links()[at.vertex] == Link::Other;
+  }
+
+  CurveSide side_at(const std::vector<Index>& places, const SurfacePoint& from) {
+    const CurveStar& here = star(places, from);
+    if (!here.is_empty()) return here.side_of(from);
+    const std::vector<std::pair<Index, Index>> passing = retraced_at(places);
+    if (!passing.empty()) return retraced_side_[passing.front().first];
+    const PointLocation& at = curve_.places[places.front()].at;
+    return is_in_several_fans(at) ? side_beyond_borders(places, at.vertex, here) : CurveSide::None;
+  }
+
+  // Of a fan that the curve does not enter: that of its borders in the fans behind them, and so on.
+  CurveSide side_beyond_borders(const std::vector<Index>& places, Index vertex, const CurveStar& fan) {
+    const std::vector<Index> faces = faces_at(mesh_, curve_.places[places.front()].at);
+    std::vector<Index> ends = fan.borders();
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      const SurfacePoint border = vertex_point(mesh_, ends[i]);
+      for (const Index f : faces) {
+        if (!mesh_.is_face_usable(f) || !weights_in(mesh_, locate(mesh_, border), f)) continue;
+        const CurveStar& other = star_in(places, f);
+        if (!other.is_empty()) return other.side_of(border);
+        for (const Index end : other.borders()) {
+          if (std::find(ends.begin(), ends.end(), end) == ends.end()) ends.push_back(end);
+        }
+      }
+    }
+    throw Error(ErrorCode::InvalidArgument,
+                "sides: the faces at vertex " + std::to_string(vertex) +
+                    " form several fans, and a path arrives in one that the curve does not enter: lead it past there");
+  }
+
+  // Segments, and their other ends.
+  std::vector<std::pair<Index, Index>> retraced_at(const std::vector<Index>& places) const {
+    std::vector<std::pair<Index, Index>> found;
+    for (const Index p : places) {
+      const Index before = curve_.places[p].before, after = curve_.places[p].after;
+      if (before != kNoIndex && retraced_[before]) found.emplace_back(before, curve_.segments[before].from_place);
+      if (after != kNoIndex && retraced_[after]) found.emplace_back(after, curve_.segments[after].to_place);
+    }
+    return found;
+  }
+
+  // At a place, seen from the other end of a segment that leaves it.
+  const CurveStar& star_before(Index place, Index end) { return star(places_at(place), point_of(curve_.places[end])); }
+
+  // Retraced segments lie on the side of what their ends' other segments part; so do those that follow them as far as
+  // there are no others.
+  void part_beside_retraced() {
+    retraced_side_.assign(retraced_.size(), CurveSide::None);
+    std::vector<Index> parted;
+    const auto part = [&](Index i, CurveSide side) {
+      if (retraced_side_[i] != CurveSide::None || side == CurveSide::None) return;
+      retraced_side_[i] = side;
+      parted.push_back(i);
+    };
+    for (Index i = 0; i < retraced_.size(); ++i) {
+      if (!retraced_[i]) continue;
+      const Index from = curve_.segments[i].from_place, to = curve_.segments[i].to_place;
+      part(i, star_before(from, to).side_of(point_of(curve_.places[to])));
+      part(i, star_before(to, from).side_of(point_of(curve_.places[from])));
+    }
+    while (!parted.empty()) {
+      const Index i = parted.back();
+      parted.pop_back();
+      for (const Index p : {curve_.segments[i].from_place, curve_.segments[i].to_place}) {
+        for (const auto& [other, end] : retraced_at(places_at(p))) {
+          if (star_before(p, end).is_empty()) part(other, retraced_side_[i]);
+        }
+      }
+    }
+  }
+
+  // All that lie where one does: a curve may come there again, or be in pieces.
+  std::vector<Index> places_at(Index place) const {
     const PointLocation& at = curve_.places[place].at;
+    if (at.on == PointLocation::On::Vertex) return at_vertex_.at(at.vertex);
     const double near = kNoDirection * longest_edge(mesh_, at.face);
     std::vector<Index> found;
     const auto [first, last] = places_.equal_range(at.face);
@@ -197,7 +199,7 @@ class Shore {
       const PointLocation& other = curve_.places[p->second].at;
       if (other.on == at.on && distance_within(mesh_, at.face, at, other) <= near) found.push_back(p->second);
     }
-    std::sort(found.begin(), found.end());
+    detail::sort(found.begin(), found.end());
     return found;
   }
 
@@ -234,7 +236,7 @@ class Shore {
     const PointLocation& at = curve_.places[place].at;
     if (at.on == PointLocation::On::Vertex) return at_vertex(at.vertex, from);
     CurveArrival arrival = at_place(place);
-    arrival.side = star(places_with(place)).side_of(from);
+    arrival.side = side_at(places_at(place), from);
     return arrival;
   }
 
@@ -249,15 +251,21 @@ class Shore {
     const double turn = cross(along, to_from);
     arrival.place = curve_.places[s.from_place].number;
     arrival.share = found.share;
-    arrival.side = turn > 0 ? CurveSide::Left : turn < 0 ? CurveSide::Right : CurveSide::None;
+    if (retraced_[found.segment])
+      arrival.side = retraced_side_[found.segment];
+    else
+      arrival.side = turn > 0 ? CurveSide::Left : turn < 0 ? CurveSide::Right : CurveSide::None;
     return arrival;
   }
 
   const Mesh& mesh_;
   LocatedCurve curve_;
-  std::unordered_multimap<Index, Index> segments_, places_;  // by face
+  detail::SegmentsByFace segments_;
+  std::unordered_multimap<Index, Index> places_;  // by face, those that are not vertices
   std::unordered_map<Index, std::vector<Index>> at_vertex_;
-  std::map<Index, std::unique_ptr<Star>> stars_;  // by the first of their places
+  std::vector<bool> retraced_;                                           // of segments
+  std::vector<CurveSide> retraced_side_;                                 // of those; empty where there are none
+  std::map<std::pair<Index, Index>, std::unique_ptr<CurveStar>> stars_;  // by the first of their places
 };
 
 // What a run's sources are in the caller's list.

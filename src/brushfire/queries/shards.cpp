@@ -124,11 +124,11 @@ void require_all(const std::vector<ShardFile>& shards) {
 
 }  // namespace
 
-void merge_shards(std::span<const fs::path> paths, const fs::path& path, const MatrixFileOptions& options,
+void merge_shards(std::span<const fs::path> shards, const fs::path& path, const MatrixFileOptions& options,
                   const Progress& progress) {
-  const std::vector<ShardFile> shards = open_shards(paths);
-  require_all(shards);
-  detail::LedgerHead head = shards.front().content.head;
+  const std::vector<ShardFile> files = open_shards(shards);
+  require_all(files);
+  detail::LedgerHead head = files.front().content.head;
   detail::StoredMatrix stored;
   stored.rows = head.rows;
   stored.columns = head.columns;
@@ -161,7 +161,7 @@ void merge_shards(std::span<const fs::path> paths, const fs::path& path, const M
       });
   std::string bytes(static_cast<std::size_t>(stored.row_bytes()), '\0');
   std::uint64_t done = 0;
-  for (const ShardFile& shard : shards) {
+  for (const ShardFile& shard : files) {
     for (std::size_t k = 0; k < shard.content.numbers.size(); ++k) {
       stop_if_cancelled();
       const auto row = static_cast<std::size_t>(shard.content.numbers[k]);

@@ -220,14 +220,14 @@ double angle_in_face(const Mesh& mesh, Index f, Index k, const Vec3& direction, 
 
 }  // namespace
 
-double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& given) {
+double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& direction) {
   if (!mesh.has_positions()) throw Error(ErrorCode::InvalidArgument, "a mesh from lengths has no directions in space");
   // Divided by its largest component, so that no square is out of range.
-  const double largest = std::max({std::abs(given.x), std::abs(given.y), std::abs(given.z)});
+  const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
   if (!(largest > 0) || !std::isfinite(largest)) {
     throw Error(ErrorCode::InvalidArgument, "a direction must have a finite length > 0");
   }
-  const Vec3 direction{given.x / largest, given.y / largest, given.z / largest};
+  const Vec3 scaled{direction.x / largest, direction.y / largest, direction.z / largest};
   const PointLocation at = locate(mesh, point);
   // A shadow on the surface that is shorter than this share of the direction is made of rounding.
   constexpr double kShortest = 1e-12;
@@ -238,7 +238,7 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& given) 
   };
   if (at.on != On::Vertex) {
     double length = 0;
-    const double angle = angle_in_face(mesh, at.face, 0, direction, &length);
+    const double angle = angle_in_face(mesh, at.face, 0, scaled, &length);
     check_shadow(length);
     return wrapped(angle, 2 * kPi);
   }
@@ -246,7 +246,7 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& given) 
   double best = 0, best_score = -kInfinity, longest = 0;
   for (const detail::FanCorner& c : fan.corners) {
     double length = 0;
-    const double angle = angle_in_face(mesh, Mesh::face_of(c.corner), c.corner % 3, direction, &length);
+    const double angle = angle_in_face(mesh, Mesh::face_of(c.corner), c.corner % 3, scaled, &length);
     const double inside = std::clamp(angle, 0.0, c.angle);
     longest = std::max(longest, length);
     // How far the direction reaches along the nearest direction of this face.
@@ -263,8 +263,7 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& given) 
 bool is_counter_clockwise(const Mesh& mesh, const SurfacePoint& point) {
   const PointLocation at = locate(mesh, point);
   if (at.on != On::Vertex) return true;
-  const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
-  return fan.corners.empty() || !fan.corners.front().reversed;
+  return detail::tangent_fan(mesh, at.vertex).grows_counter_clockwise();
 }
 
 Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, double length) {

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace brushfire {
 
@@ -123,11 +124,11 @@ struct ComponentAreas {
 // Measures discs around one place after the other, on the open mesh.
 class DiscMeter {
  public:
-  DiscMeter(const Domain& domain, const DistanceOptions& options, const ComponentAreas& areas, double longest_edge)
+  DiscMeter(const Domain& domain, DistanceOptions options, const ComponentAreas& areas, double longest_edge)
       : mesh_(domain.open()),
         domain_(domain),
         solver_(mesh_),
-        options_(options),
+        options_(std::move(options)),
         areas_(areas),
         longest_edge_(longest_edge),
         value_(mesh_.vertex_count(), kInfinity) {}

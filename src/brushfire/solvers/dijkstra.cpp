@@ -1,4 +1,5 @@
 // Dijkstra's algorithm on the edge graph.
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 
 #include <brushfire/core/error.h>
@@ -70,13 +71,15 @@ class Dijkstra final : public Engine {
     for (const PointLocation& at : targets) {
       for (const Seed& seed : seeds_.in_own_faces(mesh_, at)) awaited_.push_back(seed.vertex);
     }
-    std::sort(awaited_.begin(), awaited_.end());
+    detail::sort(awaited_.begin(), awaited_.end());
     awaited_.erase(std::unique(awaited_.begin(), awaited_.end()), awaited_.end());
     to_come_ = awaited_.size();
   }
   // Whether the last one of them is final now that v is.
   bool was_last(Index v) {
-    return to_come_ > 0 && std::binary_search(awaited_.begin(), awaited_.end(), v) && --to_come_ == 0;
+    if (to_come_ == 0 || !std::binary_search(awaited_.begin(), awaited_.end(), v)) return false;
+    --to_come_;
+    return to_come_ == 0;
   }
 
   // By more than what keys are rounded by.

@@ -129,7 +129,7 @@ void System::add_divergence(std::span<const double> u, std::span<double> b) cons
     const double* const u2 = &u[kWidth * f.vertex[2]];
     Row to_1, to_2;
     for (std::size_t w = 0; w < kWidth; ++w) {
-      const double largest = std::max(std::max(std::abs(u0[w]), std::abs(u1[w])), std::abs(u2[w]));
+      const double largest = std::max({std::abs(u0[w]), std::abs(u1[w]), std::abs(u2[w])});
       const double scale = largest > 0 ? 1 / largest : 0;
       const double d1 = (u1[w] - u0[w]) * scale, d2 = (u2[w] - u0[w]) * scale;
       const double x = d1 * f.apex.y, y = d2 * f.length - d1 * f.apex.x;

@@ -24,8 +24,8 @@ constexpr unsigned kOnePart = 31;
 
 class Windows final : public detail::Engine {
  public:
-  Windows(const Mesh& mesh, Merging merging, std::unique_ptr<NumberedEngine> in_doubles)
-      : mesh_(mesh), merging_(merging), narrow_(std::move(in_doubles)) {}
+  Windows(Mesh mesh, Merging merging, std::unique_ptr<NumberedEngine> in_doubles)
+      : mesh_(std::move(mesh)), merging_(merging), narrow_(std::move(in_doubles)) {}
 
   void set_up(const DistanceOptions& options) override { engine_for(options).set_up(options); }
   void solve(const detail::Problem& problem, DistanceField& field) override {

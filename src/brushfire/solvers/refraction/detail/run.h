@@ -56,7 +56,7 @@ class Run {
   // what the thread listens to.
   bool operator()();
   // With rounding taken off and added. Vertices by the numbers of the medium's mesh.
-  Known at_vertex(Index v) const;
+  Known at_vertex(Index outer) const;
   Known at_target(std::size_t target) const;
   std::uint64_t windows() const { return windows_; }  // that came to wait somewhere
   double horizon() const { return radius_; }          // values up to this are final

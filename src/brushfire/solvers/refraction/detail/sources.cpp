@@ -156,15 +156,16 @@ void Run::leave_into(Index v, Sector sector) {
 
 // ---- edges
 
-// From v along an edge to corner j of a face that holds both.
-void Run::reach_along(const Origin& origin, Index v, Index at, Index j) {
-  const WindowFace& f = medium_.structure.faces[at];
-  const Index edge = f.vertex[next3(j)] == v ? j : previous3(j), opposite = next3(j);  // v is an end of both
-  const double cost = origin.value + medium_.along[3 * at + edge] * f.length[edge];
-  reach(f.vertex[j], cost + origin.slack, origin.source);
+// From v along an edge to a corner of a face that holds both.
+void Run::reach_along(const Origin& origin, Index v, Index face, Index corner) {
+  const WindowFace& f = medium_.structure.faces[face];
+  const Index opposite = next3(corner);
+  const Index edge = f.vertex[opposite] == v ? corner : previous3(corner);  // v is an end of both
+  const double cost = origin.value + medium_.along[3 * face + edge] * f.length[edge];
+  reach(f.vertex[corner], cost + origin.slack, origin.source);
   const windows::Ray ray{
-      {f.vertex[opposite] == v ? 0 : f.length[opposite], 0}, 3 * at + opposite, 0, WindowKind::Circular};
-  see(f.vertex[j], cost, f.length[opposite] > 0 ? &ray : nullptr, false);
+      {f.vertex[opposite] == v ? 0 : f.length[opposite], 0}, 3 * face + opposite, 0, WindowKind::Circular};
+  see(f.vertex[corner], cost, f.length[opposite] > 0 ? &ray : nullptr, false);
 }
 
 // From a place of the edge of h, counted from its start, to one of its ends, and from all of that way into the faces

@@ -22,13 +22,13 @@ class ApexCosts {
   // The mesh must be isotropic. O(n log n) for n faces around v. `weighted` must outlive it.
   ApexCosts(const WeightedMesh& weighted, Index v);
 
-  // From a place in the face of a corner at v (a halfedge that leaves v), by its weights there, to v, as if the cone
-  // went on for ever. In mesh.unit() times weight, to a relative `rounding()`.
+  // From a place in the face of halfedge h, which leaves v, by its weights there, to v, as if the cone went on for
+  // ever. In mesh.unit() times weight, to a relative `rounding()`.
   struct Way {
     double cost;
     bool is_real;  // it is no farther from v than where the cone ends, so that there is such a path
   };
-  Way to_apex(Index corner, const std::array<double, 3>& weights) const;
+  Way to_apex(Index h, const std::array<double, 3>& weights) const;
   // Paths to v from where the cone ends, or over a fence that ends at v, cost no less.
   double beyond() const { return beyond_; }
   double rounding() const { return rounding_; }

@@ -52,8 +52,8 @@ void Envelope::decide(const Part& a, const Part& b, Real p, Real q, Real ap, Rea
   add(outer, z1, q, value_at(outer, z1), oq);
 }
 
-void Envelope::merge(std::size_t i, std::size_t middle, std::size_t end) {
-  std::size_t j = middle;
+void Envelope::merge(std::size_t begin, std::size_t middle, std::size_t end) {
+  std::size_t i = begin, j = middle;
   while (i < middle && j < end) {
     Part &a = parts_[i], &b = parts_[j];
     if (a.b1 <= b.b0) {

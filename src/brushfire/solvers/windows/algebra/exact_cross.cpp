@@ -173,7 +173,7 @@ Index least_of(const Real* numbers, Index count) {
     for (Index k = 0; k < 4; ++k) least[k] = numbers[i + k] < least[k] ? numbers[i + k] : least[k];
   }
   for (; i < count; ++i) least[0] = std::min(least[0], numbers[i]);
-  const Real of_all = std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+  const Real of_all = std::min({least[0], least[1], least[2], least[3]});
   return static_cast<Index>(std::find(numbers, numbers + count, of_all) - numbers);
 }
 
@@ -286,10 +286,10 @@ Index cross_to_left(const WindowColumns& w, const Routes& routes, const Sight& s
   return dim ? without_slivers(out, count) : count;
 }
 
-Index cross_to_right(const WindowColumns& all, Index count, const Routes& routes, const Sight& sight,
+Index cross_to_right(const WindowColumns& windows, Index count, const Routes& routes, const Sight& sight,
                      const Frame& frame, const WindowColumns& out) {
   const Index begin = routes.right_begin;
-  const WindowColumns w = all.from(begin);
+  const WindowColumns w = windows.from(begin);
   count -= begin;
   if (!(frame.right > 0)) return 0;
   if (w.mixed) {

@@ -47,7 +47,7 @@ class LegOrigins {
  private:
   double no_distance() const;
   double no_distance(const LegOrigin& from, Index face) const;
-  void spread(Index origin);
+  void spread(Index i);  // from origin i
   // Keeps the nearest of each vertex and edge.
   void offer(const LegOrigin& origin);
   void offer_across(const PointInFace& f, Index h, Index previous);
