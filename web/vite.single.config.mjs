@@ -5,26 +5,33 @@ import { gzipSync } from 'node:zlib';
 import { defineConfig } from 'vite';
 import { viteSingleFile } from 'vite-plugin-singlefile';
 
-const wasm = fileURLToPath(new URL('../js/lib/brushfire.wasm', import.meta.url));
 const parts = fileURLToPath(new URL('./src/parts.single.js', import.meta.url));
 
-// The package names its module by URL, which would have to be fetched: here the page holds it, once, and hands it over.
+const files = { 'virtual:wasm': 'brushfire.wasm', 'virtual:wide': 'brushfire.wide.wasm' };
+const inPackage = (name) => fileURLToPath(new URL(`../js/lib/${name}`, import.meta.url));
+
+// The package names its modules by URL, which would have to be fetched: here the page holds them, once, and hands them over.
 const held = {
   name: 'brushfire-held',
   enforce: 'pre',
   resolveId(id) {
-    if (id === 'virtual:wasm') return '\0virtual:wasm';
+    if (id in files) return `\0${id}`;
     if (id === './parts.js') return parts;
     return null;
   },
   load(id) {
-    if (id !== '\0virtual:wasm') return null;
-    return `export default ${JSON.stringify(gzipSync(readFileSync(wasm), { level: 9 }).toString('base64'))};`;
+    const file = id.startsWith('\0') && files[id.slice(1)];
+    if (!file) return null;
+    return `export default ${JSON.stringify(gzipSync(readFileSync(inPackage(file)), { level: 9 }).toString('base64'))};`;
   },
   transform(code, id) {
     if (!/\/lib\/index\.js$/.test(id)) return null;
-    const out = code.replace("new URL('./brushfire.wasm', import.meta.url)", 'null');
-    if (out === code) throw new Error(`${id} names its module in another way now`);
+    let out = code;
+    for (const file of Object.values(files)) {
+      const before = out;
+      out = before.replace(`new URL('./${file}', import.meta.url)`, 'null');
+      if (out === before) throw new Error(`${id} names ${file} in another way now`);
+    }
     return { code: out, map: null };
   },
 };

@@ -24,9 +24,10 @@ export interface Library extends Pick<full.Library, 'version' | 'methods' | 'mem
   fromLengths(faces: full.Numbers, lengths: full.Numbers, vertexCount?: number): Mesh;
   shape<Name extends keyof full.ShapeSizes>(name: Name, ...sizes: full.ShapeSizes[Name]): Mesh;
 }
-export function load(options?: { wasm?: full.WasmSource }): Promise<Library>;
+export function load(options?: full.LoadOptions): Promise<Library>;
 export const Mesh: { prototype: Mesh };
 export const Field: { prototype: Field };
 export const Cut: { prototype: Cut };
 export const Library: { prototype: Library };
 export const wasmURL: URL;
+export const wideURL: URL;

@@ -61,6 +61,11 @@ export class Mesh extends CoreMesh {
     return isolinesOf(this.call('isolines_run', field, levelsOf(this.module, field, options)));
   }
 
+  signedDistance(curves, options = {}) {
+    checkNames(options, ['maxDistance', ...WATCHED]);
+    return this.watchedCall(options, 'signed_distance_run', ...this.sourceArguments(curves, options), ...solvingArguments(options))[0];
+  }
+
   voronoi(sources, options = {}) {
     checkNames(options, [...SOLVING, 'offsets']);
     const [distance, source, area, pairs, ...parts] = this.watchedCall(options, 'voronoi_run',

@@ -296,6 +296,8 @@ interface MeshCalls {
   logMap(source: Places, options?: { maxRadius?: number }): LogMap;
   /** Curves of equal value of a field that is linear in every face. */
   isolines(values: Numbers, options: Levels): Isoline[];
+  /** Per vertex, exactly: negative on the left of the nearest curve, positive on its right. Of curves alone, without offsets. */
+  signedDistance(curves: CurveSource | Iterable<CurveSource>, options?: Watch & { maxDistance?: number }): Float64Array;
   voronoi(sources: Sources, options?: SolveOptions & { offsets?: Numbers }): Voronoi;
   farthestPoints(count: number, options?: SolveOptions & { first?: Numbers }): Samples;
   /** Row after row. */
@@ -402,8 +404,17 @@ export interface Library extends LibraryCalls {
 
 export type WasmSource = WebAssembly.Module | ArrayBuffer | ArrayBufferView | URL | string;
 
-/** The module with all calls. `wasm`: where bundlers do not find brushfire.wasm by themselves. */
-export function load(options?: { wasm?: WasmSource }): Promise<Library>;
+export interface LoadOptions {
+  /** Where bundlers do not find brushfire.wasm by themselves. */
+  wasm?: WasmSource;
+  /**
+   * The same for brushfire.wide.wasm: `windows` and `exact` on meshes whose lengths differ so much that doubles do not do. It
+   * is fetched in the midst of the first call that needs it; a page that must not wait then gives it as a compiled module.
+   */
+  wide?: WasmSource;
+}
+/** The module with all calls. */
+export function load(options?: LoadOptions): Promise<Library>;
 
 type Promised<Calls> = {
   [Name in keyof Calls]: Calls[Name] extends (...args: infer Args) => infer Result ? (...args: Args) => Promise<Result> : never;
@@ -435,10 +446,9 @@ export interface Pool extends Promised<LibraryCalls> {
   close(): void;
 }
 
-export interface PoolOptions {
+export interface PoolOptions extends LoadOptions {
   /** At most four, and no more than processors, where nothing is said. */
   workers?: number;
-  wasm?: WasmSource;
   /** Starts `brushfire/worker`, where bundlers do not find it by themselves. */
   makeWorker?: () => Worker;
 }
@@ -452,3 +462,5 @@ export const Library: { prototype: Library };
 export const Pool: { prototype: Pool };
 /** Where the WebAssembly is. */
 export const wasmURL: URL;
+/** And what few meshes need of it. */
+export const wideURL: URL;

@@ -8,11 +8,12 @@ export { BrushfireError } from './errors.js';
 export { Cut, Field, Library, Mesh, Pool };
 
 export const wasmURL = new URL('./brushfire.wasm', import.meta.url);
+export const wideURL = new URL('./brushfire.wide.wasm', import.meta.url);
 
 export async function load(options = {}) {
-  return new Library(await instantiate(options.wasm ?? wasmURL));
+  return new Library(await instantiate(options.wasm ?? wasmURL, options.wide ?? wideURL));
 }
 
 export async function createPool(options = {}) {
-  return Pool.start(options, wasmURL);
+  return Pool.start(options, wasmURL, wideURL);
 }

@@ -1,5 +1,5 @@
 // Compiles and instantiates the WebAssembly, from wherever the caller has it.
-import { compile } from '#platform';
+import { compile, compileNow } from '#platform';
 import { invalid } from './errors.js';
 import { Module } from './module.js';
 
@@ -12,4 +12,12 @@ export async function compiled(wasm) {
   throw invalid('wasm: a WebAssembly.Module, bytes or a URL is needed');
 }
 
-export const instantiate = async (wasm) => Module.instantiate(await compiled(wasm));
+// The same, while a call waits for it.
+function compiledNow(wasm) {
+  if (wasm instanceof WebAssembly.Module) return wasm;
+  if (wasm instanceof ArrayBuffer || ArrayBuffer.isView(wasm)) return new WebAssembly.Module(wasm);
+  return compileNow(new URL(wasm, globalThis.location?.href ?? import.meta.url));
+}
+
+// `wide`: the second module, with what few meshes need; nothing is fetched before one does.
+export const instantiate = async (wasm, wide) => Module.instantiate(await compiled(wasm), () => compiledNow(wide));

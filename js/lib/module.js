@@ -10,6 +10,14 @@ const decoder = new TextDecoder();
 
 const ENOSYS = 52;
 
+// Numbers of JavaScript are doubles: as few digits as they have, and more until it is the float that they read as.
+function digitsOfFloat(value) {
+  for (let digits = 0;; ++digits) {
+    const text = value.toExponential(digits);
+    if (Math.fround(Number(text)) === value) return text;
+  }
+}
+
 // What a standalone module asks of its surroundings. There are no files: readers are given bytes.
 function surroundings(module, memory, state) {
   const wasi = {
@@ -33,12 +41,17 @@ function surroundings(module, memory, state) {
       throw new Error(`the module ended with ${status}`);
     },
   };
-  const ours = { progress: (share) => state.progress(share) };
+  // As few digits as it takes to read the number back, at `at` in the memory; how many characters that were.
+  const digits = (value, isFloat, at) => encoder.encodeInto(isFloat ? digitsOfFloat(value) : value.toExponential(),
+    new Uint8Array(memory().buffer, at)).written;
+  const ours = { progress: (share) => state.progress(share), digits };
   const imports = {};
   for (const { module: from, name, kind } of WebAssembly.Module.imports(module)) {
     if (kind !== 'function') throw new Error(`the module imports ${from}.${name}, which is no function`);
     imports[from] ??= {};
-    imports[from][name] = (from === 'brushfire' ? ours : wasi)[name] ?? (() => ENOSYS);
+    // A placeholder's name is the place in the table where the second module puts what is called.
+    imports[from][name] = from === 'placeholder' ? (...args) => state.second(Number(name))(...args)
+      : (from === 'brushfire' ? ours : wasi)[name] ?? (() => ENOSYS);
   }
   return imports;
 }
@@ -49,11 +62,14 @@ export class Module {
   #broken = null;
   #listener = null; // (share) => whether to stop, of the running call
   #thrown = null; // by the listener
+  #second; // () => the module with what is called by placeholders
 
-  static async instantiate(compiled) {
+  static async instantiate(compiled, second) {
     const m = new Module();
+    m.#second = second;
     const memory = () => m.#exports.memory;
-    const instance = await WebAssembly.instantiate(compiled, surroundings(compiled, memory, { progress: (s) => m.#progress(s) }));
+    const state = { progress: (share) => m.#progress(share), second: (place) => m.#fromSecond(place) };
+    const instance = await WebAssembly.instantiate(compiled, surroundings(compiled, memory, state));
     m.#exports = instance.exports;
     m.#exports._initialize?.();
     return m;
@@ -75,11 +91,15 @@ export class Module {
     this.#listener = listener;
     this.#thrown = null;
     let reply;
+    const stack = this.#exports.emscripten_stack_get_current();
     try {
       const flat = args.flatMap((a) => this.#pass(a, given));
       reply = this.#exports[name](...flat) >>> 0;
     } catch (e) {
-      if (e instanceof BrushfireError) throw e;
+      if (e instanceof BrushfireError) {
+        this.#exports._emscripten_stack_restore(stack); // it may have passed through functions of the module
+        throw e;
+      }
       this.#broken = `the module broke down in ${name}: ${e.message}`;
       throw new BrushfireError('internal', this.#broken);
     } finally {
@@ -100,6 +120,16 @@ export class Module {
 
   has(name) {
     return name in this.#exports;
+  }
+
+  #fromSecond(place) {
+    const table = this.#exports.__indirect_function_table;
+    try {
+      new WebAssembly.Instance(this.#second(), { primary: this.#exports });
+    } catch (error) {
+      throw new BrushfireError('internal', `lengths of this mesh differ so much that it needs wide numbers, whose module could not be loaded: ${error.message}; load() and createPool() take it as 'wide'`);
+    }
+    return table.get(place);
   }
 
   #progress(share) {

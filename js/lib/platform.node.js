@@ -1,9 +1,16 @@
 // What differs between Node and browsers: here Node.
+import { readFileSync } from 'node:fs';
 import { readFile } from 'node:fs/promises';
 import { parentPort, Worker } from 'node:worker_threads';
 
 export async function compile(url) {
   return WebAssembly.compile(url.protocol === 'file:' ? await readFile(url) : await (await fetch(url)).arrayBuffer());
+}
+
+// While a call waits for it.
+export function compileNow(url) {
+  if (url.protocol !== 'file:') throw new Error('only files are read while a call waits');
+  return new WebAssembly.Module(readFileSync(url));
 }
 
 export function processors() {

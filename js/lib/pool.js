@@ -39,7 +39,7 @@ class Lane {
       failed(error);
       this.#fail(error);
     });
-    this.#worker.post({ start: this.#pool.wasm }, []);
+    this.#worker.post({ start: this.#pool.wasm, wide: this.#pool.wide }, []);
     this.#worker.hold(false);
   }
 
@@ -141,9 +141,11 @@ export class Pool {
   #ids = 1;
   #closed = false;
 
-  static async start(options, wasmURL) {
+  static async start(options, wasmURL, wideURL) {
     const pool = new Pool();
     pool.wasm = await compiled(options.wasm ?? wasmURL);
+    const wide = options.wide ?? wideURL;
+    pool.wide = wide instanceof URL ? wide.href : wide; // URLs are not sent to workers, texts are
     pool.makeWorker = options.makeWorker;
     const count = Math.max(1, options.workers ?? Math.min(4, processors()));
     for (let k = 0; k < count; ++k) pool.#lanes.push(new Lane(pool));
@@ -325,7 +327,7 @@ export class MeshProxy extends Proxy {
   }
 }
 forward(MeshProxy, ['distance', 'setUp', 'position', 'nearest', 'path', 'edgePath', 'shorten', 'lengthOf', 'trace', 'logMap',
-  'isolines', 'voronoi', 'farthestPoints', 'distanceMatrix', 'distancesWithin', 'gradients', 'vertexAreas', 'certify',
+  'isolines', 'signedDistance', 'voronoi', 'farthestPoints', 'distanceMatrix', 'distancesWithin', 'gradients', 'vertexAreas', 'certify',
   'write', 'writeCurves']);
 
 export class FieldProxy extends Proxy {

@@ -66,7 +66,7 @@ function answer(message) {
 port.hear(async (message) => {
   if (message.start) {
     try {
-      library = await load({ wasm: message.start });
+      library = await load({ wasm: message.start, wide: message.wide });
       port.post({ started: true });
     } catch (e) {
       port.post({ started: false, error: { code: 'internal', message: e.message } });

@@ -4,6 +4,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/queries/certify.h>
 #include <brushfire/queries/compare.h>
+#include <brushfire/queries/curve_sides.h>
 #include <brushfire/queries/distance_matrix.h>
 #include <brushfire/queries/gradient.h>
 #include <brushfire/queries/sampling.h>
@@ -70,6 +71,23 @@ Reply* voronoi_run(const Surface* surface, const double* index, std::size_t coun
     reply.add(std::move(d.area));
     reply.add(std::move(pairs));
     add_curves(reply, mesh, borders);
+  });
+}
+
+BRUSHFIRE_EXPORT(signed_distance_run)
+Reply* signed_distance_run(const Surface* surface, const double* index, std::size_t count, const double* weights,
+                           std::size_t weight_count, const double* offsets, std::size_t offset_count,
+                           const double* sizes, std::size_t size_count, const char* method, std::size_t method_size,
+                           const char* bound, std::size_t bound_size, const char* precision, std::size_t precision_size,
+                           const double* numbers, std::size_t number_count) {
+  return answer([&](Reply& reply) {
+    const Mesh& mesh = surface->mesh();
+    Computation computation;
+    const DistanceOptions options = computation.options({method, method_size}, {bound, bound_size},
+                                                        {precision, precision_size}, {numbers, number_count});
+    const std::vector<Source> curves =
+        sources_from(mesh, {{index, count}, {weights, weight_count}}, {{offsets, offset_count}, {sizes, size_count}});
+    reply.add(signed_distance(mesh, curves, options));
   });
 }
 

@@ -69,3 +69,25 @@ test('what is no curve is refused in words', () => {
   assert.equal(mesh.distance([{ curve: [0, 1, 2] }]).distance[1], 0);
   mesh.free();
 });
+
+test('distances have the sign of the side, and a place has none', () => {
+  const mesh = square();
+  const curve = mesh.path(CORNERS.map(([x, y]) => ({ at: [x, y, 0] })), { closed: true });
+  const signed = mesh.signedDistance({ curve, closed: true });
+  const p = mesh.vertices;
+  const isInside = ([x, y]) => CORNERS.every(([ax, ay], k) => {
+    const [bx, by] = CORNERS[(k + 1) % CORNERS.length];
+    return (bx - ax) * (y - ay) > (by - ay) * (x - ax);
+  });
+  let inside = 0;
+  for (let v = 0; v < mesh.vertexCount; ++v) {
+    const at = [p[3 * v], p[3 * v + 1]];
+    inside += isInside(at);
+    // Counter-clockwise: its inside is on the left.
+    assert.ok(Math.abs(signed[v] - (isInside(at) ? -1 : 1) * toPolygon(at, CORNERS, true)) < 1e-12, `vertex ${v}: ${signed[v]}`);
+  }
+  assert.ok(inside > 20);
+  assert.throws(() => mesh.signedDistance(0), { code: 'invalid_argument' });
+  assert.throws(() => mesh.signedDistance({ curve, closed: true }, { method: 'exact' }), /unknown option 'method'/);
+  mesh.free();
+});

@@ -112,11 +112,11 @@ class Replanner:
         self, target_index: _Ints, target_weights: _Floats | None
     ) -> tuple[_Signed, list[tuple[PathArrays, float, float, _Signed, _Floats, _Floats, _Floats, _Signed]]]: ...
 
-def laplacian(mesh: Mesh, delaunay: bool) -> tuple[_Signed, _Signed, _Floats, _Floats]: ...
+def laplacian(domain: Space, delaunay: bool) -> tuple[_Signed, _Signed, _Floats, _Floats]: ...
 
 class _Heat:
     def __init__(
-        self, mesh: Mesh, time_factor: float, time: float, boundary: str, delaunay: bool, poisson_shift: float
+        self, domain: Space, time_factor: float, time: float, boundary: str, delaunay: bool, poisson_shift: float
     ) -> None: ...
 
 class HeatSolver(_Heat):

@@ -29,18 +29,12 @@ def _one_of(value: Any, names: Sequence[str], what: str) -> int:
     return names.index(value)
 
 
-def _without_walls(mesh: Mesh) -> _core.Mesh:
-    if mesh._walls is not None:
-        raise BrushfireError("heat: a mesh with walls; method='heat' of distance() and mesh.cut() keep to what is open")
-    return mesh._mesh
-
-
 def _free_borders(
     mesh: Mesh, time_factor: float, time: float | None, delaunay: bool
-) -> tuple[_core.Mesh, float, float, str, bool, float]:
+) -> tuple[_core.Space, float, float, str, bool, float]:
     """What the core's solvers of vectors and signs take: heat does not leave over borders."""
     chosen = 0.0 if time is None else number(time, "time")
-    return _without_walls(mesh), number(time_factor, "time_factor"), chosen, "neumann", bool(delaunay), 0.0
+    return mesh._space, number(time_factor, "time_factor"), chosen, "neumann", bool(delaunay), 0.0
 
 
 def _in_one(arrays: Sequence[PlaceArrays]) -> tuple[Ints, Floats, Ints]:
@@ -55,9 +49,12 @@ def laplacian(mesh: Mesh, *, delaunay: bool = True) -> tuple[csc_matrix, Floats]
     """The Laplacian of any mesh, and the area of each vertex: cotangents on the intrinsic Delaunay triangulation.
 
     Borders, non-manifold edges and mirrored faces go by way of the tufted cover, faces without an area are mollified.
+    Nothing passes walls: rows are the vertices of ``mesh.cut().mesh``, those of the mesh and then further sides of
+    vertices that walls part; ``mesh.cut().original_vertex`` says of which.
 
     :param delaunay: False: on the faces as they are, whose weights may be negative.
-    :return: (vertex_count, vertex_count), symmetric and positive semidefinite, rows summing to 0; (vertex_count,).
+    :return: (rows, rows), symmetric and positive semidefinite, rows summing to 0; (rows,). Without walls there is one
+        for every vertex.
 
     >>> import brushfire as bf
     >>> L, mass = bf.laplacian(bf.Mesh([[0, 0], [2, 0], [2, 2], [0, 2]], [[0, 1, 2], [0, 2, 3]]))
@@ -66,8 +63,8 @@ def laplacian(mesh: Mesh, *, delaunay: bool = True) -> tuple[csc_matrix, Floats]
     """
     from scipy.sparse import csc_matrix
 
-    row, column, value, mass = _core.laplacian(_without_walls(mesh), bool(delaunay))
-    return csc_matrix((value, (row, column)), shape=(mesh.vertex_count, mesh.vertex_count)), mass
+    row, column, value, mass = _core.laplacian(mesh._space, bool(delaunay))
+    return csc_matrix((value, (row, column)), shape=(len(mass), len(mass))), mass
 
 
 class HeatSolver:
@@ -76,7 +73,7 @@ class HeatSolver:
     What it gives approximates the distance on the smooth surface that the mesh stands for, and has no bound; docs/heat.md
     says how near it comes, and when to prefer it. One field at a time is ``mesh.distance(..., method="heat")``.
 
-    :param mesh: of any kind.
+    :param mesh: of any kind; its walls are borders of what is open.
     :param time_factor: for how long heat spreads, in units of the mean edge length squared, 1e-12 to 1e6; larger ones
         smooth more.
     :param time: the time itself, in the square of the mesh's units, in place of the factor.
@@ -110,7 +107,7 @@ class HeatSolver:
         _one_of(boundary, _BOUNDARIES, "boundary")
         self.mesh = mesh
         self._core = _core.HeatSolver(
-            _without_walls(mesh),
+            mesh._space,
             number(time_factor, "time_factor"),
             0.0 if time is None else number(time, "time"),
             boundary,
@@ -168,7 +165,10 @@ class VectorHeatSolver:
     :param time_factor, time, delaunay: as for :class:`HeatSolver`.
     :raises BrushfireError: for other surfaces, values out of range, and where the package was built without Eigen.
 
-    Other components read NaN; within its own everything has a value, however far away.
+    Other components read NaN; within its own everything has a value, however far away. Walls are borders of what is
+    open. What has a direction at its own vertex (frames, carried vectors, the Laplacian) is told for every vertex of
+    ``mesh.cut().mesh``: those of the mesh, then further sides of vertices that walls part. Of all else a vertex on a
+    wall has what its nearer side has.
 
     >>> import brushfire as bf, numpy as np
     >>> line = np.linspace(0, 1, 11)
@@ -197,6 +197,8 @@ class VectorHeatSolver:
     def tangent_frames(self) -> tuple[Floats, Floats, Floats]:
         """Unit vectors x, y and normal at every vertex, (vertex_count, 3) each; 0 at a vertex in no face.
 
+        Where walls part vertices there are as many rows as in ``mesh.cut().mesh``.
+
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
         >>> x, y, normal = bf.VectorHeatSolver(mesh).tangent_frames()
@@ -208,6 +210,8 @@ class VectorHeatSolver:
     def extend(self, vertices: npt.ArrayLike, values: npt.ArrayLike) -> Floats:
         """The value of the nearest of the vertices, blended where several are equally near, (vertex_count,).
 
+        A vertex on a wall feeds all its sides.
+
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
         >>> bf.VectorHeatSolver(mesh).extend([0], [7.0]).tolist()
@@ -218,7 +222,10 @@ class VectorHeatSolver:
     def transport(self, vertices: npt.ArrayLike, vectors: npt.ArrayLike) -> Floats:
         """The vector of the nearest of the vertices, carried along the shortest path, (vertex_count, 2).
 
+        Where walls part vertices there are as many rows as in ``mesh.cut().mesh``.
+
         :param vectors: (vertices, 2).
+        :raises BrushfireError: for a vertex that walls part: its sides have no common frame.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
@@ -233,6 +240,7 @@ class VectorHeatSolver:
         """Where every vertex lies as seen from one, in its frame, (vertex_count, 2).
 
         :param strategy: ``"affine-local"``, ``"affine-adaptive"`` (the most accurate) or ``"vector-heat"``.
+        :raises BrushfireError: for a vertex that walls part: its sides have no common frame.
 
         >>> import brushfire as bf
         >>> mesh = bf.Mesh([[0, 0], [3, 0], [3, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
@@ -252,7 +260,7 @@ class VectorHeatSolver:
         from scipy.sparse import csc_matrix
 
         row, column, parts = self._core.connection_laplacian()
-        count = self.mesh.vertex_count
+        count = int(row.max(initial=-1)) + 1  # the diagonal is stored
         return csc_matrix((parts[:, 0] + 1j * parts[:, 1], (row, column)), shape=(count, count))
 
     def _vertices(self, vertices: npt.ArrayLike) -> Ints:
@@ -261,6 +269,9 @@ class VectorHeatSolver:
 
 class SignedHeatSolver:
     """The distance from curves drawn on a surface, with a sign that says on which side; gaps in curves are closed.
+
+    Walls are borders of what is open: a curve along one runs along both of its sides, what of a curve lies behind one is
+    left out, and a vertex on one reads the side whose value is nearest to 0.
 
     :param mesh, time_factor, time, delaunay: as for :class:`VectorHeatSolver`.
 

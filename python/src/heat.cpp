@@ -43,12 +43,12 @@ std::vector<Index> vertices_from(const Mesh& mesh, const Vector<std::int64_t>& i
 // What several threads may ask one after the other: the solvers build what they need on their way.
 template <class Solver>
 struct Shared {
-  Mesh mesh;
+  Mesh mesh;  // the whole
   Solver solver;
   std::mutex mutex;
 
-  Shared(const Mesh& given, const HeatOptions& options)
-      : mesh(given), solver(listening(false, [&] { return Solver(given, options); })) {}
+  Shared(const Domain& given, const HeatOptions& options)
+      : mesh(given.mesh()), solver(listening(false, [&] { return Solver(given, options); })) {}
 
   template <class Use>
   auto with(Use&& use) {
@@ -64,9 +64,9 @@ using VectorHeat = Shared<VectorHeatSolver>;
 using SignedHeat = Shared<SignedHeatSolver>;
 
 template <class T>
-void construct(T* self, const Mesh& mesh, double time_factor, double time, const std::string& boundary, bool delaunay,
-               double shift) {
-  new (self) T(mesh, heat_options(time_factor, time, boundary, delaunay, shift));
+void construct(T* self, const Domain& domain, double time_factor, double time, const std::string& boundary,
+               bool delaunay, double shift) {
+  new (self) T(domain, heat_options(time_factor, time, boundary, delaunay, shift));
 }
 
 // Set k is sources[starts[k]] .. sources[starts[k + 1] - 1]: (sets, vertices).
@@ -144,22 +144,23 @@ Result<double> signed_distance(SignedHeat& heat, const Vector<std::int64_t>& ind
 }
 
 // (row, column, value, mass).
-nb::tuple laplacian(const Mesh& mesh, bool delaunay) {
-  Laplacian l = listening(false, [&] { return laplacian_of(mesh, delaunay); });
+nb::tuple laplacian(const Domain& domain, bool delaunay) {
+  Laplacian l = listening(false, [&] { return laplacian_of(domain, delaunay); });
   return nb::make_tuple(to_numpy_signed(std::move(l.row)), to_numpy_signed(std::move(l.column)),
                         to_numpy(std::move(l.value)), to_numpy(std::move(l.mass)));
 }
 
 template <class T>
 nb::class_<T> bind_solver(nb::module_& m, const char* name) {
-  return nb::class_<T>(m, name).def("__init__", construct<T>, nb::arg("mesh"), nb::arg("time_factor"), nb::arg("time"),
-                                    nb::arg("boundary"), nb::arg("delaunay"), nb::arg("poisson_shift"));
+  return nb::class_<T>(m, name).def("__init__", construct<T>, nb::arg("domain"), nb::arg("time_factor"),
+                                    nb::arg("time"), nb::arg("boundary"), nb::arg("delaunay"),
+                                    nb::arg("poisson_shift"));
 }
 
 }  // namespace
 
 void bind_heat(nb::module_& m) {
-  m.def("laplacian", laplacian, nb::arg("mesh"), nb::arg("delaunay"));
+  m.def("laplacian", laplacian, nb::arg("domain"), nb::arg("delaunay"));
   bind_solver<Heat>(m, "HeatSolver")
       .def("distances", distances, nb::arg("index").noconvert(), nb::arg("weights").noconvert().none(),
            nb::arg("offsets").noconvert(), nb::arg("starts").noconvert())

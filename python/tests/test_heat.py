@@ -62,14 +62,11 @@ class TestHeatSolver:
             ours = bf.HeatSolver(mesh, time_factor=t, poisson_shift=shift).distance(7)
             assert np.abs(ours - theirs).max() < 1e-6 * theirs.max()
 
-    def test_walls_and_bad_names_are_errors(self):
-        with pytest.raises(bf.BrushfireError, match="walls"):
-            bf.HeatSolver(MESH.walled(faces=[0]))
+    def test_bad_names_are_errors(self):
         with pytest.raises(bf.BrushfireError, match="neumann"):
             bf.HeatSolver(MESH, boundary="warm")
         with pytest.raises(bf.BrushfireError, match="time_factor"):
             bf.HeatSolver(MESH, time_factor=0)
-        assert np.isinf(MESH.walled(edges=[(0, 1)]).distance(0, method="heat")).sum() == 0
 
 
 class TestLaplacian:
@@ -125,3 +122,60 @@ class TestSignedHeat:
     def test_paths_may_be_curves(self):
         d = bf.SignedHeatSolver(MESH).distance([MESH.path(0, len(V) - 1)], points=[5])
         assert np.isfinite(d).all()
+
+
+class TestWalls:
+    """What each of the solvers gives is what it gives on the mesh that is cut."""
+
+    @pytest.fixture(params=["mask", "edges"])
+    def walled(self, request: pytest.FixtureRequest) -> bf.Mesh:
+        if request.param == "mask":
+            return MESH.walled(mask=~np.isin(np.arange(len(V)), [30, 31, 45, 60, 75, 90]))
+        return MESH.walled(edges=[(14 * y + 6, 14 * y + 20) for y in range(2, 13)])  # up the column x = 6, to the border
+
+    def test_distances(self, walled: bf.Mesh) -> None:
+        cut = walled.cut()
+        here = bf.HeatSolver(walled).distances([0, [100, 8]])
+        for row, sources in zip(here, ([0], [100, 8]), strict=True):
+            points, _ = cut.points_from_original(sources)
+            assert np.array_equal(row, cut.to_original(bf.HeatSolver(cut.mesh).distance(points)))
+            assert row == pytest.approx(walled.distance(sources, method="heat"), rel=1e-12, abs=1e-12)
+
+    def test_laplacians(self, walled: bf.Mesh) -> None:
+        cut = walled.cut()
+        for here, there in (
+            (bf.laplacian(walled)[0], bf.laplacian(cut.mesh)[0]),
+            (*(bf.VectorHeatSolver(m).connection_laplacian() for m in (walled, cut.mesh)),),
+        ):
+            assert here.shape == there.shape == (cut.mesh.vertex_count,) * 2
+            assert abs(here - there).max() == 0
+        assert bf.laplacian(walled)[1].shape == (cut.mesh.vertex_count,)
+
+    def test_values_vectors_and_logarithms(self, walled: bf.Mesh) -> None:
+        cut, n = walled.cut(), len(V)
+        here, there = bf.VectorHeatSolver(walled), bf.VectorHeatSolver(cut.mesh)
+        single = np.bincount(cut.original_vertex)[cut.original_vertex[:n]] == 1
+        for a, b in (
+            (here.extend([0, 100], [-1, 2]), there.extend([0, 100], [-1, 2])),
+            (here.log_map(0), there.log_map(0)),
+        ):
+            assert np.array_equal(a[single], b[:n][single], equal_nan=True) and len(a) == n
+        assert np.array_equal(here.transport([0], [[1, 2]]), there.transport([0], [[1, 2]]), equal_nan=True)
+        assert np.array_equal(here.tangent_frames()[0], there.tangent_frames()[0])
+
+    def test_signed_distances_along_a_wall(self) -> None:
+        v, f = grid(11)
+        column = [11 * y + 4 for y in range(11)]
+        mesh = bf.Mesh(v, f).walled(edges=np.column_stack([column[:-1], column[1:]]))
+        d = bf.SignedHeatSolver(mesh).distance([column])
+        assert np.abs(d - (v[:, 0] - 4)).max() < 0.6  # near a border vectors tend to run along it
+        assert np.array_equal(np.sign(d.round(6)), np.sign(v[:, 0] - 4))
+
+    def test_a_vertex_that_walls_part_has_no_direction(self) -> None:
+        walled = MESH.walled(edges=[(14 * y + 6, 14 * y + 20) for y in range(13)])
+        solver = bf.VectorHeatSolver(walled)
+        for call in (lambda: solver.log_map(20), lambda: solver.transport([20], [[1, 0]])):
+            with pytest.raises(bf.BrushfireError, match="no common frame"):
+                call()
+        assert np.isnan(solver.extend([0], [1.0])[13])
+        assert np.isinf(bf.HeatSolver(walled).distance(0)[13])

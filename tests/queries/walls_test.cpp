@@ -14,6 +14,7 @@
 
 #include "../support/random_points.h"
 #include "cut_by_hand.h"
+#include "random_walls.h"
 
 #include <gtest/gtest.h>
 
@@ -26,79 +27,18 @@ namespace brushfire {
 namespace {
 
 using test::ByHand;
-
-struct Case {
-  Mesh mesh;
-  Barriers barriers;
-};
-
-// Blocked blobs, single faces, chains of edges, and vertices.
-Case random_case(std::mt19937& random) {
-  Case c;
-  switch (random() % 4) {
-    case 0:
-      c.mesh = shapes::noise_terrain(13, 11, 0.3, random()).mesh();
-      break;
-    case 1:
-      c.mesh = shapes::folded_sphere(2, 4, 0.2, random()).mesh();
-      break;
-    case 2:
-      c.mesh = shapes::torus(16, 9).mesh();
-      break;
-    default:
-      c.mesh = shapes::plane(9, 12).mesh();
-  }
-  const Mesh& m = c.mesh;
-  if (random() % 2) {
-    std::vector<std::uint8_t> open(m.vertex_count());
-    for (auto& o : open) o = random() % 10 != 0;
-    c.barriers.faces = closed_faces(m, open);
-  }
-  if (random() % 2) {
-    for (int i = 0; i < 12; ++i) c.barriers.faces.push_back(static_cast<Index>(random() % m.face_count()));
-  }
-  if (random() % 2) {
-    Index h = static_cast<Index>(random() % m.halfedge_count());
-    for (int i = 0; i < 25; ++i) {
-      c.barriers.edges.push_back({m.from(h), m.to(h)});
-      const auto around = m.corners(m.to(h));
-      h = around[random() % around.size()];
-    }
-  }
-  if (random() % 3 == 0) c.barriers.vertices.push_back(static_cast<Index>(random() % m.vertex_count()));
-  return c;
-}
-
-SurfacePoint open_point(const Domain& domain, std::mt19937& random) {
-  while (true) {
-    const SurfacePoint p = test::any_point(domain.mesh(), random);
-    if (!domain.on_open(p).empty()) return p;
-  }
-}
-
-std::vector<double> least_by_hand(const ByHand& hand, std::span<const double> distance, Index count) {
-  std::vector<double> least(count, kInfinity);
-  for (Index v = 0; v < distance.size(); ++v) {
-    if (hand.vertex[v] != kNoIndex) least[hand.vertex[v]] = std::min(least[hand.vertex[v]], distance[v]);
-  }
-  return least;
-}
-
-double difference(std::span<const double> a, std::span<const double> b) {
-  double worst = a.size() == b.size() ? 0 : kInfinity;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    if (a[i] != b[i]) worst = std::max(worst, std::abs(a[i] - b[i]));  // inf where one of them is
-  }
-  return worst;
-}
-
-constexpr double kRounding = 1e-12;
+using test::difference;
+using test::kRounding;
+using test::least_by_hand;
+using test::open_point;
+using test::random_walls;
+using Case = test::WalledCase;
 
 TEST(Walls, EveryMethodReadsWhatItReadsOnTheMeshCutByHand) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    const Case c = random_case(random);
+    const Case c = random_walls(random);
     const Domain domain(c.mesh, c.barriers);
     const ByHand hand(c.mesh, c.barriers), numbered = hand.numbered_as(domain.open());
     std::vector<Source> sources, by_hand, named;
@@ -151,7 +91,7 @@ TEST(Walls, GroupedRowsGoAroundThem) {
   for (unsigned seed = 300; seed < 310; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    const Case c = random_case(random);
+    const Case c = random_walls(random);
     const Domain domain(c.mesh, c.barriers);
     MatrixOptions matrix;
     matrix.distance.method = Method::CarriedSource;
@@ -204,7 +144,7 @@ TEST(Walls, TargetsPathsMatricesAndLogMapsAgreeWithTheField) {
   for (unsigned seed = 100; seed < 130; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    const Case c = random_case(random);
+    const Case c = random_walls(random);
     const Domain domain(c.mesh, c.barriers);
     const ByHand hand(c.mesh, c.barriers);
     const SurfacePoint from = open_point(domain, random);
@@ -253,7 +193,7 @@ TEST(Walls, CellsSamplesAndCertificatesKnowThem) {
   for (unsigned seed = 200; seed < 220; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    const Case c = random_case(random);
+    const Case c = random_walls(random);
     const Domain domain(c.mesh, c.barriers);
     std::vector<Source> sources;
     for (int i = 0; i < 4; ++i) sources.push_back({open_point(domain, random), 0.03 * i});

@@ -85,9 +85,9 @@ std::optional<std::vector<Place>> places_on(const Surface& surface, PlaceFinder&
     // A vertex in no face is a legal row (of infinities), but not a point of the surface.
     const VertexPlace* vertex = std::get_if<VertexPlace>(&where.place);
     if (vertex && vertex->index < count) {
-      places.push_back(surface.vertex(static_cast<Index>(vertex->index)));
+      places.emplace_back(surface.vertex(static_cast<Index>(vertex->index)));
     } else {
-      places.push_back(finder.source(surface.place(where)));
+      places.emplace_back(finder.source(surface.place(where)));
     }
   }
   return places;

@@ -1,11 +1,12 @@
 // The package in a worker: fields as fast as they come, never more than one waiting.
 import { createPool } from 'brushfire';
 
+import { Ground } from './ground.js';
 import { poolParts } from './parts.js';
 import { isCurve } from './state.js';
 
 export class Engine {
-  #pool; #mesh = null; #running = null; #waiting = null; #curves = new Map();
+  #pool; #mesh = null; #faces = null; #ground = null; #walls = '[]'; #running = null; #waiting = null;
 
   static async start() {
     const engine = new Engine();
@@ -30,25 +31,32 @@ export class Engine {
     }
     const [vertices, faces, report] = await Promise.all([mesh.vertices, mesh.faces, mesh.report]);
     this.#running?.controller.abort();
+    this.#ground?.free();
     this.#mesh?.free();
     this.#mesh = mesh;
-    this.#curves.clear();
+    this.#faces = faces;
+    this.#walls = '[]';
+    this.#ground = await Ground.of(mesh, faces, []);
     return { mesh, vertices, faces, report };
   }
 
-  // The curve through the places of a source that is one: shortest between them.
-  curve(source) {
-    const key = JSON.stringify(source);
-    if (!this.#curves.has(key)) {
-      if (this.#curves.size > 100) this.#curves.clear();
-      this.#curves.set(key, this.#mesh.path(source.through, { closed: source.closed }));
-    }
-    return this.#curves.get(key);
+  get ground() {
+    return this.#ground;
   }
 
-  // Sources of the state as the package takes them.
-  async sources(list) {
-    return Promise.all(list.map(async (s) => (isCurve(s) ? { curve: await this.curve(s), closed: s.closed } : s)));
+  // Whether they are others than before.
+  async setWalls(walls) {
+    const text = JSON.stringify(walls);
+    if (text === this.#walls) return false;
+    const ground = await Ground.of(this.#mesh, this.#faces, walls);
+    this.#ground.free();
+    this.#ground = ground;
+    this.#walls = text;
+    return true;
+  }
+
+  curve(source) {
+    return this.#ground.curve(source);
   }
 
   // A field for each of `computations`, side by side. The newest question only: one that still waits when a newer one
@@ -66,8 +74,14 @@ export class Engine {
     const { signal } = controller;
     this.#running = { controller };
     try {
-      const starts = await this.sources(sources);
-      return await Promise.all(computations.map((options) => this.#mesh.distance(starts, { ...options, signal })));
+      const ground = this.#ground;
+      const { starts, number } = await ground.sources(sources);
+      return await Promise.all(computations.map(async (options) => {
+        const field = await ground.mesh.distance(starts, { ...options, signal });
+        const source = field.source.map((s) => (s < 0 ? s : number[s]));
+        // As it is drawn, with two values at each vertex of a wall; and at the vertices of the whole mesh.
+        return { ...field, ...(await ground.whole(field.distance, source)), drawn: { distance: field.distance, source } };
+      }));
     } finally {
       this.#running = null;
       this.#next();
@@ -76,16 +90,37 @@ export class Engine {
 
   // Distance of a place, which source is nearest to it, and the path from there.
   async look(sources, options, place, wantsPath) {
-    const starts = await this.sources(sources);
-    const { targetDistance: [distance], targetSource: [source] } = await this.#mesh.distance(starts, { ...options, targets: [place] });
+    const { mesh } = this.#ground;
+    const { starts, number } = await this.#ground.sources(sources);
+    const [[target]] = await this.#ground.placesOf([place]);
+    const { targetDistance: [distance], targetSource: [source] } = await mesh.distance(starts, { ...options, targets: [target] });
     if (!wantsPath || source < 0) return { distance, path: null };
-    if (!isCurve(sources[source])) return { distance, path: await this.#mesh.path([sources[source], place]) };
-    const field = await this.#mesh.field([starts[source]], { method: 'exact', targets: [place], keep: 'paths' });
+    if (!isCurve(sources[number[source]])) return { distance, path: await mesh.path([starts[source], target]) };
+    const field = await mesh.field([starts[source]], { method: 'exact', targets: [target], keep: 'paths' });
     try {
-      return { distance, path: await field.path(place) };
+      return { distance, path: await field.path(target) };
     } finally {
       field.free();
     }
+  }
+
+  // Per vertex as it is drawn: distances with the sign of the side of the curves among the sources.
+  async sides(sources) {
+    const { starts } = await this.#ground.sources(sources.filter(isCurve));
+    return this.#ground.mesh.signedDistance(starts);
+  }
+
+  // Per vertex as it is drawn: two coordinates around the first place among the sources, NaN where there are none.
+  async chart(sources) {
+    const [[place]] = await this.#ground.placesOf([sources.find((s) => !isCurve(s))]);
+    const { radius, angle, totalAngle } = await this.#ground.mesh.logMap(place);
+    const chart = new Float32Array(2 * radius.length);
+    radius.forEach((r, v) => {
+      const turn = (angle[v] * 2 * Math.PI) / totalAngle;
+      chart[2 * v] = r === 0 ? 0 : r * Math.cos(turn);
+      chart[2 * v + 1] = r === 0 ? 0 : r * Math.sin(turn);
+    });
+    return chart;
   }
 
   #next() {

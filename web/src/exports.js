@@ -18,6 +18,12 @@ export async function save({ engine, field, path, scene, state }, what) {
     if (!path) throw new Error('Point at the surface first: the path under the pointer is saved.');
     return download(await mesh.writeCurves('obj', [path]), 'path.obj');
   }
+  if (what === 'walls.txt') {
+    const { edges } = engine.ground;
+    if (edges.length === 0) throw new Error('Draw a wall first.');
+    const pairs = Array.from({ length: edges.length / 2 }, (_, k) => `${edges[2 * k]} ${edges[2 * k + 1]}\n`);
+    return download(new TextEncoder().encode(pairs.join('')), 'walls.txt');
+  }
   if (what === 'curve.json') {
     const k = state.sources.findIndex(isCurve);
     if (k < 0) throw new Error('Draw a curve first.');

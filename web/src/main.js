@@ -10,7 +10,7 @@ const $ = (id) => document.getElementById(id);
 const METHODS = ['windows', 'exact', 'novotni-klein', 'carried-source', 'kimmel-sethian', 'novotni-klein-2002', 'dijkstra'];
 const number = (x) => (Number.isFinite(x) ? Number(x.toPrecision(7)).toString() : 'unreachable');
 
-export const app = { state: fromFragment(location.hash) ?? initial(), history: new History(), scene: null, engine: null, field: null, path: null, drawing: null, file: null };
+export const app = { state: fromFragment(location.hash) ?? initial(), history: new History(), scene: null, engine: null, field: null, path: null, drawing: null, drawsWall: false, file: null };
 
 function say(error) {
   $('message').textContent = error ? String(error.message ?? error) : '';
@@ -35,7 +35,7 @@ export async function open(make, name, file, values) {
   const { mesh, vertices, faces, report } = opened;
   app.scene.showMesh(vertices, faces, mesh.bounds);
   $('report').textContent = [`${mesh.vertexCount} vertices, ${mesh.faceCount} faces, ${report.components} component${report.components === 1 ? '' : 's'}.`, ...report.remarks, ...(mesh.file?.remarks ?? [])].join(' ');
-  app.faces = faces;
+  Object.assign(app, { vertices, faces });
   if (values) await showGiven(values);
   else await refresh();
 }
@@ -46,7 +46,7 @@ export function openShape(name) {
 
 export async function openFile(file) {
   const bytes = new Uint8Array(await file.arrayBuffer());
-  app.state = { ...app.state, shape: '', sources: [{ face: 0, weights: [1, 0, 0] }] };
+  app.state = { ...app.state, shape: '', sources: [{ face: 0, weights: [1, 0, 0] }], walls: [] };
   app.history.clear();
   return open((pool) => pool.read(bytes, file.name), file.name, bytes);
 }
@@ -68,24 +68,58 @@ export async function refresh() {
   forget();
   show();
   const busy = setTimeout(() => { $('busy').hidden = false; }, 200);
-  const { against } = app.state;
+  const { against, sources, walls, by } = app.state;
   const computations = [solving(app.state), ...(against ? [{ method: against }] : [])];
-  const fields = await guarded(() => app.engine.solve(app.state.sources, computations));
+  if (await guarded(() => app.engine.setWalls(walls))) showGround();
+  const fields = await guarded(() => app.engine.solve(sources, computations));
+  const view = fields && (await guarded(() => viewOf(by, sources)));
   clearTimeout(busy);
   $('busy').hidden = true;
   if (!fields) return;
-  draw(...fields);
+  draw(...fields, view);
   tellFrame(app.state.sources);
 }
 
-function draw(field, other) {
+// The surface, cut open along the walls.
+function showGround() {
+  const { mesh, ground } = app.engine;
+  app.scene.showMesh(ground.vertices ?? app.vertices, ground.faces ?? app.faces, mesh.bounds, true);
+  app.scene.showWalls(ground.lines);
+}
+
+// What there is to see beside distances.
+async function viewOf(by, sources) {
+  if (by === 'sides') {
+    if (!sources.some(isCurve)) throw new Error('Draw a curve first: sides are those of a curve.');
+    return { sides: await app.engine.sides(sources) };
+  }
+  if (by === 'log map') {
+    if (sources.every(isCurve)) throw new Error('Click first: the pattern is laid around a place.');
+    return { chart: await app.engine.chart(sources) };
+  }
+  return {};
+}
+
+function showView({ sides = null, chart = null } = {}) {
+  app.sides = sides;
+  app.chart = chart;
+  const widest = sides ? sides.reduce((most, d) => (Number.isFinite(d) ? Math.max(most, Math.abs(d)) : most), 0) : -1;
+  app.scene.showSides(sides, widest);
+  app.scene.showChart(chart, (app.scene.uniforms.farthest.value * Number($('tile').value)) / 100);
+  if (sides) $('legend-high').textContent = `±${number(widest)}`;
+  $('legend-bar').hidden = $('legend-low').hidden = sides !== null;
+}
+
+function draw(field, other, view) {
   app.field = field;
-  app.scene.showField(field.distance, field.source);
+  const drawn = field.drawn ?? field;
+  app.scene.showField(drawn.distance, drawn.source);
   const farthest = field.distance.reduce((most, d) => (Number.isFinite(d) && d > most ? d : most), 0);
   app.scene.uniforms.farthest.value = farthest || 1;
   app.scene.uniforms.spacing.value = app.state.lines > 0 ? farthest / app.state.lines : 0;
   $('legend-high').textContent = number(farthest);
-  const error = showError(field, other);
+  const error = showError(drawn, other?.drawn);
+  showView(view);
   const bound = Number.isFinite(field.maxErrorBound) ? `, every distance within ${(100 * field.maxErrorBound).toPrecision(2)} % (proven)` : '';
   $('summary').textContent = `${app.name}: ${field.reached} of ${field.distance.length} vertices reached, the farthest at ${number(farthest)}${bound}${error}`;
   document.documentElement.dataset.solved = String(Number(document.documentElement.dataset.solved ?? 0) + 1);
@@ -121,6 +155,8 @@ function show() {
   $('colormap').value = state.colormap;
   $('lines').value = state.lines;
   $('lines-value').textContent = state.lines;
+  $('by').value = state.by;
+  $('no-walls').disabled = state.walls.length === 0;
   $('undo').disabled = !app.history.canUndo;
   $('redo').disabled = !app.history.canRedo;
   history.replaceState(null, '', state.shape ? toFragment(state) : '#');
@@ -139,19 +175,24 @@ async function showSources(sources) {
 }
 let shown = 0;
 
-// A curve is drawn by the places that it goes through. Null: none is.
-function drawCurve(places) {
+// A curve or a wall is drawn by the places that it goes through. Null: none is.
+function drawCurve(places, isWall = app.drawsWall) {
   if (places) forget();
   app.drawing = places;
-  $('draw').setAttribute('aria-pressed', String(places !== null));
+  app.drawsWall = places !== null && isWall;
+  $('draw').setAttribute('aria-pressed', String(places !== null && !isWall));
+  $('draw-wall').setAttribute('aria-pressed', String(app.drawsWall));
   for (const id of ['end-curve', 'close-curve']) $(id).disabled = !(places?.length > 1);
-  if (places) $('readout').textContent = places.length === 0 ? 'Click where the curve goes' : `A curve through ${places.length} place${places.length > 1 ? 's' : ''}`;
+  const what = isWall ? 'wall' : 'curve';
+  if (places) $('readout').textContent = places.length === 0 ? `Click where the ${what} goes` : `A ${what} through ${places.length} place${places.length > 1 ? 's' : ''}`;
   showSources(app.state.sources);
 }
 
 function endCurve(closed, adds) {
-  const through = app.drawing;
+  const through = app.drawing.map(tidy);
+  const isWall = app.drawsWall;
   drawCurve(null);
+  if (isWall) return change({ walls: [...app.state.walls, { through: closed ? [...through, through[0]] : through }] });
   return setSources([...(adds ? app.state.sources : []), { through, closed }]);
 }
 
@@ -243,7 +284,7 @@ function bind() {
   $('shape').onchange = async () => {
     if (!$('shape').value) return;
     app.history.add(app.state);
-    app.state = { ...app.state, shape: $('shape').value, sources: initial().sources };
+    app.state = { ...app.state, shape: $('shape').value, sources: initial().sources, walls: [] };
     await openShape(app.state.shape);
   };
   $('method').onchange = () => change({ method: $('method').value });
@@ -259,7 +300,18 @@ function bind() {
   $('path').onchange = () => { if (!$('path').checked) app.scene.showPath(null); };
   $('cells').onchange = () => { app.scene.uniforms.showCells.value = $('cells').checked; app.scene.draw(); };
   $('wave').onclick = () => wave($('wave').getAttribute('aria-pressed') !== 'true');
-  $('draw').onclick = () => drawCurve(app.drawing ? null : []);
+  $('draw').onclick = () => drawCurve(app.drawing ? null : [], false);
+  $('draw-wall').onclick = () => drawCurve(app.drawing ? null : [], true);
+  $('no-walls').onclick = () => change({ walls: [] });
+  $('by').onchange = () => change({ by: $('by').value });
+  $('tile').oninput = () => showView(app);
+  $('decal').onchange = () => guarded(async () => {
+    const [file_] = $('decal').files;
+    if (!file_) return;
+    app.scene.setPicture(await createImageBitmap(file_, { imageOrientation: 'flipY' }));
+    $('tile').value = 60;
+    await change({ by: 'log map' });
+  });
   $('end-curve').onclick = (event) => endCurve(false, event.shiftKey);
   $('close-curve').onclick = (event) => endCurve(true, event.shiftKey);
   $('undo').onclick = () => travel((s) => app.history.undo(s));
@@ -278,6 +330,7 @@ window.brushfire = app; // for tests, and for who is curious
 try {
   app.scene = new Scene($('canvas'));
   app.engine = await Engine.start();
+  app.scene.faceOf = (face) => app.engine.ground.faceOf(face);
   bind();
   await colours();
   const held = heldMesh(document);

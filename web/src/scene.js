@@ -6,7 +6,9 @@ const VERTEX = `
   attribute float distance;
   attribute float cell;
   attribute float error;
+  attribute vec2 chart;
   varying float vError;
+  varying vec2 vChart;
   varying float vDistance;
   varying float vCell;
   varying vec3 vPosition;
@@ -14,6 +16,7 @@ const VERTEX = `
     vDistance = distance;
     vCell = cell;
     vError = error;
+    vChart = chart;
     vec4 p = modelViewMatrix * vec4(position, 1.0);
     vPosition = p.xyz;
     gl_Position = projectionMatrix * p;
@@ -26,19 +29,41 @@ const FRAGMENT = `
   uniform float farthest, spacing, front, pixel;
   uniform bool showCells;
   uniform float worst; // the largest error; below 0: errors are not shown
+  uniform float widest; // the largest value with the sign of a side; below 0: sides are not shown
+  uniform float tile; // the width of a tile of the pattern, or of the picture; below 0: there is none
+  uniform bool hasPicture;
+  uniform sampler2D picture;
   varying float vError;
+  varying vec2 vChart;
   varying float vDistance;
   varying float vCell;
   varying vec3 vPosition;
   vec3 hue(float turns) { return mix(clamp(abs(6.0 * fract(turns + vec3(0.0, 2.0, 1.0) / 3.0) - 3.0) - 1.0, 0.0, 1.0), vec3(0.55), 0.35); }
+  // Blue on the left, red on the right, lighter towards the curve.
+  vec3 side(float share) { return mix(vec3(0.97), share < 0.0 ? vec3(0.13, 0.4, 0.67) : vec3(0.7, 0.09, 0.17), sqrt(abs(share))); }
+  // A pattern in the coordinates of the log map. Triangles over which they jump, where ways around meet, show none.
+  vec3 decal(vec3 ground) {
+    vec2 grain = fwidth(vChart);
+    if (!(length(vChart) < 1e30) || length(grain) > 3.0 * length(fwidth(vPosition))) return ground;
+    vec2 at = vChart / tile;
+    if (hasPicture) {
+      vec4 ink = texture2D(picture, at + 0.5);
+      return all(lessThan(abs(at), vec2(0.5))) ? mix(ground, ink.rgb, ink.a) : ground;
+    }
+    vec2 edge = abs(fract(at - 0.5) - 0.5) / max(fwidth(at), 1e-9);
+    float odd = mod(floor(at.x) + floor(at.y), 2.0);
+    return mix(vec3(0.5), mix(vec3(0.96), ground * 0.55, odd), clamp(min(edge.x, edge.y), 0.0, 1.0));
+  }
   void main() {
     bool reached = vDistance < 1e30;
     vec3 colour = reached ? texture2D(colours, vec2(clamp(vDistance / farthest, 0.0, 1.0), 0.5)).rgb : vec3(0.6);
     if (showCells && reached) colour = mix(hue(vCell * 0.382), colour, 0.35);
     if (worst >= 0.0 && reached) colour = abs(vError) <= 1e30 ? texture2D(colours, vec2(worst > 0.0 ? abs(vError) / worst : 0.0, 0.5)).rgb : vec3(0.6);
+    if (widest >= 0.0 && reached) colour = side(widest > 0.0 ? vError / widest : 0.0);
+    if (tile > 0.0 && reached) colour = decal(colour);
     vec3 normal = normalize(cross(dFdx(vPosition), dFdy(vPosition)));
     float light = 0.35 + 0.65 * abs(normal.z);
-    if (reached && spacing > 0.0) {
+    if (reached && spacing > 0.0 && tile <= 0.0) {
       float steps = vDistance / spacing;
       float width = fwidth(steps);
       float line = abs(fract(steps - 0.5) - 0.5) / max(width, 1e-9);
@@ -53,7 +78,7 @@ const FRAGMENT = `
   }`;
 
 export class Scene {
-  #canvas; #renderer; #camera; #orbit; #scene = new THREE.Scene(); #surface = null; #marks = new THREE.Group(); #path = null;
+  #canvas; #renderer; #camera; #orbit; #scene = new THREE.Scene(); #surface = null; #marks = new THREE.Group(); #walls = new THREE.Group(); #path = null;
   #ray = new THREE.Raycaster(); #drawn = false; #size = 1;
 
   constructor(canvas) {
@@ -64,10 +89,11 @@ export class Scene {
     this.#camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
     this.#orbit = new OrbitControls(this.#camera, canvas);
     this.#orbit.addEventListener('change', () => this.draw());
-    this.#scene.add(this.#marks);
+    this.#scene.add(this.#marks, this.#walls);
     this.uniforms = {
       colours: { value: null }, farthest: { value: 1 }, spacing: { value: 0 }, front: { value: -1 },
       pixel: { value: this.#renderer.getPixelRatio() }, showCells: { value: false }, worst: { value: -1 },
+      widest: { value: -1 }, tile: { value: -1 }, hasPicture: { value: false }, picture: { value: null },
     };
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
   }
@@ -82,7 +108,8 @@ export class Scene {
     });
   }
 
-  showMesh(vertices, faces, { low, high }) {
+  // `keepsView`: it is the same surface as before, cut open in another way.
+  showMesh(vertices, faces, { low, high }, keepsView = false) {
     this.#surface?.geometry.dispose();
     if (this.#surface) this.#scene.remove(this.#surface);
     const middle = low.map((l, k) => (l + high[k]) / 2);
@@ -95,11 +122,14 @@ export class Scene {
     geometry.setAttribute('distance', new THREE.BufferAttribute(new Float32Array(vertices.length / 3).fill(1e31), 1));
     geometry.setAttribute('cell', new THREE.BufferAttribute(new Float32Array(vertices.length / 3), 1));
     geometry.setAttribute('error', new THREE.BufferAttribute(new Float32Array(vertices.length / 3), 1));
+    geometry.setAttribute('chart', new THREE.BufferAttribute(new Float32Array(2 * (vertices.length / 3)), 2));
     geometry.setIndex(new THREE.BufferAttribute(faces, 1));
     this.#surface = new THREE.Mesh(geometry, new THREE.ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: this.uniforms, side: THREE.DoubleSide }));
     this.#scene.add(this.#surface);
     this.showPath(null);
+    if (keepsView) return;
     this.showSources([]);
+    this.showWalls([]);
     this.home();
   }
 
@@ -116,6 +146,35 @@ export class Scene {
     for (let v = 0; v < distance.length; ++v) to.array[v] = Number.isFinite(distance[v]) ? distance[v] : 1e31;
     cell.array.set(source);
     to.needsUpdate = cell.needsUpdate = true;
+    this.draw();
+  }
+
+  // Colours by values with a sign instead, the largest of which is `widest`; null: no longer.
+  showSides(values, widest) {
+    const to = this.#surface.geometry.getAttribute('error');
+    if (values) for (let v = 0; v < values.length; ++v) to.array[v] = Number.isFinite(values[v]) ? values[v] : 0;
+    to.needsUpdate = true;
+    this.uniforms.widest.value = values ? widest : -1;
+    this.draw();
+  }
+
+  // A pattern by two coordinates per vertex, in tiles as wide as `tile`, or a picture that wide; null: none.
+  showChart(chart, tile) {
+    if (chart) {
+      const to = this.#surface.geometry.getAttribute('chart');
+      for (let i = 0; i < chart.length; ++i) to.array[i] = Number.isNaN(chart[i]) ? 1e31 : chart[i] / this.#size;
+      to.needsUpdate = true;
+    }
+    this.uniforms.tile.value = chart ? tile / this.#size : -1;
+    this.draw();
+  }
+
+  // An ImageBitmap in place of the tiles; null: tiles again.
+  setPicture(bitmap) {
+    this.uniforms.picture.value?.dispose();
+    const texture = bitmap && new THREE.CanvasTexture(bitmap);
+    this.uniforms.picture.value = texture;
+    this.uniforms.hasPicture.value = bitmap !== null;
     this.draw();
   }
 
@@ -136,8 +195,7 @@ export class Scene {
 
   // A dot at each place, and the curves among the sources.
   showSources(positions, curves = []) {
-    for (const m of this.#marks.children) { m.geometry.dispose(); m.material.dispose(); }
-    this.#marks.clear();
+    this.#empty(this.#marks);
     const p = this.#inView(positions);
     for (let i = 0; i < p.length; i += 3) {
       const mark = new THREE.Mesh(new THREE.SphereGeometry(0.018, 16, 12), new THREE.MeshBasicMaterial({ color: 0xd62728 }));
@@ -146,6 +204,17 @@ export class Scene {
     }
     for (const { positions: line } of curves) if (line.length > 3) this.#marks.add(this.#tube(line, 0.009));
     this.draw();
+  }
+
+  showWalls(lines) {
+    this.#empty(this.#walls);
+    for (const { positions } of lines) if (positions.length > 3) this.#walls.add(this.#tube(positions, 0.012, 0x202020));
+    this.draw();
+  }
+
+  #empty(group) {
+    for (const m of group.children) { m.geometry.dispose(); m.material.dispose(); }
+    group.clear();
   }
 
   showPath(positions) {
@@ -163,15 +232,18 @@ export class Scene {
     return tube;
   }
 
-  #tube(positions, radius) {
+  #tube(positions, radius, color = 0xd62728) {
     const points = this.#inView(positions);
     const curve = new THREE.CurvePath();
     for (let i = 3; i < points.length; i += 3) {
       curve.add(new THREE.LineCurve3(new THREE.Vector3(...points.subarray(i - 3, i)), new THREE.Vector3(...points.subarray(i, i + 3))));
     }
     const steps = Math.min(2000, 4 * (points.length / 3));
-    return new THREE.Mesh(new THREE.TubeGeometry(curve, steps, radius, 6), new THREE.MeshBasicMaterial({ color: 0xd62728 }));
+    return new THREE.Mesh(new THREE.TubeGeometry(curve, steps, radius, 6), new THREE.MeshBasicMaterial({ color }));
   }
+
+  // The number that a face that is drawn has for others.
+  faceOf = (face) => face;
 
   // {face, weights} under a point of the canvas, in pixels of the page; null: nothing.
   pick(x, y) {
@@ -186,7 +258,7 @@ export class Scene {
     if (!w) return null;
     const weights = w.toArray().map((x_) => Math.max(0, x_));
     const sum = weights[0] + weights[1] + weights[2];
-    return { face: hit.faceIndex, weights: weights.map((x_) => x_ / sum) };
+    return { face: this.faceOf(hit.faceIndex), weights: weights.map((x_) => x_ / sum) };
   }
 
   // Where a position of the mesh is on the page.

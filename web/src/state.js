@@ -11,7 +11,10 @@ export const SHAPES = {
   cone: ['cone', 60, 120, 1, 2],
 };
 
-export const initial = () => ({ shape: 'folded sphere', sources: [{ face: 0, weights: [1, 0, 0] }], method: 'windows', tolerance: '1e-3', against: '', colormap: 'viridis', lines: 20 });
+// What colours tell: how far, on which side of a curve and how far, and coordinates around a source as a pattern.
+export const VIEWS = ['distance', 'sides', 'log map'];
+
+export const initial = () => ({ shape: 'folded sphere', sources: [{ face: 0, weights: [1, 0, 0] }], method: 'windows', tolerance: '1e-3', against: '', by: 'distance', walls: [], colormap: 'viridis', lines: 20 });
 
 const digits = (w) => String(Number(w.toFixed(12)));
 
@@ -34,12 +37,20 @@ function placeOf(text) {
   return Number.isInteger(place.face) && place.weights.length === 3 && place.weights.every(Number.isFinite) ? place : null;
 }
 
+// A wall is {through: places}, along the edges nearest to them.
+const wallText = ({ through }) => through.map(placeText).join(';');
+
+function placesOf(text) {
+  const through = text.split(';').map(placeOf);
+  return through.length > 1 && through.every(Boolean) ? through : null;
+}
+
 // Null where the text is none.
 function sourceOf(text) {
   const [, kind, list] = /^(curve|loop):(.*)$/.exec(text) ?? [];
   if (!kind) return placeOf(text);
-  const through = list.split(';').map(placeOf);
-  return through.length > 1 && through.every(Boolean) ? { through, closed: kind === 'loop' } : null;
+  const through = placesOf(list);
+  return through && { through, closed: kind === 'loop' };
 }
 
 // The places that can be taken hold of: of which source, and which of its places.
@@ -52,8 +63,9 @@ export const withHandle = (sources, { k, j }, place) => sources.map((s, i) => {
 });
 
 export function toFragment(state) {
-  const words = new URLSearchParams({ shape: state.shape, method: state.method, tolerance: state.tolerance, against: state.against, colours: state.colormap, lines: String(state.lines) });
+  const words = new URLSearchParams({ shape: state.shape, method: state.method, tolerance: state.tolerance, against: state.against, by: state.by, colours: state.colormap, lines: String(state.lines) });
   for (const source of state.sources) words.append('source', sourceText(source));
+  for (const wall of state.walls) words.append('wall', wallText(wall));
   return `#${words}`;
 }
 
@@ -62,9 +74,10 @@ export function fromFragment(fragment) {
   const words = new URLSearchParams(fragment.replace(/^#/, ''));
   if (!(words.get('shape') in SHAPES)) return null;
   const sources = words.getAll('source').map(sourceOf);
+  const walls = words.getAll('wall').map(placesOf);
   const start = initial();
-  if (sources.length === 0 || !sources.every(Boolean)) return null;
-  return { ...start, shape: words.get('shape'), sources, method: words.get('method') ?? start.method, tolerance: words.get('tolerance') ?? start.tolerance, against: words.get('against') ?? start.against,
+  if (sources.length === 0 || !sources.every(Boolean) || !walls.every(Boolean)) return null;
+  return { ...start, shape: words.get('shape'), sources, method: words.get('method') ?? start.method, tolerance: words.get('tolerance') ?? start.tolerance, against: words.get('against') ?? start.against, by: VIEWS.includes(words.get('by')) ? words.get('by') : start.by, walls: walls.map((through) => ({ through })),
     colormap: words.get('colours') ?? start.colormap, lines: Math.min(60, Math.max(0, Number(words.get('lines') ?? start.lines) || 0)) };
 }
 
@@ -117,14 +130,20 @@ export const curveFile = (k) => `curve-${k}.json`;
 // What does the same on the command line, and in Python.
 export function asCommand(state, file) {
   const options = solving(state);
-  const words = ['brushfire', 'distance', file, ...state.sources.map((s, k) => `--source ${isCurve(s) ? curveFile(k) : placeText(s)}`), `--method ${options.method}`];
-  if (options.tolerance !== undefined) words.push(`--tolerance ${state.tolerance}`);
+  const words = ['brushfire', 'distance', file, ...state.sources.map((s, k) => `--source ${isCurve(s) ? curveFile(k) : placeText(s)}`)];
+  if (state.by === 'sides') words.push('--signed');
+  else words.push(`--method ${options.method}`);
+  if (state.by !== 'sides' && options.tolerance !== undefined) words.push(`--tolerance ${state.tolerance}`);
+  if (state.walls.length > 0) words.push('--block-edges walls.txt');
   return `${words.join(' ')} -o distance.npy`;
 }
 
 export function asPython(state, file) {
   const options = solving(state);
-  const places = state.sources.map(({ face, weights }) => `bf.Point(${face}, (${weights.map(digits).join(', ')}))`);
+  const places = state.sources.map((s, k) => (isCurve(s) ? `*bf.read_lines("${curveFile(k)}", mesh)` : `bf.Point(${s.face}, (${s.weights.map(digits).join(', ')}))`));
+  const walls = state.walls.length > 0 ? '.walled(edges=np.loadtxt("walls.txt", dtype=int))' : '';
+  const imports = `${walls ? 'import numpy as np\n' : ''}import brushfire as bf`;
   const tolerance = options.tolerance === undefined ? '' : `, tolerance=${state.tolerance}`;
-  return `import brushfire as bf\n\nmesh = bf.read(${JSON.stringify(file)})\nd = mesh.distance([${places.join(', ')}], method="${options.method}"${tolerance})\n`;
+  const call = state.by === 'sides' ? `signed_distance([${places.join(', ')}])` : `distance([${places.join(', ')}], method="${options.method}"${tolerance})`;
+  return `${imports}\n\nmesh = bf.read(${JSON.stringify(file)})${walls}\nd = mesh.${call}\n`;
 }

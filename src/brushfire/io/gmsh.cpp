@@ -1,4 +1,5 @@
 // Gmsh .msh: the surface triangles and quadrangles of versions 2 and 4.1, ascii and binary.
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/binary.h>
 #include <brushfire/io/detail/formats.h>
@@ -162,7 +163,7 @@ class GmshReader {
   // Nodes have numbers of their own: in order where the file counts on, found by bisection otherwise.
   void sort_tags() {
     const auto by_tag = [](const Tag& a, const Tag& b) { return a.tag < b.tag; };
-    if (!std::is_sorted(tags_.begin(), tags_.end(), by_tag)) std::sort(tags_.begin(), tags_.end(), by_tag);
+    if (!std::is_sorted(tags_.begin(), tags_.end(), by_tag)) detail::sort(tags_.begin(), tags_.end(), by_tag);
     for (std::size_t k = 1; k < tags_.size(); ++k) {
       if (tags_[k].tag == tags_[k - 1].tag) fail("two nodes have the number " + std::to_string(tags_[k].tag));
     }

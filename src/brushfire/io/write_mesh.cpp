@@ -1,4 +1,5 @@
 // Which writer a name asks for, and the formats that hold a mesh and no values.
+#include <brushfire/core/detail/decimal.h>
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/formats.h>
 #include <brushfire/io/detail/names.h>
@@ -6,7 +7,6 @@
 #include <brushfire/io/write_mesh.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -153,8 +153,8 @@ void write_freesurfer_text(Output& out, const Mesh& mesh) {
 
 std::string three_floats(const Vec3& p) {
   const auto text = [](double x) {
-    char digits[32];
-    return std::string(digits, std::to_chars(digits, digits + sizeof digits, static_cast<float>(x)).ptr);
+    char digits[kLongestDecimal];
+    return std::string(digits, write_shortest(digits, static_cast<float>(x)));
   };
   return "[" + text(p.x) + "," + text(p.y) + "," + text(p.z) + "]";
 }

@@ -1,6 +1,7 @@
 // Walks along edges of one face, round the vertices between them.
 #include <brushfire/mesh/boundaries.h>
 
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/error.h>
 
 #include <algorithm>
@@ -83,7 +84,7 @@ class Walk {
 
 std::vector<Boundary> boundaries(const Mesh& mesh) {
   std::vector<Boundary> found = Walk(mesh).all();
-  std::stable_sort(found.begin(), found.end(), [](const Boundary& a, const Boundary& b) {
+  detail::stable_sort(found.begin(), found.end(), [](const Boundary& a, const Boundary& b) {
     if (a.length != b.length) return a.length > b.length;
     return *std::min_element(a.vertices.begin(), a.vertices.end()) <
            *std::min_element(b.vertices.begin(), b.vertices.end());

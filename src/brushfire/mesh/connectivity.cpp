@@ -1,4 +1,5 @@
 // Corner lists, opposite rings and vertex links.
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/mesh/detail/connectivity.h>
 
 #include <brushfire/core/cancel.h>
@@ -32,7 +33,7 @@ void link_ring(std::span<const EndAndHalfedge> same_edge, UninitializedArray<Ind
 void sort_edges(std::span<EndAndHalfedge> list) {
   constexpr std::size_t kSmall = 16;
   if (list.size() > kSmall) {
-    std::sort(list.begin(), list.end());
+    detail::sort(list.begin(), list.end());
     return;
   }
   std::array<EndAndHalfedge, kSmall> sorted;

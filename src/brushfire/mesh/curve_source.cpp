@@ -1,6 +1,7 @@
 // A curve's places, and the faces in which its segments lie.
 #include <brushfire/mesh/curve_source.h>
 
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
@@ -75,7 +76,7 @@ class Splitter {
                   "a curve with faces inside has offsets that change: what would these be?");
     }
     result_.inside = curve_.inside;
-    std::sort(result_.inside.begin(), result_.inside.end());
+    detail::sort(result_.inside.begin(), result_.inside.end());
     result_.inside.erase(std::unique(result_.inside.begin(), result_.inside.end()), result_.inside.end());
   }
 

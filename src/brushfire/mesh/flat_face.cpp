@@ -1,4 +1,5 @@
 // Flat faces and shared points.
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/mesh/detail/flat_face.h>
 
 #include <brushfire/core/detail/planar.h>
@@ -76,7 +77,7 @@ std::vector<Index> faces_at(const Mesh& mesh, const PointLocation& point) {
         faces.push_back(Mesh::face_of(h));
         h = mesh.opposite()[h];
       } while (h != point.halfedge);
-      std::sort(faces.begin(), faces.end());
+      detail::sort(faces.begin(), faces.end());
       return faces;
     }
     case PointLocation::On::Interior:

@@ -5,6 +5,7 @@
 #include <brushfire/core/detail/lazy.h>
 #include <brushfire/core/detail/planar.h>
 #include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/core/error.h>
@@ -124,7 +125,7 @@ void Mesh::Data::check_lengths() const {
                                   number_as_text(other) + " in face " + std::to_string(ring[3 * f + k] / 3));
       }
     }
-    std::sort(l.begin(), l.end());
+    detail::sort(l.begin(), l.end());
     if (l[2] - (l[0] + l[1]) > kLengthAgreement * l[2]) {
       throw_length_error(f, "lengths break the triangle inequality");
     }

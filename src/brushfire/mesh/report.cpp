@@ -1,16 +1,15 @@
 // Counts what is in a mesh, and says it.
+#include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/sort.h>
+#include <brushfire/core/detail/text.h>
+#include <brushfire/mesh/detail/disjoint_sets.h>
 #include <brushfire/mesh/detail/point_grid.h>
 #include <brushfire/mesh/detail/report.h>
 
-#include <brushfire/core/cancel.h>
-#include <brushfire/mesh/detail/disjoint_sets.h>
-
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 namespace brushfire {
 namespace {
@@ -32,7 +31,7 @@ Index count_components(const Mesh& mesh) {
 template <class T>
 void sort_listening(std::vector<T>& items) {
   Poll poll(std::size_t{1} << 16);
-  std::sort(items.begin(), items.end(), [&](const T& a, const T& b) {
+  detail::sort(items.begin(), items.end(), [&](const T& a, const T& b) {
     poll();
     return a < b;
   });
@@ -41,7 +40,7 @@ void sort_listening(std::vector<T>& items) {
 // Faces that name the same three vertices as one before them, found by sorting.
 Index count_duplicate_faces(const Mesh& mesh) {
   std::vector<Face> sorted(mesh.faces().begin(), mesh.faces().end());
-  for (Face& t : sorted) std::sort(t.begin(), t.end());
+  for (Face& t : sorted) detail::sort(t.begin(), t.end());
   sort_listening(sorted);
   Index count = 0;
   for (std::size_t f = 1; f < sorted.size(); ++f) count += sorted[f] == sorted[f - 1];
@@ -166,23 +165,16 @@ void measure_geometry(const Mesh& mesh, MeshReport& r) {
       mesh.has_positions() ? kPrecisionWithPositions : 64 * std::numeric_limits<double>::epsilon() / flattest;
 }
 
-// Two digits, and no less than the value.
+// Two digits, and no less than the value, which is positive.
 std::string rounded_up(double value) {
-  char text[32];
-  const auto as_text = [&](double v, std::chars_format format, int precision) {
-    return std::string_view(text, std::to_chars(text, text + sizeof text, v, format, precision).ptr - text);
-  };
-  for (double v = value;; v *= 1.02) {
-    // "d.de+xx", read by hand: not every standard library reads doubles.
-    const std::string_view digits = as_text(v, std::chars_format::scientific, 1);
-    int exponent = 0;
-    const bool is_negative = digits[4] == '-';
-    std::from_chars(digits.data() + 5, digits.data() + digits.size(), exponent);
-    exponent = (is_negative ? -exponent : exponent) - 1;
-    const int whole = 10 * (digits[0] - '0') + (digits[2] - '0');
-    const double read = exponent < 0 ? whole / std::pow(10.0, -exponent) : whole * std::pow(10.0, exponent);
-    if (read >= value) return std::string(as_text(v, std::chars_format::general, 2));
-  }
+  constexpr double kLeastExponent = -300;  // whose power of ten is far from infinite
+  const double exponent = std::max(std::floor(std::log10(value)) - 1, kLeastExponent);
+  // Divided by where it is small: what 1e22 and less divide has one rounding only.
+  const double scale = std::pow(10.0, std::abs(exponent));
+  const auto number = [&](double digits) { return exponent < 0 ? digits / scale : digits * scale; };
+  double digits = std::floor(exponent < 0 ? value * scale : value / scale);
+  while (number(digits) < value) ++digits;
+  return number_as_text(number(digits));
 }
 
 std::string counted(Index n, const char* one, const char* many) {

@@ -2,6 +2,7 @@
 #include <brushfire/queries/curve_sides.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/curve_star.h>
@@ -16,6 +17,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -101,28 +103,63 @@ class Shore {
     return arrival;
   }
 
-  const CurveStar& star(const std::vector<Index>& places) {
-    std::unique_ptr<CurveStar>& known = stars_[places.front()];
-    if (!known) known = std::make_unique<CurveStar>(mesh_, curve_, places, retraced_);
+  // What leaves a place, as far as it is seen from a point that shares a face with it.
+  const CurveStar& star(const std::vector<Index>& places, const SurfacePoint& from) {
+    const PointLocation& at = curve_.places[places.front()].at;
+    return star_in(places, is_in_several_fans(at) ? common_face(mesh_, at, locate(mesh_, from, 0)) : kNoIndex);
+  }
+  const CurveStar& star_in(const std::vector<Index>& places, Index fan) {
+    std::unique_ptr<CurveStar>& known = stars_[{places.front(), fan}];
+    if (!known) known = std::make_unique<CurveStar>(mesh_, curve_, places, retraced_, fan);
     return *known;
   }
 
-  CurveSide side_at(const std::vector<Index>& places, const SurfacePoint& from) {
-    const CurveStar& here = star(places);
-    if (!here.is_empty()) return here.side_of(from);
-    const std::vector<Index> passing = retraced_at(places);
-    return passing.empty() ? CurveSide::None : retraced_side_[passing.front()];
+  bool is_in_several_fans(const PointLocation& at) const {
+    return at.on == PointLocation::On::Vertex && mesh_.links()[at.vertex] == Link::Other;
   }
 
-  std::vector<Index> retraced_at(const std::vector<Index>& places) const {
-    std::vector<Index> found;
-    for (const Index p : places) {
-      for (const Index i : {curve_.places[p].before, curve_.places[p].after}) {
-        if (i != kNoIndex && retraced_[i]) found.push_back(i);
+  CurveSide side_at(const std::vector<Index>& places, const SurfacePoint& from) {
+    const CurveStar& here = star(places, from);
+    if (!here.is_empty()) return here.side_of(from);
+    const std::vector<std::pair<Index, Index>> passing = retraced_at(places);
+    if (!passing.empty()) return retraced_side_[passing.front().first];
+    const PointLocation& at = curve_.places[places.front()].at;
+    return is_in_several_fans(at) ? side_beyond_borders(places, at.vertex, here) : CurveSide::None;
+  }
+
+  // Of a fan that the curve does not enter: that of its borders in the fans behind them, and so on.
+  CurveSide side_beyond_borders(const std::vector<Index>& places, Index vertex, const CurveStar& fan) {
+    const std::vector<Index> faces = faces_at(mesh_, curve_.places[places.front()].at);
+    std::vector<Index> ends = fan.borders();
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      const SurfacePoint border = vertex_point(mesh_, ends[i]);
+      for (const Index f : faces) {
+        if (!mesh_.is_face_usable(f) || !weights_in(mesh_, locate(mesh_, border), f)) continue;
+        const CurveStar& other = star_in(places, f);
+        if (!other.is_empty()) return other.side_of(border);
+        for (const Index end : other.borders()) {
+          if (std::find(ends.begin(), ends.end(), end) == ends.end()) ends.push_back(end);
+        }
       }
+    }
+    throw Error(ErrorCode::InvalidArgument,
+                "sides: the faces at vertex " + std::to_string(vertex) +
+                    " form several fans, and a path arrives in one that the curve does not enter: lead it past there");
+  }
+
+  // Segments, and their other ends.
+  std::vector<std::pair<Index, Index>> retraced_at(const std::vector<Index>& places) const {
+    std::vector<std::pair<Index, Index>> found;
+    for (const Index p : places) {
+      const Index before = curve_.places[p].before, after = curve_.places[p].after;
+      if (before != kNoIndex && retraced_[before]) found.emplace_back(before, curve_.segments[before].from_place);
+      if (after != kNoIndex && retraced_[after]) found.emplace_back(after, curve_.segments[after].to_place);
     }
     return found;
   }
+
+  // At a place, seen from the other end of a segment that leaves it.
+  const CurveStar& star_before(Index place, Index end) { return star(places_at(place), point_of(curve_.places[end])); }
 
   // Retraced segments lie on the side of what their ends' other segments part; so do those that follow them as far as
   // there are no others.
@@ -137,16 +174,16 @@ class Shore {
     for (Index i = 0; i < retraced_.size(); ++i) {
       if (!retraced_[i]) continue;
       const Index from = curve_.segments[i].from_place, to = curve_.segments[i].to_place;
-      part(i, star(places_at(from)).side_of(point_of(curve_.places[to])));
-      part(i, star(places_at(to)).side_of(point_of(curve_.places[from])));
+      part(i, star_before(from, to).side_of(point_of(curve_.places[to])));
+      part(i, star_before(to, from).side_of(point_of(curve_.places[from])));
     }
     while (!parted.empty()) {
       const Index i = parted.back();
       parted.pop_back();
       for (const Index p : {curve_.segments[i].from_place, curve_.segments[i].to_place}) {
-        const std::vector<Index> places = places_at(p);
-        if (!star(places).is_empty()) continue;
-        for (const Index other : retraced_at(places)) part(other, retraced_side_[i]);
+        for (const auto& [other, end] : retraced_at(places_at(p))) {
+          if (star_before(p, end).is_empty()) part(other, retraced_side_[i]);
+        }
       }
     }
   }
@@ -162,7 +199,7 @@ class Shore {
       const PointLocation& other = curve_.places[p->second].at;
       if (other.on == at.on && distance_within(mesh_, at.face, at, other) <= near) found.push_back(p->second);
     }
-    std::sort(found.begin(), found.end());
+    detail::sort(found.begin(), found.end());
     return found;
   }
 
@@ -226,9 +263,9 @@ class Shore {
   detail::SegmentsByFace segments_;
   std::unordered_multimap<Index, Index> places_;  // by face, those that are not vertices
   std::unordered_map<Index, std::vector<Index>> at_vertex_;
-  std::vector<bool> retraced_;                         // of segments
-  std::vector<CurveSide> retraced_side_;               // of those; empty where there are none
-  std::map<Index, std::unique_ptr<CurveStar>> stars_;  // by the first of their places
+  std::vector<bool> retraced_;                                           // of segments
+  std::vector<CurveSide> retraced_side_;                                 // of those; empty where there are none
+  std::map<std::pair<Index, Index>, std::unique_ptr<CurveStar>> stars_;  // by the first of their places
 };
 
 // What a run's sources are in the caller's list.

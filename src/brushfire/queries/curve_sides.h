@@ -32,9 +32,12 @@ struct CurveArrival {
 // Segments that the curve runs over once more, the other way round, part nothing: both of their sides are that of the
 // sector in which they lie where the curve's other segments leave them, and a curve without others has no sides.
 //
+// Around a vertex whose faces form several fans only the segments in the path's own fan count; one that the curve does
+// not enter is on the side of its borders, where edges of three and more faces join it to others.
+//
 // `field`: of an exact run from these sources with DistanceOptions::keep_paths, on this mesh, without walls. Throws
-// what WindowField::last_leg() throws, and Error(InvalidArgument) where a curve has a place at a vertex whose faces
-// form neither a circle nor an arc. O(edges crossed by paths).
+// what WindowField::last_leg() throws, and Error(InvalidArgument) where a path arrives at a vertex in a fan that
+// nothing but that vertex joins to those of the curve. O(edges crossed by paths).
 std::vector<CurveArrival> arrivals(const WindowField& field, std::span<const Source> sources);
 // The same within walls: paths keep to what is open, and sides are those of the whole mesh, from whatever face of it a
 // path arrives, whether or not there is a wall along the curve or across it. A vertex on a wall has the arrival of its

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/detail/memory.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/queries/detail/rows.h>
@@ -124,7 +125,7 @@ std::vector<std::size_t> Rows::numbers_by_place() const {
     const SurfacePoint* p = std::get_if<SurfacePoint>(&(*rows_)[i]);
     return order.vertex_rank[p ? mesh_.faces()[p->face][0] : std::get<Index>((*rows_)[i])];
   };
-  std::stable_sort(numbers.begin(), numbers.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  detail::stable_sort(numbers.begin(), numbers.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   return numbers;
 }
 

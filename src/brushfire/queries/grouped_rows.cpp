@@ -1,5 +1,6 @@
 // Rows of vertices that are sources together with their neighbours: Rows::run_dense() for the methods that can.
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/queries/detail/rows.h>
 #include <brushfire/solvers/carried_source/detail/grouped_rows.h>
 
@@ -80,7 +81,7 @@ Rows::ByUnits Rows::by_units() {
   }
   std::vector<Wish> wishes;
   for (std::size_t i = 0; i < row_count_; ++i) wishes.emplace_back(vertex_of_row(i), i);
-  std::sort(wishes.begin(), wishes.end());
+  detail::sort(wishes.begin(), wishes.end());
   std::vector<bool> in_a_unit(row_count_, false);
   for (const auto& group : groups().groups()) {
     units.unit_start.push_back(units.numbers.size());
@@ -129,8 +130,8 @@ Rows::Asked Rows::asked_of(std::span<const std::size_t> numbers) {
       (in_a_group[v] ? asked.wishes : single).emplace_back(v, i);
     }
   }
-  std::sort(asked.wishes.begin(), asked.wishes.end());
-  std::sort(single.begin(), single.end());
+  detail::sort(asked.wishes.begin(), asked.wishes.end());
+  detail::sort(single.begin(), single.end());
   for (const auto& [v, i] : single) asked.alone.push_back(i);
   for (const SurfacePoint& p : options_.targets) asked.columns.push_back(vertex_at(mesh_, p));
   return asked;
@@ -150,7 +151,7 @@ std::size_t Rows::run_group(unsigned worker, std::size_t number, const Asked& as
     }
   }
   if (mine.empty()) return count;
-  std::sort(mine.begin(), mine.end());
+  detail::sort(mine.begin(), mine.end());
   Worker& w = workers_[worker];
   if (!w.groups) w.groups = std::make_unique<carried_source::GroupRunner>(groups());
   const auto of_lane = [&](int lane) { return Asked::rows_of(mine, group.vertices[static_cast<std::size_t>(lane)]); };
@@ -212,7 +213,7 @@ Rows::Blocks Rows::blocks_by_place(std::size_t block) {
     const CancelScope listen(options_.cancel);
     std::vector<Wish> wishes;
     for (std::size_t i = 0; i < row_count_; ++i) wishes.emplace_back(vertex_of_row(i), i);
-    std::sort(wishes.begin(), wishes.end());
+    detail::sort(wishes.begin(), wishes.end());
     for (const auto& g : groups().groups()) {
       for (const Index v : g.vertices) {
         const auto first = std::lower_bound(wishes.begin(), wishes.end(), Wish{v, 0});

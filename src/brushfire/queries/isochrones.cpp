@@ -2,12 +2,12 @@
 #include <brushfire/queries/isochrones.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/decimal.h>
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -117,8 +117,8 @@ bool holds(const MapRing& ring, const std::array<double, 2>& point) {
 
 // As few digits as it takes to read the same number back.
 std::string exactly(double value) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+  std::array<char, detail::kLongestDecimal> text;
+  return {text.data(), detail::write_shortest(text.data(), value)};
 }
 
 std::string json_of(const MapRing& ring) {

@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/detail/memory.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 
@@ -240,7 +241,7 @@ std::pair<double, double> finite_range(std::span<const double> values) {
 std::vector<Isoline> isolines(const Mesh& mesh, std::span<const double> values, std::span<const double> levels) {
   check(mesh, values, levels);
   std::vector<double> sorted(levels.begin(), levels.end());
-  std::sort(sorted.begin(), sorted.end());
+  detail::sort(sorted.begin(), sorted.end());
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   const std::vector<Index> rank = ranks(values, sorted);
   check_size(mesh, rank, levels.size());

@@ -23,6 +23,13 @@ LeavingAngles::LeavingAngles(const Mesh& mesh, const SurfacePoint& source)
   if (at_vertex()) fan_ = tangent_fan(mesh, source_.vertex);
 }
 
+LeavingAngles::LeavingAngles(const Mesh& mesh, const SurfacePoint& vertex, Index face)
+    : mesh_(mesh), source_(locate(mesh, vertex)) {
+  for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+    if (mesh.from(h) == source_.vertex) fan_ = tangent_fan_of(mesh, h);
+  }
+}
+
 // Of a leg; of one that does not start at the source, nothing.
 windows::TracedRays::Angle LeavingAngles::of(const WindowField::Leg& leg) const {
   if (leg.points.size() < 2 || (leg.vertex != kNoIndex && !is_source(leg.vertex))) return {};
@@ -44,11 +51,36 @@ double LeavingAngles::towards(const SurfacePoint& point) const {
   const Vec2 d = flat_difference(c, own, *weights_in(mesh_, next, f));
   if (at_vertex()) {
     const auto k = static_cast<Index>(std::max_element(own.begin(), own.end()) - own.begin());
-    const Vec2 edge = c[(k + 1) % 3] - c[k];
-    const double inside = std::clamp(std::atan2(cross(edge, d), dot(edge, d)), 0.0, mesh_.corner_angle(3 * f + k));
-    return fan_.around(3 * f + k, inside);
+    return in_corner(3 * f + k, d, c);
   }
   return f == source_.face ? wrapped(direction_of(d) - base_direction(), 2 * kPi) : over_own_edge(f, c, d);
+}
+
+std::vector<double> LeavingAngles::all_towards(const SurfacePoint& point) const {
+  const PointLocation next = locate(mesh_, point);
+  std::vector<double> angles;
+  for (const FanCorner& at : fan_.corners) {
+    const Index f = Mesh::face_of(at.corner);
+    const auto there = weights_in(mesh_, next, f);
+    if (!there) continue;
+    const std::array<Vec2, 3> c = flat_corners(mesh_, f);
+    angles.push_back(in_corner(at.corner, flat_difference(c, *weights_in(mesh_, source_, f), *there), c));
+  }
+  return angles;
+}
+
+std::vector<Index> LeavingAngles::borders() const {
+  if (closed() || fan_.corners.empty()) return {};
+  const FanCorner &first = fan_.corners.front(), &last = fan_.corners.back();
+  const auto end = [&](Index corner, bool before) {
+    return before ? mesh_.from(Mesh::previous(corner)) : mesh_.to(corner);
+  };
+  return {end(first.corner, first.reversed), end(last.corner, !last.reversed)};
+}
+
+double LeavingAngles::in_corner(Index corner, Vec2 d, const std::array<Vec2, 3>& c) const {
+  const Vec2 edge = c[Mesh::next(corner) % 3] - c[corner % 3];
+  return fan_.around(corner, std::clamp(std::atan2(cross(edge, d), dot(edge, d)), 0.0, mesh_.corner_angle(corner)));
 }
 
 // 1 where angles grow counter-clockwise in the face, which holds the source; -1 where clockwise.

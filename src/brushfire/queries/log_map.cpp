@@ -1,5 +1,6 @@
 // The logarithmic map: how far every vertex is, and in which direction its shortest path starts.
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/queries/detail/leaving_angles.h>
 #include <brushfire/queries/detail/lengths_only.h>
 #include <brushfire/queries/detail/only_side.h>
@@ -90,7 +91,7 @@ Sides sides_of(const Domain& domain, const SparseField& field) {
       if (value < kInfinity) found.emplace_back(locate(domain.open(), side).vertex, i, value);
     }
   }
-  std::sort(found.begin(), found.end());
+  detail::sort(found.begin(), found.end());
   std::vector<double> least(field.vertex.size(), kInfinity);
   for (const auto& [vertex, i, value] : found) {
     if (value < least[i]) {

@@ -2,6 +2,7 @@
 #include <brushfire/queries/nearest_sources.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/error.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ std::vector<Index> spread_order(std::size_t count) {
     for (int bit = 0; bit < 32; ++bit) reversed |= ((i >> bit) & 1u) << (31 - bit);
     keyed.emplace_back(reversed, i);
   }
-  std::sort(keyed.begin(), keyed.end());
+  detail::sort(keyed.begin(), keyed.end());
   std::vector<Index> order;
   for (const auto& [key, i] : keyed) order.push_back(i);
   return order;

@@ -1,6 +1,7 @@
 // The second variation of a straight path's length: of each leg, how it turns, and the faces beside it.
 #include <brushfire/queries/path_length.h>
 
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/queries/detail/tangent_fan.h>
@@ -111,7 +112,7 @@ void PathLength::number_vertices() {
   for (const Crossing& c : crossings_) {
     if (c.from != kNoIndex) vertices_.insert(vertices_.end(), {c.from, c.to});
   }
-  std::sort(vertices_.begin(), vertices_.end());
+  detail::sort(vertices_.begin(), vertices_.end());
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
   const auto position = [&](Index v) {
     const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), v);

@@ -263,8 +263,7 @@ double angle_of(const Mesh& mesh, const SurfacePoint& point, const Vec3& directi
 bool is_counter_clockwise(const Mesh& mesh, const SurfacePoint& point) {
   const PointLocation at = locate(mesh, point);
   if (at.on != On::Vertex) return true;
-  const detail::TangentFan fan = detail::tangent_fan(mesh, at.vertex);
-  return fan.corners.empty() || !fan.corners.front().reversed;
+  return detail::tangent_fan(mesh, at.vertex).grows_counter_clockwise();
 }
 
 Trace straightest(const Mesh& mesh, const SurfacePoint& from, double angle, double length) {

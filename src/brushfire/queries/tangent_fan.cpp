@@ -28,6 +28,28 @@ FanCorner first_corner(const Mesh& mesh, Index vertex, bool closed) {
   return {};
 }
 
+// From corner to corner over edges of two faces, as far as they go.
+TangentFan fan_from(const Mesh& mesh, FanCorner c) {
+  TangentFan fan;
+  const auto opposite = mesh.opposite();
+  const Index vertex = mesh.from(c.corner), first = c.corner;
+  while (true) {
+    c.start = fan.total;
+    c.angle = mesh.corner_angle(c.corner);
+    fan.total += c.angle;
+    fan.corners.push_back(c);
+    const Index exit = c.reversed ? c.corner : Mesh::previous(c.corner);
+    const Index entry = opposite[exit];
+    if (entry == exit || opposite[entry] != exit) return fan;
+    // An entry that starts at the vertex is the next corner itself.
+    const bool starts_here = mesh.from(entry) == vertex;
+    c = {starts_here ? entry : Mesh::next(entry), !starts_here, 0, 0};
+    if (c.corner == first) break;
+  }
+  fan.closed = true;
+  return fan;
+}
+
 }  // namespace
 
 double TangentFan::around(Index corner, double inside) const {
@@ -50,25 +72,15 @@ TangentFan tangent_fan(const Mesh& mesh, Index vertex) {
     throw Error(ErrorCode::InvalidArgument, "the faces at vertex " + std::to_string(vertex) +
                                                 " form neither a circle nor an arc: directions there have no angle");
   }
-  TangentFan fan;
-  fan.closed = link == Link::Circle;
-  const auto opposite = mesh.opposite();
-  FanCorner c = first_corner(mesh, vertex, fan.closed);
-  const Index first = c.corner;
-  while (true) {
-    c.start = fan.total;
-    c.angle = mesh.corner_angle(c.corner);
-    fan.total += c.angle;
-    fan.corners.push_back(c);
-    const Index exit = c.reversed ? c.corner : Mesh::previous(c.corner);
-    const Index entry = opposite[exit];
-    if (entry == exit) break;
-    // An entry that starts at the vertex is the next corner itself.
-    const bool starts_here = mesh.from(entry) == vertex;
-    c = {starts_here ? entry : Mesh::next(entry), !starts_here, 0, 0};
-    if (c.corner == first) break;
-  }
-  return fan;
+  const FanCorner first = first_corner(mesh, vertex, link == Link::Circle);
+  return first.corner == kNoIndex ? TangentFan{} : fan_from(mesh, first);
+}
+
+TangentFan tangent_fan_of(const Mesh& mesh, Index corner) {
+  const TangentFan backwards = fan_from(mesh, {corner, true, 0, 0});
+  if (backwards.closed) return fan_from(mesh, {corner, false, 0, 0});
+  const FanCorner& end = backwards.corners.back();
+  return fan_from(mesh, {end.corner, !end.reversed, 0, 0});
 }
 
 }  // namespace brushfire::detail

@@ -2,6 +2,7 @@
 #include <brushfire/queries/voronoi.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/detail/walls.h>
 #include <brushfire/solvers/weighted/weighting.h>
 
@@ -158,7 +159,7 @@ class Joiner {
     for (Index i = 0; i < pieces.size(); ++i) {
       for (Index end = 0; end < 2; ++end) ends_.emplace_back(pieces[i].node[end], i, end);
     }
-    std::sort(ends_.begin(), ends_.end());
+    detail::sort(ends_.begin(), ends_.end());
   }
 
   void join(std::vector<VoronoiBorder>& borders) {
@@ -238,7 +239,7 @@ std::vector<Face> dual_of(std::span<const SharedFace> faces) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     dual.push_back(t);
   }
-  std::sort(dual.begin(), dual.end());
+  detail::sort(dual.begin(), dual.end());
   dual.erase(std::unique(dual.begin(), dual.end()), dual.end());
   return dual;
 }
@@ -275,7 +276,8 @@ VoronoiDiagram voronoi(const Domain& domain, std::span<const Source> sources, co
   }
 
   std::vector<Piece>& pieces = divider.pieces;
-  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.sources < b.sources; });
+  detail::stable_sort(pieces.begin(), pieces.end(),
+                      [](const Piece& a, const Piece& b) { return a.sources < b.sources; });
   for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
     while (end < pieces.size() && pieces[end].sources == pieces[begin].sources) ++end;
     Joiner(mesh, std::span(pieces).subspan(begin, end - begin)).join(diagram.borders);

@@ -1,4 +1,5 @@
 // Angles are summed corner by corner, whichever way the faces are oriented and however many an edge has.
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/queries/detail/way_around.h>
 
 #include <brushfire/mesh/detail/flat_face.h>
@@ -65,7 +66,7 @@ class VertexLink {
       arcs_.emplace_back(ahead(corner), corner);
       if (behind(corner) != ahead(corner)) arcs_.emplace_back(behind(corner), corner);
     }
-    std::sort(arcs_.begin(), arcs_.end());
+    detail::sort(arcs_.begin(), arcs_.end());
   }
 
   Index ahead(Index corner) const { return mesh_.to(corner); }                     // the edge that `corner` runs along

@@ -1,4 +1,5 @@
 // Dijkstra's algorithm on the edge graph.
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/detail/dijkstra.h>
 
 #include <brushfire/core/error.h>
@@ -70,7 +71,7 @@ class Dijkstra final : public Engine {
     for (const PointLocation& at : targets) {
       for (const Seed& seed : seeds_.in_own_faces(mesh_, at)) awaited_.push_back(seed.vertex);
     }
-    std::sort(awaited_.begin(), awaited_.end());
+    detail::sort(awaited_.begin(), awaited_.end());
     awaited_.erase(std::unique(awaited_.begin(), awaited_.end()), awaited_.end());
     to_come_ = awaited_.size();
   }

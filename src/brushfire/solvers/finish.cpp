@@ -1,4 +1,5 @@
 // From what an engine wrote to what a caller gets.
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/detail/finish.h>
 
 #include <algorithm>
@@ -67,7 +68,7 @@ void collect(double unit, std::span<const PointLocation> targets, const Offsets&
       if (field.distance[v] != kInfinity || field.source[v] != kNoIndex) touched.push_back(v);
     }
   } else {
-    std::sort(touched.begin(), touched.end());
+    detail::sort(touched.begin(), touched.end());
   }
   result.vertex.resize(touched.size());
   result.distance.resize(touched.size());

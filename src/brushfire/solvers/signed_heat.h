@@ -3,7 +3,7 @@
 #pragma once
 
 #include <brushfire/core/types.h>
-#include <brushfire/mesh/mesh.h>
+#include <brushfire/mesh/domain.h>
 #include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/heat_options.h>
 
@@ -38,10 +38,13 @@ struct SignedHeatOptions {
 // For one mesh, factored once. The surfaces and options are those of VectorHeatSolver. Not for use from several threads
 // at once.
 //
+// Walls are borders of what is open: a curve along one runs along both of its sides, what of a curve lies behind one is
+// left out, and a vertex on one reads the side whose value is nearest to 0.
+//
 // Based on: Feng, Crane, "A heat method for generalized signed distance", 2024; vectors here live at vertices.
 class SignedHeatSolver {
  public:
-  explicit SignedHeatSolver(const Mesh& mesh, const HeatOptions& options = {});
+  explicit SignedHeatSolver(const Domain& domain, const HeatOptions& options = {});
   ~SignedHeatSolver();
   SignedHeatSolver(SignedHeatSolver&&) noexcept;
   SignedHeatSolver& operator=(SignedHeatSolver&&) noexcept;
@@ -49,8 +52,8 @@ class SignedHeatSolver {
   // [vertex_count], in units of the mesh: positive on the right of signed curves, seen from where faces run counter-
   // clockwise, negative on their left, and so inside of one that runs counter-clockwise. Points are sources without a
   // direction. +inf in components with no source. With a constraint a linear system as large as there are points is
-  // solved. Throws Error(InvalidArgument) for no source at all, consecutive points that share no face, and more than
-  // kMostConstraints points with a constraint; what locate() throws.
+  // solved. Throws Error(InvalidArgument) for no source at all, consecutive points that share no face, a curve or point
+  // that lies behind walls as a whole, and more than kMostConstraints points with a constraint; what locate() throws.
   std::vector<double> distance(std::span<const SignedCurve> curves, std::span<const SurfacePoint> points = {},
                                const SignedHeatOptions& options = {});
   static constexpr std::size_t kMostConstraints = 5000;

@@ -1,4 +1,5 @@
 // Copies of a place are all sources, or all targets; of what is found at copies of a vertex the least counts.
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
 #include <brushfire/solvers/detail/walls.h>
@@ -154,7 +155,7 @@ void WalledRun::bring_back(SparseField& field) const {
   for (std::size_t i = 0; i < field.vertex.size(); ++i) {
     found.emplace_back(domain_.vertex(field.vertex[i]), field.distance[i], field.source[i]);
   }
-  std::sort(found.begin(), found.end());
+  detail::sort(found.begin(), found.end());
   field.vertex.clear();
   field.distance.clear();
   field.source.clear();

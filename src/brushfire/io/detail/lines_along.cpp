@@ -1,6 +1,8 @@
 // Edges, chained to lines.
 #include <brushfire/io/detail/lines_along.h>
 
+#include <brushfire/core/detail/sort.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +31,7 @@ LoadedLines lines_along(std::span<const Vec3> positions, std::span<const std::ar
   for (Index v = 0; v < is_used.size(); ++v) {
     if (!is_used[v]) chains.push_back({v, {{positions[v]}, {}, false, std::nan("")}});
   }
-  std::stable_sort(chains.begin(), chains.end(), [](const Chain& a, const Chain& b) { return a.first < b.first; });
+  detail::stable_sort(chains.begin(), chains.end(), [](const Chain& a, const Chain& b) { return a.first < b.first; });
   LoadedLines loaded;
   for (Chain& chain : chains) loaded.lines.push_back(std::move(chain.line));
   return loaded;

@@ -1,5 +1,6 @@
 // Writing beside the target and renaming.
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/decimal.h>
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/input.h>
 #include <brushfire/io/detail/output.h>
@@ -22,8 +23,8 @@ namespace brushfire::detail {
 namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 18;
-constexpr std::size_t kLongestNumber = 32;  // "-1.2345678901234567e-308" has 24
-constexpr std::size_t kAtOnce = PIPE_BUF;   // what a pipe that can be written to takes without blocking
+constexpr std::size_t kLongestNumber = 32;
+constexpr std::size_t kAtOnce = PIPE_BUF;  // what a pipe that can be written to takes without blocking
 
 }  // namespace
 
@@ -107,15 +108,13 @@ void Output::bytes(const void* data, std::size_t size) {
 void Output::write(std::string_view bytes) { this->bytes(bytes.data(), bytes.size()); }
 
 void Output::number(double value) {
-  char text[kLongestNumber];
-  const auto result = std::to_chars(text, text + sizeof text, value);
-  write({text, static_cast<std::size_t>(result.ptr - text)});
+  char text[kLongestDecimal];
+  write({text, static_cast<std::size_t>(write_shortest(text, value) - text)});
 }
 
 void Output::number(float value) {
-  char text[kLongestNumber];
-  const auto result = std::to_chars(text, text + sizeof text, value);
-  write({text, static_cast<std::size_t>(result.ptr - text)});
+  char text[kLongestDecimal];
+  write({text, static_cast<std::size_t>(write_shortest(text, value) - text)});
 }
 
 void Output::number(std::int64_t value) {

@@ -23,12 +23,15 @@ SurfacePoint point_of(const CurvePlace& place);
 class CurveStar {
  public:
   // `places`: the numbers that one place of the curve has, several where it comes there again. Segments that are
-  // `retraced`, [segments], count for nothing. Throws what LeavingAngles throws.
+  // `retraced`, [segments], count for nothing. `face`: where the faces at a vertex form neither a circle nor an arc,
+  // one of the fan that is looked at; segments elsewhere are not seen.
   CurveStar(const Mesh& mesh, const LocatedCurve& curve, std::span<const Index> places,
-            const std::vector<bool>& retraced);
+            const std::vector<bool>& retraced, Index face = kNoIndex);
 
   // Nothing leaves: it is no place of the curve that parts anything.
   bool is_empty() const { return arms_.empty(); }
+  // Around a vertex of several fans: the ends of the edges where the fan begins and ends.
+  std::vector<Index> borders() const { return angles_.borders(); }
   // Of a path that comes from a point in a face at the place, by the rule of arrivals(). None where nothing leaves.
   CurveSide side_of(const SurfacePoint& from) const;
 
@@ -40,8 +43,11 @@ class CurveStar {
 
   void add(const Mesh& mesh, const LocatedCurve& curve, Index place, bool goes_out, const std::vector<bool>& retraced);
   bool is_in_first_half(double from_arm) const;
+  template <class FromArm>
+  CurveSide side_between_borders(const FromArm& from_arm) const;
 
   LeavingAngles angles_;
+  bool is_fan_;  // one of several
   bool is_arc_;
   double turn_;
   bool grows_left_;

@@ -19,6 +19,7 @@ struct TangentFan {
   double total = 0;
   bool closed = false;
 
+  bool grows_counter_clockwise() const { return corners.empty() || !corners.front().reversed; }
   // The fan's angle of a direction `inside` from the edge along `corner`; the corner must be in the fan.
   double around(Index corner, double inside) const;
   // The corner that holds an angle, and the angle from the edge along that corner. 0 <= angle <= total.
@@ -27,5 +28,9 @@ struct TangentFan {
 
 // Throws Error(InvalidArgument) for a vertex whose faces form neither a circle nor an arc.
 TangentFan tangent_fan(const Mesh& mesh, Index vertex);
+
+// Of any vertex, the faces around it that hang together with one of them over edges of two faces. `corner`: the
+// halfedge of a usable face that starts at the vertex.
+TangentFan tangent_fan_of(const Mesh& mesh, Index corner);
 
 }  // namespace brushfire::detail

@@ -1,6 +1,8 @@
 // Finds copies of faces, translates places, and runs engines on what is left.
 #include <brushfire/solvers/detail/sheets.h>
 
+#include <brushfire/core/detail/sort.h>
+
 #include <algorithm>
 #include <array>
 #include <tuple>
@@ -19,7 +21,7 @@ struct ByVertices {
 };
 
 std::array<Index, 3> sorted(Face t) {
-  std::sort(t.begin(), t.end());
+  detail::sort(t.begin(), t.end());
   return t;
 }
 
@@ -45,7 +47,7 @@ std::vector<Index> lowest_copies(const Mesh& mesh, std::span<const Index> apart)
   }
   for (std::size_t v = 0, first = 0; v < mesh.vertex_count(); first = begin[v++]) {
     const std::span<ByVertices> its(faces.data() + first, begin[v] - first);
-    std::sort(its.begin(), its.end());
+    detail::sort(its.begin(), its.end());
     for (std::size_t i = 1; i < its.size(); ++i) {
       if (its[i].is_copy_of(its[i - 1])) lowest[its[i].face] = lowest[its[i - 1].face];
     }
@@ -108,7 +110,7 @@ class OneSheet final : public Engine {
       for (const CurveSegment& segment : s.curve->segments) look_at(middle_of(segment));
       for (const CurvePlace& p : s.curve->places) look_at(p.at);
     }
-    std::sort(apart_.begin(), apart_.end());
+    detail::sort(apart_.begin(), apart_.end());
     apart_.erase(std::unique(apart_.begin(), apart_.end()), apart_.end());
   }
 
@@ -209,7 +211,7 @@ std::shared_ptr<const LocatedCurve> Sheets::to_single(const std::shared_ptr<cons
     s.to = to.weights;
   }
   for (Index& f : moved.inside) f = number_[f];
-  std::sort(moved.inside.begin(), moved.inside.end());
+  detail::sort(moved.inside.begin(), moved.inside.end());
   return std::make_shared<const LocatedCurve>(std::move(moved));
 }
 

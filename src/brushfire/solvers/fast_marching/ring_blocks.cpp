@@ -1,5 +1,6 @@
 // Builds the blocks: writes the sides and triangles around one vertex after the other, unfolds the obtuse corners that
 // are found on the way, and adds what comes of that to the vertices around.
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
 
 #include <brushfire/core/cancel.h>
@@ -269,7 +270,7 @@ class RingBuilder {
   void separate_parts() {
     RingLayout& layout = rings_.layout;
     partition::VertexPartitionBuilder builder(shape_.none, part_shift_);
-    std::sort(at_border_.begin(), at_border_.end());
+    detail::sort(at_border_.begin(), at_border_.end());
     at_border_.erase(std::unique(at_border_.begin(), at_border_.end()), at_border_.end());
     for (std::size_t begin = 0, end = 0; begin < at_border_.size(); begin = end) {
       const Index part = at_border_[begin] >> part_shift_;
@@ -342,7 +343,7 @@ class RingBuilder {
     const auto by_ends = [](const Unsplit& u, const Unsplit& w) {
       return std::tie(u.at, u.target, u.other) < std::tie(w.at, w.target, w.other);
     };
-    std::sort(crowded_.begin(), crowded_.end(), by_ends);
+    detail::sort(crowded_.begin(), crowded_.end(), by_ends);
     for (std::size_t begin = 0, end = 0; begin < crowded_.size(); begin = end) {
       const Index at = crowded_[begin].at;
       while (end < crowded_.size() && crowded_[end].at == at) ++end;

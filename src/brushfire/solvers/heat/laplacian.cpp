@@ -9,7 +9,8 @@
 
 namespace brushfire {
 
-Laplacian laplacian_of(const Mesh& mesh, bool delaunay) {
+Laplacian laplacian_of(const Domain& domain, bool delaunay) {
+  const Mesh& mesh = domain.open();
   heat::Triangulation t = heat::triangulation_of(mesh, heat::Cover::AsItIs);
   heat::mollify(t, detail::components_of(mesh));
   if (delaunay) heat::flip_to_delaunay(t);

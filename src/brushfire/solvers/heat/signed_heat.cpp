@@ -7,6 +7,7 @@
 #include <brushfire/solvers/heat/connection.h>
 #include <brushfire/solvers/heat/level_sets.h>
 #include <brushfire/solvers/heat/scales.h>
+#include <brushfire/solvers/heat/sides.h>
 #include <brushfire/solvers/heat/system.h>
 
 #include <algorithm>
@@ -35,41 +36,49 @@ struct Segment {
   std::array<double, 3> weights;  // of its middle
 };
 
+// What walls leave of a curve.
+struct Drawn {
+  std::vector<PointLocation> nodes;  // its points, on each side that it runs along
+  std::vector<Segment> segments;
+};
+
 // Vectors at vertices, in the units of the heat that they came with.
 struct Directions {
   heat::Heat heat;
   std::vector<Complex> vector;
 };
 
-// The lowest face that both points are in.
-Index shared_face(const Mesh& mesh, const PointLocation& a, const PointLocation& b, std::size_t where) {
-  const Index f = common_face(mesh, a, b);
-  if (f == kNoIndex) {
-    throw Error(ErrorCode::InvalidArgument,
-                "points " + std::to_string(where) + " and " + std::to_string(where + 1) + " of a curve share no face");
-  }
-  return f;
+std::vector<PointLocation> sides_of(const Domain& domain, const SurfacePoint& point) {
+  std::vector<PointLocation> sides;
+  for (const SurfacePoint& p : domain.on_open(point)) sides.push_back(locate(domain.open(), p));
+  return sides;
+}
+
+Error behind_walls(const std::string& what) {
+  return {ErrorCode::InvalidArgument, what + " lies behind a wall: nothing can be reached from there"};
 }
 
 }  // namespace
 
 struct SignedHeatSolver::State {
-  State(const Mesh& given, const HeatOptions& how)
-      : mesh(given),
-        system(given, how.delaunay, how.time_factor, how.time),
+  State(const Domain& given, const HeatOptions& how)
+      : domain(given),
+        mesh(given.open()),
+        system(mesh, how.delaunay, how.time_factor, how.time),
         levels(system.operators(), system.components()) {
     flat = heat::triangulation_of(mesh, heat::Cover::Single);
     heat::mollify(flat, system.components());
     flat.bearing = system.mesh_bearings();
   }
 
-  Mesh mesh;
+  Domain domain;
+  Mesh mesh;  // the open one
   heat::VectorSystem system;
   heat::LevelSets levels;
   heat::Triangulation flat;  // the mesh itself, where curves are
 
-  std::vector<PointLocation> located(std::span<const SurfacePoint> points) const;
-  std::vector<Segment> segments(const std::vector<PointLocation>& nodes) const;
+  Drawn drawn(const SignedCurve& curve, std::size_t which) const;
+  Segment segment(Index face, const PointLocation& from, const PointLocation& to) const;
   void add(const Segment& s, std::vector<Complex>& x) const;
   void add_outward(const PointLocation& p, double weight, std::vector<Complex>& x) const;
   Directions carried(std::vector<Complex> x);
@@ -78,31 +87,53 @@ struct SignedHeatSolver::State {
   Complex mean_in(const heat::Triangulation& t, std::size_t face, const Directions& x) const;
 };
 
-SignedHeatSolver::SignedHeatSolver(const Mesh& mesh, const HeatOptions& options)
-    : state_(std::make_unique<State>(mesh, checked(options))) {}
+SignedHeatSolver::SignedHeatSolver(const Domain& domain, const HeatOptions& options)
+    : state_(std::make_unique<State>(domain, checked(options))) {}
 SignedHeatSolver::~SignedHeatSolver() = default;
 SignedHeatSolver::SignedHeatSolver(SignedHeatSolver&&) noexcept = default;
 SignedHeatSolver& SignedHeatSolver::operator=(SignedHeatSolver&&) noexcept = default;
 
-std::vector<PointLocation> SignedHeatSolver::State::located(std::span<const SurfacePoint> points) const {
-  std::vector<PointLocation> nodes;
-  for (const SurfacePoint& p : points) nodes.push_back(locate(mesh, p));
-  return nodes;
+// A piece along a wall is one on each side of it. A side that no piece of a signed curve comes to would not know which
+// side of the curve it is, and is left out.
+Drawn SignedHeatSolver::State::drawn(const SignedCurve& curve, std::size_t which) const {
+  Drawn drawn;
+  std::vector<std::vector<PointLocation>> sides;
+  for (const SurfacePoint& p : curve.points) sides.push_back(sides_of(domain, p));
+  std::vector<std::vector<bool>> used;
+  for (const auto& of_point : sides) used.emplace_back(of_point.size(), curve.points.size() == 1 || !curve.is_signed);
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    if (common_face(domain.mesh(), locate(domain.mesh(), curve.points[i]),
+                    locate(domain.mesh(), curve.points[i + 1])) == kNoIndex) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "points " + std::to_string(i) + " and " + std::to_string(i + 1) + " of a curve share no face");
+    }
+    for (std::size_t j = 0; j < sides[i].size(); ++j) {
+      for (std::size_t k = 0; k < sides[i + 1].size(); ++k) {
+        const Index f = common_face(mesh, sides[i][j], sides[i + 1][k]);
+        if (f == kNoIndex) continue;
+        drawn.segments.push_back(segment(f, sides[i][j], sides[i + 1][k]));
+        used[i][j] = used[i + 1][k] = true;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    for (std::size_t j = 0; j < sides[i].size(); ++j) {
+      if (used[i][j]) drawn.nodes.push_back(sides[i][j]);
+    }
+  }
+  if (drawn.nodes.empty() && !curve.points.empty()) throw behind_walls("curve " + std::to_string(which));
+  return drawn;
 }
 
-std::vector<Segment> SignedHeatSolver::State::segments(const std::vector<PointLocation>& nodes) const {
-  std::vector<Segment> all;
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const Index f = shared_face(mesh, nodes[i], nodes[i + 1], i);
-    const std::array<double, 3> a = *weights_in(mesh, nodes[i], f), b = *weights_in(mesh, nodes[i + 1], f);
-    const heat::FlatTriangle t = heat::lay_flat(flat, f);
-    const auto place = [&](const std::array<double, 3>& w) {
-      return Complex(w[1] * t.length + w[2] * t.apex.x, w[2] * t.apex.y);
-    };
-    Segment& s = all.emplace_back(Segment{f, place(b) - place(a), {}});
-    for (int k = 0; k < 3; ++k) s.weights[k] = 0.5 * (a[k] + b[k]);
-  }
-  return all;
+Segment SignedHeatSolver::State::segment(Index face, const PointLocation& from, const PointLocation& to) const {
+  const std::array<double, 3> a = *weights_in(mesh, from, face), b = *weights_in(mesh, to, face);
+  const heat::FlatTriangle t = heat::lay_flat(flat, face);
+  const auto place = [&](const std::array<double, 3>& w) {
+    return Complex(w[1] * t.length + w[2] * t.apex.x, w[2] * t.apex.y);
+  };
+  Segment s{face, place(b) - place(a), {}};
+  for (int k = 0; k < 3; ++k) s.weights[k] = 0.5 * (a[k] + b[k]);
+  return s;
 }
 
 // To its right, as strong as it is long.
@@ -201,26 +232,28 @@ std::vector<double> SignedHeatSolver::distance(std::span<const SignedCurve> curv
   std::vector<Complex> x(s.mesh.vertex_count());
   std::vector<Segment> directed;
   std::vector<std::vector<PointLocation>> groups;
-  for (const SignedCurve& curve : curves) {
-    const std::vector<PointLocation>& nodes = groups.emplace_back(s.located(curve.points));
-    for (const Segment& segment : s.segments(nodes)) {
-      if (curve.is_signed) {
-        directed.push_back(segment);
-        s.add(segment, x);
-      }
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const Drawn drawn = s.drawn(curves[i], i);
+    if (curves[i].is_signed) {
+      for (const Segment& segment : drawn.segments) s.add(segment, x);
+      directed.insert(directed.end(), drawn.segments.begin(), drawn.segments.end());
+    } else {
+      for (const PointLocation& p : drawn.nodes) s.add_outward(p, 1, x);
     }
-    if (!curve.is_signed) {
-      for (const PointLocation& p : nodes) s.add_outward(p, 1, x);
-    }
+    groups.push_back(drawn.nodes);
   }
-  for (const PointLocation& p : s.located(points)) {
-    s.add_outward(p, 1, x);
-    groups.push_back({p});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::vector<PointLocation>& sides = groups.emplace_back(sides_of(s.domain, points[i]));
+    if (sides.empty()) throw behind_walls("point " + std::to_string(i));
+    for (const PointLocation& p : sides) s.add_outward(p, 1, x);
   }
   const Directions away = s.carried(std::move(x));
   std::vector<double> b = s.divergence(away);
   if (options.preserve_normals) s.turn_along(directed, away, b);
-  return s.levels.integrate(s.mesh, std::move(b), groups, options);
+  std::vector<double> d = s.levels.integrate(s.mesh, std::move(b), groups, options);
+  const std::vector<double> of_side = d;
+  return heat::of_nearest_sides(s.domain, std::move(d),
+                                [&](Index a, Index c) { return std::abs(of_side[a]) < std::abs(of_side[c]); });
 }
 
 }  // namespace brushfire

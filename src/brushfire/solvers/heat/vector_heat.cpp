@@ -5,6 +5,7 @@
 #include <brushfire/solvers/distance.h>
 #include <brushfire/solvers/heat/carrier.h>
 #include <brushfire/solvers/heat/connection.h>
+#include <brushfire/solvers/heat/sides.h>
 #include <brushfire/solvers/heat/system.h>
 
 #include <algorithm>
@@ -19,15 +20,16 @@ namespace brushfire {
 using heat::Complex;
 
 struct VectorHeatSolver::State {
-  State(const Mesh& given, const HeatOptions& how)
-      : mesh(given), options(how), system(given, how.delaunay, how.time_factor, how.time) {}
+  State(const Domain& given, const HeatOptions& how)
+      : domain(given), mesh(given.open()), options(how), system(mesh, how.delaunay, how.time_factor, how.time) {}
 
-  Mesh mesh;
+  Domain domain;
+  Mesh mesh;  // the open one
   HeatOptions options;
   heat::VectorSystem system;
   std::optional<DistanceSolver> radius;  // for LogMapStrategy::VectorHeat
 
-  void check(std::span<const Index> vertices, std::size_t values) const;
+  static void check(std::span<const Index> vertices, std::size_t values);
   std::vector<double> values(const heat::Carrier& carrier, std::span<const Index> vertices,
                              std::span<const double> given) const;
   std::vector<Complex> directions(const heat::Carrier& carrier, std::span<const Index> vertices,
@@ -54,21 +56,20 @@ Complex unit(Complex z) {
 
 }  // namespace
 
-VectorHeatSolver::VectorHeatSolver(const Mesh& mesh, const HeatOptions& options)
-    : state_(std::make_unique<State>(mesh, checked(options))) {}
+VectorHeatSolver::VectorHeatSolver(const Domain& domain, const HeatOptions& options)
+    : state_(std::make_unique<State>(domain, checked(options))) {}
 VectorHeatSolver::~VectorHeatSolver() = default;
 VectorHeatSolver::VectorHeatSolver(VectorHeatSolver&&) noexcept = default;
 VectorHeatSolver& VectorHeatSolver::operator=(VectorHeatSolver&&) noexcept = default;
 
 double VectorHeatSolver::time() const { return state_->system.time() * state_->mesh.unit() * state_->mesh.unit(); }
 
-void VectorHeatSolver::State::check(std::span<const Index> vertices, std::size_t values) const {
+void VectorHeatSolver::State::check(std::span<const Index> vertices, std::size_t values) {
   if (vertices.empty()) throw Error(ErrorCode::InvalidArgument, "no vertex given to start from");
   if (vertices.size() != values) {
     throw Error(ErrorCode::InvalidArgument,
                 std::to_string(vertices.size()) + " vertices and " + std::to_string(values) + " values: one each");
   }
-  for (const Index v : vertices) vertex_point(mesh, v);  // throws for one that cannot be
 }
 
 // How far each is on the way from the least value to the largest: so all sums are positive.
@@ -102,15 +103,29 @@ std::vector<Complex> VectorHeatSolver::State::directions(const heat::Carrier& ca
 }
 
 std::vector<double> VectorHeatSolver::extend(std::span<const Index> vertices, std::span<const double> values) {
-  state_->check(vertices, values.size());
-  for (const double value : values) {
-    if (!std::isfinite(value)) throw Error(ErrorCode::InvalidArgument, "a value to extend is not finite");
+  State& s = *state_;
+  State::check(vertices, values.size());
+  std::vector<Index> from;
+  std::vector<double> of_side;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (!std::isfinite(values[i])) throw Error(ErrorCode::InvalidArgument, "a value to extend is not finite");
+    for (const Index side : heat::sides_of(s.domain, vertices[i])) {
+      from.push_back(side);
+      of_side.push_back(values[i]);
+    }
   }
-  return state_->values(heat::Carrier(state_->system, vertices), vertices, values);
+  const heat::Carrier carrier(s.system, from);
+  const heat::Heat& heat = carrier.heat();
+  return heat::of_nearest_sides(s.domain, s.values(carrier, from, of_side), [&](Index a, Index b) {
+    if (!(heat.value[a] > 0 && heat.value[b] > 0)) return heat.value[a] > heat.value[b];
+    return heat.level[a] != heat.level[b] ? heat.level[a] < heat.level[b] : heat.value[a] > heat.value[b];
+  });
 }
 
 std::vector<Complex> VectorHeatSolver::transport(std::span<const Index> vertices, std::span<const Complex> vectors) {
-  state_->check(vertices, vectors.size());
+  State::check(vertices, vectors.size());
+  std::vector<Index> from;
+  for (const Index v : vertices) from.push_back(heat::only_side_of(state_->domain, v));
   std::vector<Complex> directions;
   std::vector<double> lengths;
   for (const Complex& z : vectors) {
@@ -118,9 +133,9 @@ std::vector<Complex> VectorHeatSolver::transport(std::span<const Index> vertices
     lengths.push_back(std::abs(z));
     directions.push_back(unit(z));
   }
-  const heat::Carrier carrier(state_->system, vertices);
-  std::vector<Complex> x = state_->directions(carrier, vertices, directions);
-  const std::vector<double> length = state_->values(carrier, vertices, lengths);
+  const heat::Carrier carrier(state_->system, from);
+  std::vector<Complex> x = state_->directions(carrier, from, directions);
+  const std::vector<double> length = state_->values(carrier, from, lengths);
   for (std::size_t v = 0; v < x.size(); ++v) x[v] *= length[v];
   return x;
 }
@@ -193,8 +208,8 @@ std::vector<Complex> VectorHeatSolver::State::polar(Index source) {
   return x;
 }
 
-std::vector<Complex> VectorHeatSolver::log_map(Index source, LogMapStrategy strategy) {
-  vertex_point(state_->mesh, source);
+std::vector<Complex> VectorHeatSolver::log_map(Index at, LogMapStrategy strategy) {
+  const Index source = heat::only_side_of(state_->domain, at);
   std::vector<Complex> x = strategy == LogMapStrategy::VectorHeat
                                ? state_->polar(source)
                                : state_->affine(source, strategy == LogMapStrategy::AffineAdaptive);
@@ -202,7 +217,9 @@ std::vector<Complex> VectorHeatSolver::log_map(Index source, LogMapStrategy stra
   const double unit = state_->system.is_point(state_->system.components().of_vertex[source]) ? 0 : state_->mesh.unit();
   for (Complex& z : x) z = (z - origin) * unit;
   x[source] = 0;
-  return x;
+  std::vector<double> radius;
+  for (const Complex& z : x) radius.push_back(std::isfinite(std::abs(z)) ? std::abs(z) : kInfinity);
+  return heat::of_nearest_sides(state_->domain, std::move(x), [&](Index a, Index b) { return radius[a] < radius[b]; });
 }
 
 VectorHeatSolver::Frames VectorHeatSolver::tangent_frames() const {

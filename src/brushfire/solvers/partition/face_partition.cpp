@@ -1,6 +1,8 @@
 // Ghost vertices, as rings.
 #include <brushfire/solvers/partition/face_partition.h>
 
+#include <brushfire/core/detail/sort.h>
+
 namespace brushfire::partition {
 
 FacePartition::FacePartition(Index vertex_count, Index face_count, unsigned bits)
@@ -37,8 +39,9 @@ void FacePartition::close_rings(std::vector<std::pair<Index, Index>> links) {
   ghosts_ = std::move(links);
   for (const auto& [to, its_first] : first_of) ghosts_.emplace_back(to, its_first);
   // Where a vertex has two entries, the one that leads on is the larger; the one that leads back goes.
-  std::sort(ghosts_.begin(), ghosts_.end(),
-            [](const auto& a, const auto& b) { return a.first != b.first ? a.first < b.first : a.second > b.second; });
+  detail::sort(ghosts_.begin(), ghosts_.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : a.second > b.second;
+  });
   const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
   ghosts_.erase(std::unique(ghosts_.begin(), ghosts_.end(), same), ghosts_.end());
 }

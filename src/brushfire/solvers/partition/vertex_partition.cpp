@@ -1,6 +1,8 @@
 // Finds ghosts, and who is to be told about whom.
 #include <brushfire/solvers/partition/vertex_partition.h>
 
+#include <brushfire/core/detail/sort.h>
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -36,7 +38,7 @@ void VertexPartitionBuilder::find_ghosts(Index first) {
     bits |= bit;
   }
   const auto begin = owner.begin() + static_cast<std::ptrdiff_t>(first);
-  std::sort(begin, owner.end());
+  detail::sort(begin, owner.end());
   for (auto w = begin; w != owner.end(); ++w) seen_[*w / 64] = 0;
   ghosts_.clear();
   for (const Name& n : names_) {
@@ -94,7 +96,7 @@ void VertexPartitionBuilder::open_channels() {
     p.channels.push_back(last);
     p.channels.push_back({home, part});
   });
-  std::sort(p.channels.begin(), p.channels.end(), by_receiver);
+  detail::sort(p.channels.begin(), p.channels.end(), by_receiver);
   const auto same = [](const VertexPartition::Channel& a, const VertexPartition::Channel& b) {
     return a.receiver == b.receiver && a.sender == b.sender;
   };

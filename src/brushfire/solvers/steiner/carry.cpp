@@ -82,7 +82,7 @@ void Carrying::find_changes() {
   constexpr std::uint8_t kBoth = kDearer | kCheaper;
   change_.assign(layout_edges(), 0);
   for (Index f = 0; f < mesh_.mesh().face_count(); ++f) {
-    const Index old = match_.face[f];
+    const Index old = match_.face(f);
     const std::uint8_t c = old == kNoIndex || !has_same_grain(old, f)
                                ? std::uint8_t{kBoth}
                                : change_of(before_.mesh->face_weight(old), mesh_.face_weight(f));
@@ -90,10 +90,10 @@ void Carrying::find_changes() {
     for (Index k = 0; k < 3; ++k) change_[mesh_.edges().edge(3 * f + k)] |= c;
   }
   for (Index e = 0; e < layout_edges(); ++e) {
-    if (match_.row[e] == kNoIndex) {
+    if (match_.row(e) == kNoIndex) {
       change_[e] = kBoth;
     } else {
-      change_[e] |= change_of(before_.mesh->edge_weight(match_.row[e]), mesh_.edge_weight(e));
+      change_[e] |= change_of(before_.mesh->edge_weight(match_.row(e)), mesh_.edge_weight(e));
     }
   }
   find_changed_bridges();
@@ -111,7 +111,7 @@ void Carrying::find_changed_bridges() {
   using Key = std::tuple<Index, Index, bool>;
   std::map<Key, double> old;
   for (const Bridge& b : before_.mesh->all_bridges()) {
-    const Index from = match_.row_after[b.from], to = match_.row_after[b.to];
+    const Index from = match_.row_after(b.from), to = match_.row_after(b.to);
     if (from != kNoIndex && to != kNoIndex) old[{from, to, b.mirrored}] = b.cost;
   }
   const auto mark = [&](const Key& key) { change_[std::get<0>(key)] = change_[std::get<1>(key)] = kDearer | kCheaper; };
@@ -139,13 +139,9 @@ void Carrying::match_sources() {
   for (std::size_t i = 0; i < after_.sources.size(); ++i) {
     known.try_emplace(key_of(after_.sources[i], itself, itself), static_cast<Index>(i));
   }
-  std::vector<Index> vertex_after(before_.mesh->mesh().vertex_count(), kNoIndex);
-  for (Index v = 0; v < match_.vertex.size(); ++v) {
-    if (match_.vertex[v] != kNoIndex) vertex_after[match_.vertex[v]] = v;
-  }
   for (const detail::LocatedSource& s : before_.sources) {
-    const auto found =
-        known.find(key_of(s, [&](Index v) { return vertex_after[v]; }, [&](Index f) { return match_.face_after[f]; }));
+    const auto found = known.find(
+        key_of(s, [&](Index v) { return match_.vertex_after(v); }, [&](Index f) { return match_.face_after(f); }));
     const Index now = found == known.end() ? kNoIndex : found->second;
     same_sources_ = same_sources_ && now == source_after_.size();
     source_after_.push_back(now);
@@ -166,19 +162,19 @@ void Carrying::copy_front() {
   const std::vector<Index> row_of = rows_of_points_before();
   const auto parent_after = [&](Index p) {
     if (p >= kFromSource) return p;
-    const Index row = row_of[p], e = match_.row_after[row];
+    const Index row = row_of[p], e = match_.row_after(row);
     return e == kNoIndex ? kNoIndex : layout_.row(e) + (p - before_.layout->row(row));
   };
   front_ = unreached(mesh_, layout_);
-  for (Index v = 0; v < match_.vertex.size(); ++v) {
-    const Index old = match_.vertex[v];
+  for (Index v = 0; v < mesh_.mesh().vertex_count(); ++v) {
+    const Index old = match_.vertex(v);
     if (old == kNoIndex || before_.front.vertex_value[old] == kInfinity) continue;
     front_.vertex_value[v] = before_.front.vertex_value[old];
     front_.vertex_parent[v] = parent_after(before_.front.vertex_parent[old]);
   }
   for (Index e = 0; e < layout_edges(); ++e) {
-    if (match_.row[e] == kNoIndex) continue;
-    const Index from = before_.layout->row(match_.row[e]), to = layout_.row(e), count = layout_.count(e);
+    if (match_.row(e) == kNoIndex) continue;
+    const Index from = before_.layout->row(match_.row(e)), to = layout_.row(e), count = layout_.count(e);
     for (Index i = 0; i < count; ++i) {
       if (before_.front.value[from + i] == kInfinity) continue;
       front_.value[to + i] = before_.front.value[from + i];
@@ -209,8 +205,8 @@ void Carrying::doubt() {
   waits_.assign(layout_edges(), 0);
   has_lost_.assign(layout_edges(), 0);
   if (!same_sources_) rename_sources();
-  for (Index v = 0; v < match_.vertex.size(); ++v) {
-    if (match_.vertex[v] == kNoIndex || (front_.vertex_parent[v] == kNoIndex && front_.vertex_value[v] < kInfinity)) {
+  for (Index v = 0; v < mesh_.mesh().vertex_count() && !all_known; ++v) {
+    if (match_.vertex(v) == kNoIndex || (front_.vertex_parent[v] == kNoIndex && front_.vertex_value[v] < kInfinity)) {
       lose_vertex(v);
     }
   }
@@ -222,7 +218,7 @@ void Carrying::doubt() {
       const bool dearer = change_[e] & kDearer;
       if (front_.parent[row + i] == kNoIndex || (dearer && is_doubtful(row + i))) lose(e, i);
     }
-    if (match_.row[e] == kNoIndex) has_lost_[e] = 1;
+    if (match_.row(e) == kNoIndex) has_lost_[e] = 1;
   }
 }
 

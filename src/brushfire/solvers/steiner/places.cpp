@@ -17,23 +17,22 @@ double rounding_of(const FaceOver& over) { return kPlaceRounding * std::max(over
 }  // namespace
 
 FaceOver Places::over(Index h) const {
-  const Mesh& mesh = mesh_.mesh();
   FaceOver over;
   over.edge = mesh_.edges().edge(h);
   over.face = Mesh::face_of(h);
   over.start = end_of(over.edge, false);
   over.end = end_of(over.edge, true);
-  over.length = mesh.lengths()[h];
-  const bool same_way = mesh.from(h) == over.start;
+  over.length = lengths_[h];
+  const bool same_way = faces_[over.face][h % 3] == over.start;
   const Stretches& stretches = mesh_.stretches();
   over.stretch = stretches.along(h);
-  const auto length = [&](Index g) { return mesh.lengths()[g] * (stretches.along(g) / over.stretch); };
+  const auto length = [&](Index g) { return lengths_[g] * (stretches.along(g) / over.stretch); };
   const double from_start = length(same_way ? Mesh::previous(h) : Mesh::next(h));
   const double from_end = length(same_way ? Mesh::next(h) : Mesh::previous(h));
-  const double area = mesh.double_areas()[over.face] * (stretches.area(over.face) / (over.stretch * over.stretch));
+  const double area = double_areas_[over.face] * (stretches.area(over.face) / (over.stretch * over.stretch));
   over.apex = over.length > 0 ? apex_over_edge(over.length, from_start, from_end, area) : Vec2{from_start, 0};
   if (travel_.pace != nullptr) {
-    const Index apex = mesh.from(Mesh::previous(h));
+    const Index apex = faces_[over.face][Mesh::previous(h) % 3];
     over.gradient.x = gradient_along(over.edge);
     const double rise = mesh_.height(apex) - mesh_.height(over.start) - over.gradient.x * over.apex.x;
     if (over.apex.y > 0) over.gradient.y = rise / over.apex.y;

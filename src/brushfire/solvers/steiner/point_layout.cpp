@@ -17,21 +17,23 @@ struct EdgeShape {
   double sine[2] = {1, 1};
 };
 
-// One half of an edge: from its vertex as far as `length`.
+// One half of an edge: from its vertex as far as `length`. The interval at t is slope * t + least long, so that places
+// are a geometric series: each is `ratio` times the one before and the first one.
 struct Half {
-  double length = 0;
-  double slope = 0, least = 0;  // the interval at t is slope * t + least long
-  Index count = 0;              // of intervals
+  double first = 0, ratio = 1;
+  Index count = 0;  // of intervals
 
-  Half(double l, double s, double r, Index most) : length(l), slope(s), least(r) {
-    const double wanted = l > 0 ? std::ceil(number(l)) : 0;
-    count = static_cast<Index>(std::clamp(wanted, 0.0, static_cast<double>(most)));
-  }
-  // How many intervals from the vertex to t.
-  double number(double t) const { return slope > 0 ? std::log1p(slope * t / least) / slope : t / least; }
-  double place(Index i) const {
-    const double n = number(length) * i / count;
-    return slope > 0 ? least / slope * std::expm1(slope * n) : least * n;
+  Half(double length, double slope, double least, Index most) {
+    if (!(length > 0 && least > 0)) {
+      count = length > 0 ? 1 : 0;
+      return;
+    }
+    // How many intervals lie from the vertex to the end.
+    const double wanted = slope > 0 ? std::log1p(slope * length / least) / slope : length / least;
+    count = static_cast<Index>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(most)));
+    const double step = wanted / count, growth = slope > 0 ? std::expm1(slope * step) : 0;
+    first = slope > 0 ? least / slope * growth : least * step;
+    ratio = 1 + growth;
   }
 };
 
@@ -44,16 +46,19 @@ Shapes shapes_of(const WeightedMesh& weighted) {
   const Mesh& mesh = weighted.mesh();
   const EdgeTable& edges = weighted.edges();
   const Stretches& stretches = weighted.stretches();
+  const std::span<const double> lengths = mesh.lengths(), double_areas = mesh.double_areas();
+  const std::span<const Face> faces = mesh.faces();
   Shapes shapes{std::vector<EdgeShape>(edges.count()), std::vector<double>(mesh.vertex_count(), kInfinity)};
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     const Index e = edges.edge(h), f = Mesh::face_of(h);
     EdgeShape& shape = shapes.edges[e];
-    shape.length = mesh.lengths()[h];
-    if (!mesh.is_face_usable(f) || weighted.face_weight(f) == kInfinity) continue;
-    const bool same_way = mesh.from(h) == mesh.from(edges.halfedge(e));
+    shape.length = lengths[h];
+    if (!mesh.is_face_usable(f)) continue;  // but a wall counts: points stay where they are when it goes
+    const Index from = faces[f][h % 3];
+    const bool same_way = from == edges.end(e, false);
     // With a grain: as the face is laid out, where lengths are costs, but for the edge, which keeps its own.
-    const auto length = [&](Index g) { return mesh.lengths()[g] * (stretches.along(g) / stretches.along(h)); };
-    const double area = mesh.double_areas()[f] * (stretches.area(f) / (stretches.along(h) * stretches.along(h)));
+    const auto length = [&](Index g) { return lengths[g] * (stretches.along(g) / stretches.along(h)); };
+    const double area = double_areas[f] * (stretches.area(f) / (stretches.along(h) * stretches.along(h)));
     const double next = length(Mesh::next(h)), previous = length(Mesh::previous(h)),
                  squares = shape.length * shape.length;
     // Beyond a right angle the vertex itself is what is nearest of the other edge.
@@ -66,7 +71,7 @@ Shapes shapes_of(const WeightedMesh& weighted) {
     double& last = shape.sine[same_way ? 1 : 0];
     first = std::min(first, sine(previous, next));
     last = std::min(last, sine(next, previous));
-    double& height = shapes.height[mesh.from(h)];
+    double& height = shapes.height[from];
     height = std::min({height, shape.length, previous, next > 0 ? std::max(area / next, 0.0) : 0.0});
   }
   return shapes;
@@ -98,13 +103,15 @@ PointLayout::PointLayout(const WeightedMesh& weighted, const Density& density) {
   }
   std::vector<Half> halves;
   halves.reserve(2 * std::size_t{edges.count()});
+  counts_.reserve(edges.count());
+  rows_.reserve(edges.count() + std::size_t{1});
   std::uint64_t size = 0;
   for (Index e = 0; e < edges.count(); ++e) {
     const EdgeShape& shape = shapes.edges[e];
     const double sum = shape.sine[0] + shape.sine[1];
     const double split = sum > 0 ? shape.length * (shape.sine[1] / sum) : 0.5 * shape.length;
     for (const int k : {0, 1}) {
-      const Index v = k == 0 ? mesh.from(edges.halfedge(e)) : mesh.to(edges.halfedge(e));
+      const Index v = edges.end(e, k != 0);
       // An altitude that has vanished in rounding says nothing, and no interval needs to be shorter than this.
       const double least =
           density.least * std::max(std::min(height[weighted.vertex(v)], shape.length), shape.length * 0x1p-20);
@@ -112,9 +119,11 @@ PointLayout::PointLayout(const WeightedMesh& weighted, const Density& density) {
                           std::max<Index>(1, density.most / 2));
     }
     const Index count = std::max<Index>(1, halves[2 * e].count + halves[2 * e + 1].count) + 1;
-    size += (count + kLanes - 1) / kLanes * kLanes;
+    const Index room = (count + kLanes - 1) / kLanes * kLanes;
     counts_.push_back(count);
-    longest_ = std::max(longest_, (count + kLanes - 1) / kLanes * kLanes);
+    rows_.push_back(static_cast<Index>(size));
+    size += room;
+    longest_ = std::max(longest_, room);
   }
   // A place, and for each of two searches a value and where it comes from.
   constexpr std::uint64_t kBytes = 8 + 2 * (8 + 4);
@@ -125,19 +134,19 @@ PointLayout::PointLayout(const WeightedMesh& weighted, const Density& density) {
                                          " points on edges are more than 2^31: a larger tolerance "
                                          "needs fewer");
   }
-  rows_.push_back(0);
-  at_.reserve(static_cast<std::size_t>(size));
+  rows_.push_back(static_cast<Index>(size));
+  at_.assign(static_cast<std::size_t>(size), 0);
   for (Index e = 0; e < edges.count(); ++e) {
     const double length = shapes.edges[e].length;
     const Half &first = halves[2 * e], &last = halves[2 * e + 1];
-    at_.push_back(0);
-    for (Index i = 1; i <= first.count; ++i) at_.push_back(first.place(i));
-    for (Index i = last.count; i > 0; --i) at_.push_back(length - last.place(i - 1));
-    while (at_.size() < rows_.back() + counts_[e]) at_.push_back(length);  // an edge of length 0
+    double* const row = at_.data() + rows_[e];
+    double place = 0;
+    for (Index i = 1; i <= first.count; ++i) row[i] = place = first.first + first.ratio * place;
+    place = 0;
+    for (Index i = counts_[e] - 2; i > first.count; --i) row[i] = length - (place = last.first + last.ratio * place);
     // Rounding must not put points out of order.
-    for (std::size_t i = rows_.back() + 1; i < at_.size(); ++i) at_[i] = std::clamp(at_[i], at_[i - 1], length);
-    while (at_.size() % kLanes != 0) at_.push_back(length);
-    rows_.push_back(static_cast<Index>(at_.size()));
+    for (Index i = 1; i + 1 < counts_[e]; ++i) row[i] = std::clamp(row[i], row[i - 1], length);
+    std::fill(row + counts_[e] - 1, row + (rows_[e + 1] - rows_[e]), length);
   }
 }
 

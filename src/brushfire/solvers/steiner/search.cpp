@@ -44,7 +44,8 @@ Search::Search(const WeightedMesh& mesh, const PointLayout& layout, Costs costs,
       layout_(layout),
       costs_(costs),
       travel_{mesh.pace(), towards},
-      places_(mesh, layout, costs, travel_) {
+      places_(mesh, layout, costs, travel_),
+      opposite_(mesh.mesh().opposite()) {
   const double width = kBucketWidth * mean_length(mesh) * mesh.mean_weight();
   width_ = width > 0 && width < kInfinity ? width : 1;
   offers_.value.resize(layout.longest_row());
@@ -154,14 +155,14 @@ void Search::send(Index edge) {
   waiting_[edge] = BucketQueue::kNever;
   ++front_.rows_sent;
   sweep(edge, first, last);
-  const std::span<const Index> opposite = mesh_.mesh().opposite();
+  const double* values = front_.value.data() + layout_.row(edge);
+  const Offering from{layout_.at_row(edge), values, first, last, *std::min_element(values + first, values + last + 1)};
   const Index begin = mesh_.edges().halfedge(edge);
   Index h = begin;
   do {
     const Index f = Mesh::face_of(h);
-    if (mesh_.mesh().is_face_usable(f) && mesh_.face_weight(f) < kInfinity)
-      send_into_face(places_.over(h), first, last);
-    h = opposite[h];
+    if (places_.is_usable(f) && mesh_.face_weight(f) < kInfinity) send_into_face(places_.over(h), from);
+    h = opposite_[h];
   } while (h != begin);
   cross(edge, first, last);
 }
@@ -171,40 +172,35 @@ void Search::sweep(Index edge, Index& first, Index& last) {
   const double weight = mesh_.edge_weight(edge);
   if (weight == kInfinity) return;
   const double* at = layout_.at_row(edge);
-  const Index count = layout_.count(edge), from = first, to = last;
+  const Index row = layout_.row(edge), end = layout_.count(edge) - 1, from = first, to = last;
+  double* const values = front_.value.data() + row;
+  Index* const parents = front_.parent.data() + row;
   const double gradient = places_.gradient_along(edge);
   const double up = weight * travel_.cost(1, gradient), down = weight * travel_.cost(1, -gradient);
-  for (Index j = from; j + 1 < count && j <= last; ++j) step(edge, j, j + 1, up * (at[j + 1] - at[j]), first, last);
-  for (Index j = std::max(to, last); j > 0 && j >= first; --j) {
-    step(edge, j, j - 1, down * (at[j] - at[j - 1]), first, last);
-  }
+  const auto step = [&](Index j, Index next, double cost) {
+    const double value = values[j] + cost;
+    if (!(value < values[next])) return;
+    if (next == 0 || next == end) {
+      reach(end_of(edge, next > 0), value, row + j, edge);
+    } else {
+      values[next] = value;
+      parents[next] = row + j;
+    }
+    first = std::min(first, next);
+    last = std::max(last, next);
+  };
+  for (Index j = from; j < end && j <= last; ++j) step(j, j + 1, up * (at[j + 1] - at[j]));
+  for (Index j = std::max(to, last); j > 0 && j >= first; --j) step(j, j - 1, down * (at[j] - at[j - 1]));
 }
 
-void Search::step(Index edge, Index from, Index to, double cost, Index& first, Index& last) {
-  const Index row = layout_.row(edge);
-  const double value = front_.value[row + from] + cost;
-  if (!(value < front_.value[row + to])) return;
-  if (to == 0 || to + 1 == layout_.count(edge)) {
-    reach(end_of(edge, to > 0), value, row + from, edge);
-  } else {
-    front_.value[row + to] = value;
-    front_.parent[row + to] = row + from;
-  }
-  first = std::min(first, to);
-  last = std::max(last, to);
-}
-
-void Search::send_into_face(const FaceOver& over, Index first, Index last) {
+void Search::send_into_face(const FaceOver& over, const Offering& from) {
   for (Index k = 0; k < 3; ++k) {
     const Index target = mesh_.edges().edge(3 * over.face + k);
-    if (target != over.edge) send_to_row(over, target, first, last);
+    if (target != over.edge) send_to_row(over, target, from);
   }
 }
 
-void Search::send_to_row(const FaceOver& over, Index target, Index first, Index last) {
-  const double* values = front_.value.data() + layout_.row(over.edge);
-  const Offering from{layout_.at_row(over.edge), values, first, last,
-                      *std::min_element(values + first, values + last + 1)};
+void Search::send_to_row(const FaceOver& over, Index target, const Offering& from) {
   const auto place = [&](Index v) {
     return v == over.start ? Vec2{} : v == over.end ? Vec2{over.length, 0} : over.apex;
   };

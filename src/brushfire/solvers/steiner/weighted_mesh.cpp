@@ -1,6 +1,9 @@
 // Walls are cut by Domain; a fence is a slit whose two sides are joined again by bridges.
 #include <brushfire/solvers/steiner/detail/weighted_mesh.h>
 
+#include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/solvers/steiner/detail/wall_faces.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -52,11 +55,12 @@ Weights opened(const Domain& domain, const Weights& weights) {
   return weights_on_open(domain, weights);
 }
 
-Barriers barriers_of(const Mesh& mesh, const Weights& weights) {
+Barriers barriers_of(const Mesh& mesh, const Weights& weights, Walls walls) {
   Barriers barriers;
   for (const EdgeCost& e : weights.edges) {
     if (e.crossing > 0) barriers.edges.push_back(e.vertices);
   }
+  if (walls == Walls::Left && !walls_part_a_vertex(mesh, weights)) return barriers;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     if (weights.face[f] == kInfinity) barriers.faces.push_back(f);
   }
@@ -78,12 +82,13 @@ Weights weights_on_open(const Domain& domain, const Weights& weights) {
   return open;
 }
 
-WeightedMesh::WeightedMesh(const Domain& domain, const Weights& weights)
-    : WeightedMesh(domain, Opened{opened(domain, weights)}) {}
+WeightedMesh::WeightedMesh(const Domain& domain, const Weights& weights, Walls walls)
+    : WeightedMesh(domain, Opened{opened(domain, weights)}, walls) {}
 
-WeightedMesh::WeightedMesh(const Domain& domain, const Opened& given)
+WeightedMesh::WeightedMesh(const Domain& domain, const Opened& given, Walls walls)
     : domain_(domain),
-      barriers_(barriers_of(domain.open(), given.weights)),
+      walls_(walls),
+      barriers_(barriers_of(domain.open(), given.weights, walls)),
       fenced_(fenced(domain.open(), barriers_)),
       edges_(std::make_shared<const EdgeTable>(fenced_.open())) {
   set_weights(given.weights);
@@ -91,7 +96,7 @@ WeightedMesh::WeightedMesh(const Domain& domain, const Opened& given)
 
 std::shared_ptr<const WeightedMesh> WeightedMesh::reweighted(const Weights& weights) const {
   const Weights open = opened(domain_, weights);
-  const Barriers barriers = barriers_of(domain_.open(), open);
+  const Barriers barriers = barriers_of(domain_.open(), open, walls_);
   if (barriers.faces != barriers_.faces || barriers.edges != barriers_.edges) return nullptr;
   auto result = std::make_shared<WeightedMesh>(*this);
   result->set_weights(open);
@@ -107,13 +112,14 @@ void WeightedMesh::set_weights(const Weights& opened) {
   }
   stretches_ = Stretches(open, grain);
   face_weight_.resize(open.face_count());
-  double sum = 0;
+  double sum = 0, count = 0;
   for (Index f = 0; f < open.face_count(); ++f) {
     face_weight_[f] = opened.face[fenced_.face(f)];
     sum += 1 / face_weight_[f];
+    count += face_weight_[f] < kInfinity;
   }
   mean_weight_ = 1;
-  if (sum > 0) mean_weight_ = open.face_count() / sum * (pace_ ? pace_->least() : 1);
+  if (sum > 0) mean_weight_ = count / sum * (pace_ ? pace_->least() : 1);
   edge_weight_.assign(edges_->count(), kInfinity);
   for (Index h = 0; h < open.halfedge_count(); ++h) {
     double& w = edge_weight_[edges_->edge(h)];
@@ -169,10 +175,18 @@ std::span<const Bridge> WeightedMesh::bridges(Index edge) const {
 std::vector<SurfacePoint> WeightedMesh::on_open(const SurfacePoint& point) const {
   std::vector<SurfacePoint> result;
   for (const SurfacePoint& p : domain_.on_open(point)) {
-    const std::vector<SurfacePoint> sides = fenced_.on_open(p);
-    result.insert(result.end(), sides.begin(), sides.end());
+    for (const SurfacePoint& side : fenced_.on_open(p)) {
+      if (is_entered(side)) result.push_back(side);
+    }
   }
   return result;
+}
+
+// Whether a face that the point lies in is no wall.
+bool WeightedMesh::is_entered(const SurfacePoint& point) const {
+  if (walls_ == Walls::CutOut) return true;
+  const std::vector<Index> faces = faces_at(mesh(), locate(mesh(), point));
+  return std::any_of(faces.begin(), faces.end(), [&](Index f) { return face_weight_[f] < kInfinity; });
 }
 
 void WeightedMesh::to_caller(std::span<SurfacePoint> points) const {

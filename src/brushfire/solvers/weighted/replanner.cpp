@@ -44,11 +44,13 @@ void Replanner::State::go_on(const std::shared_ptr<Run>& next) {
   layout = next->layout;
   const std::shared_ptr<Run> last = std::exchange(run, nullptr);
   field.run.reset();
-  Carried carried{unreached(*mesh, *layout), {}, 0};
+  Carried carried;
   if (last) {
     // Whoever keeps the field of before keeps its front.
     Run before = last.use_count() > 1 ? *last : std::move(*last);
     carried = carry(before, *next);
+  } else {
+    carried.front = unreached(*mesh, *layout);
   }
   renewed = 1 - carried.kept;
   Search search(*mesh, *layout, Costs::Real, options.towards);
@@ -86,7 +88,7 @@ void Replanner::change(Weights weights) {
   std::shared_ptr<const PointLayout> layout = state_->layout;
   if (state_->mesh) mesh = state_->mesh->reweighted(weights);
   if (!mesh) {
-    mesh = std::make_shared<WeightedMesh>(state_->domain, weights);
+    mesh = std::make_shared<WeightedMesh>(state_->domain, weights, Walls::Left);
     layout = std::make_shared<PointLayout>(*mesh, density_for(Costs::Real, state_->options.tolerance, 0));
   }
   const std::shared_ptr<Run> next = state_->located(std::move(mesh), std::move(layout), state_->sources);

@@ -61,7 +61,8 @@ struct WeightedSolver::Workspace {
   Weights weights;
   double uniform = 0;
   std::unique_ptr<DistanceSolver> plain;     // where the weight is uniform
-  std::shared_ptr<const WeightedMesh> mesh;  // elsewhere
+  std::shared_ptr<const WeightedMesh> cut;   // elsewhere, for windows and marching
+  std::shared_ptr<const WeightedMesh> mesh;  // for points; the same where there are no walls
   struct LaidOut {
     Density density;
     std::shared_ptr<const PointLayout> points;
@@ -70,6 +71,9 @@ struct WeightedSolver::Workspace {
   std::unique_ptr<refraction::Medium> medium;
   std::unique_ptr<detail::Engine> marching;
 
+  const std::shared_ptr<const WeightedMesh>& mesh_with(Walls walls);
+  std::shared_ptr<Run> located(Walls walls, std::span<const Source> sources, const WeightedOptions& options,
+                               std::shared_ptr<const PointLayout> layout = nullptr);
   std::shared_ptr<const PointLayout> points_for(Costs costs, const WeightedOptions& options, unsigned doublings);
   WeightedField run_uniform(std::span<const Source> sources, const WeightedOptions& options);
   WeightedField run(std::span<const Source> sources, const WeightedOptions& options, unsigned doublings);
@@ -79,13 +83,33 @@ struct WeightedSolver::Workspace {
   void fill_lower(const Search& below, const Run& run, const WeightedOptions& options, WeightedField& field) const;
 };
 
+const std::shared_ptr<const WeightedMesh>& WeightedSolver::Workspace::mesh_with(Walls walls) {
+  std::shared_ptr<const WeightedMesh>& wanted = walls == Walls::Left ? mesh : cut;
+  const std::shared_ptr<const WeightedMesh>& other = walls == Walls::Left ? cut : mesh;
+  const auto is_wall = [](double w) { return w == kInfinity; };
+  if (!wanted && other && std::none_of(weights.face.begin(), weights.face.end(), is_wall)) wanted = other;
+  if (!wanted) wanted = std::make_shared<WeightedMesh>(domain, weights, walls);
+  return wanted;
+}
+
+std::shared_ptr<Run> WeightedSolver::Workspace::located(Walls walls, std::span<const Source> sources,
+                                                        const WeightedOptions& options,
+                                                        std::shared_ptr<const PointLayout> layout) {
+  auto run = std::make_shared<Run>();
+  run->mesh = mesh_with(walls);
+  run->towards = options.towards;
+  run->layout = std::move(layout);
+  locate(sources, options.targets, *run);
+  return run;
+}
+
 std::shared_ptr<const PointLayout> WeightedSolver::Workspace::points_for(Costs costs, const WeightedOptions& options,
                                                                          unsigned doublings) {
   const Density wanted = density_for(costs, options.tolerance, doublings);
   LaidOut& last = costs == Costs::Real ? for_real : for_below;
   if (!last.points || !(last.density == wanted)) {
     last.points.reset();
-    last.points = std::make_shared<PointLayout>(*mesh, wanted);
+    last.points = std::make_shared<PointLayout>(*mesh_with(Walls::Left), wanted);
     last.density = wanted;
   }
   return last.points;
@@ -156,15 +180,15 @@ void WeightedSolver::Workspace::fill_lower(const Search& below, const Run& run, 
 // Both bounds by windows. False, and the field is empty, where they cannot be followed.
 bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOptions& options, unsigned refinements,
                                                WeightedField& field) {
-  if (!medium) medium = std::make_unique<refraction::Medium>(*mesh);
+  if (!medium) medium = std::make_unique<refraction::Medium>(*cut);
   const double tolerance = std::ldexp(options.tolerance, -2 * static_cast<int>(refinements));
   if (!medium->is_followable(tolerance)) return false;
   std::vector<PointLocation> places;
   for (const auto& sides : run.targets) places.insert(places.end(), sides.begin(), sides.end());
-  const double unit = mesh->mesh().unit();
+  const double unit = cut->mesh().unit();
   double farthest = (options.max_distance - run.base) / unit;
   if (!options.targets.empty() && places.empty()) farthest = -1;  // all targets are nowhere
-  const NearVertices near(*mesh, run.sources);
+  const NearVertices near(*cut, run.sources);
   refraction::Run windows(*medium, run.sources,
                           {std::min(tolerance, kWidestWindows), farthest, windows_worth_it(tolerance), places,
                            options.progress, near.of_source});
@@ -200,8 +224,8 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
     ++count;
   };
   std::vector<refraction::Known> known(domain.mesh().vertex_count());
-  for (Index v = 0; v < mesh->mesh().vertex_count(); ++v) {
-    known[mesh->vertex(v)] = better(known[mesh->vertex(v)], at_vertex(v));
+  for (Index v = 0; v < cut->mesh().vertex_count(); ++v) {
+    known[cut->vertex(v)] = better(known[cut->vertex(v)], at_vertex(v));
   }
   field.distance.resize(known.size());
   field.lower.resize(known.size());
@@ -229,23 +253,20 @@ bool WeightedSolver::Workspace::follow_windows(const Run& run, const WeightedOpt
 
 WeightedField WeightedSolver::Workspace::run(std::span<const Source> sources, const WeightedOptions& options,
                                              unsigned doublings) {
-  if (!mesh) mesh = std::make_shared<WeightedMesh>(domain, weights);
-  auto run = std::make_shared<Run>();
-  run->mesh = mesh;
-  run->towards = options.towards;
   const bool from_curves =
       std::any_of(sources.begin(), sources.end(), [](const Source& s) { return s.curve != nullptr; });
   const bool lower = options.lower && !from_curves;
-  if (from_curves) run->layout = points_for(Costs::Real, options, doublings);
-  locate(sources, options.targets, *run);
   WeightedField field;
-  if (lower && !options.keep_paths && follow_windows(*run, options, doublings, field)) return field;
-  run->layout = points_for(Costs::Real, options, doublings);
+  if (lower && !options.keep_paths &&
+      follow_windows(*located(Walls::CutOut, sources, options), options, doublings, field)) {
+    return field;
+  }
+  const std::shared_ptr<Run> run = located(Walls::Left, sources, options, points_for(Costs::Real, options, doublings));
   std::shared_ptr<const PointLayout> below;
   if (lower && weights.is_isotropic()) below = points_for(Costs::Below, options, doublings);
   search(*run, options, below.get(), field);
   field.points = run->layout->size() + (below ? below->size() : 0);
-  field.run = std::move(run);
+  field.run = run;
   return field;
 }
 
@@ -332,7 +353,6 @@ void WeightedSolver::prepare(double tolerance) {
   check_tolerance(tolerance);
   Workspace& w = *workspace_;
   if (w.uniform > 0) return;
-  if (!w.mesh) w.mesh = std::make_shared<WeightedMesh>(w.domain, w.weights);
   WeightedOptions options;
   options.tolerance = tolerance;
   w.points_for(Costs::Real, options, 0);
@@ -343,6 +363,7 @@ WeightedSolver WeightedSolver::twin() const {
   workspace->domain = workspace_->domain;
   workspace->weights = workspace_->weights;
   workspace->uniform = workspace_->uniform;
+  workspace->cut = workspace_->cut;
   workspace->mesh = workspace_->mesh;
   workspace->for_real = workspace_->for_real;
   workspace->for_below = workspace_->for_below;
@@ -354,9 +375,9 @@ WeightedField WeightedSolver::distance(std::span<const Source> sources, const We
   check(options);
   if (options.marching) {
     Workspace& w = *workspace_;
-    if (!w.mesh) w.mesh = std::make_shared<WeightedMesh>(w.domain, w.weights);
-    if (!w.marching) w.marching = make_march(*w.mesh, w.weights);
-    return march(w.mesh, *w.marching, sources, options);
+    const std::shared_ptr<const WeightedMesh>& cut = w.mesh_with(Walls::CutOut);
+    if (!w.marching) w.marching = make_march(*cut, w.weights);
+    return march(cut, *w.marching, sources, options);
   }
   if (workspace_->uniform > 0) return workspace_->run_uniform(sources, options);
   return workspace_->run_refined(sources, options);

@@ -2,6 +2,7 @@
 #include <brushfire/solvers/carried_source/detail/grouped_rows.h>
 
 #include <brushfire/core/detail/prefetch.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/carried_source/detail/update.h>
 #include <brushfire/solvers/detail/float_range.h>
 #include <brushfire/solvers/detail/sheets.h>
@@ -109,7 +110,7 @@ std::vector<int> GroupRunner::run_within(const GroupedRows::Group& group, double
 void GroupRunner::list_reached() {
   reached_.clear();
   for (const Index place : march_.touched()) reached_.emplace_back(rows_.vertex_[place], place);
-  std::sort(reached_.begin(), reached_.end());
+  detail::sort(reached_.begin(), reached_.end());
 }
 
 bool GroupRunner::run_lanes(const GroupedRows::Group& group, int begin, int end, double max_distance, Beyond beyond) {

@@ -2,6 +2,7 @@
 #include <brushfire/solvers/carried_source/detail/march.h>
 
 #include <brushfire/core/detail/prefetch.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/carried_source/detail/march_constants.h>
 #include <brushfire/solvers/carried_source/detail/offer_frame.h>
 
@@ -203,7 +204,7 @@ void March<T>::work_labelled() {
   for (std::size_t begin = 0, end = 0; (end = queue_.current().size()) > begin; begin = end) {
     pass_.assign(queue_.current().begin() + begin, queue_.current().end());
     if (begin > 0) {
-      std::sort(pass_.begin(), pass_.end(), [&](Index v, Index w) {
+      detail::sort(pass_.begin(), pass_.end(), [&](Index v, Index w) {
         return fronts_[v].value != fronts_[w].value ? fronts_[v].value < fronts_[w].value : v < w;
       });
     }

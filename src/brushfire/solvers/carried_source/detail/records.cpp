@@ -3,6 +3,7 @@
 #include <brushfire/solvers/carried_source/detail/records.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/carried_source/detail/optics.h>
 #include <brushfire/solvers/carried_source/detail/unrolled.h>
 #include <brushfire/solvers/detail/unfolding_limit.h>
@@ -185,8 +186,8 @@ class RecordBuilder {
       if (!mesh_.is_face_usable(Mesh::face_of(h))) add_conduits(v, h);
     }
     const auto order = [](const DraftUpdate& u) { return std::tie(u.target, u.support, u.sector, u.length); };
-    std::sort(updates_.begin(), updates_.end(),
-              [&](const DraftUpdate& a, const DraftUpdate& b) { return order(a) < order(b); });
+    detail::sort(updates_.begin(), updates_.end(),
+                 [&](const DraftUpdate& a, const DraftUpdate& b) { return order(a) < order(b); });
     const auto beyond = [](const DraftUpdate& u) { return u.support >= kMostSupports; };
     updates_.erase(std::remove_if(updates_.begin(), updates_.end(), beyond), updates_.end());
     put_record(v);

@@ -12,18 +12,24 @@ namespace brushfire::steiner {
 struct Match {
   Match(const Run& before, const Run& after);
 
-  std::vector<Index> face;        // [faces]
-  std::vector<Index> row;         // [edges] a row of the same points between the same faces, that runs the same way
-  std::vector<Index> vertex;      // [vertices] the end of the same rows
-  std::vector<Index> row_after;   // [edges before] the way back of `row`
-  std::vector<Index> face_after;  // [faces before]
-  bool is_identity = false;
+  const bool is_identity;  // everything has the number that it had
+
+  Index face(Index f) const { return is_identity ? f : face_[f]; }
+  // A row of the same points between the same faces, that runs the same way.
+  Index row(Index e) const { return is_identity ? e : row_[e]; }
+  Index vertex(Index v) const { return is_identity ? v : vertex_[v]; }  // the end of the same rows
+  // The way back.
+  Index row_after(Index e) const { return is_identity ? e : row_after_[e]; }
+  Index face_after(Index f) const { return is_identity ? f : face_after_[f]; }
+  Index vertex_after(Index v) const { return is_identity ? v : vertex_after_[v]; }
 
  private:
-  void match_all(const Run& run);
   void match_faces(const Run& before, const Run& after);
   void match_rows(const Run& before, const Run& after);
   void match_vertices(const Run& before, const Run& after);
+
+  std::vector<Index> face_, row_, vertex_;                    // [faces], [edges], [vertices] after
+  std::vector<Index> face_after_, row_after_, vertex_after_;  // [faces], [edges], [vertices] before
 };
 
 }  // namespace brushfire::steiner

@@ -57,11 +57,18 @@ struct RowBeside {
 class Places {
  public:
   Places(const WeightedMesh& mesh, const PointLayout& layout, Costs costs, const Travel& travel)
-      : mesh_(mesh), layout_(layout), costs_(costs), travel_(travel) {}
+      : mesh_(mesh),
+        layout_(layout),
+        costs_(costs),
+        travel_(travel),
+        faces_(mesh.mesh().faces()),
+        lengths_(mesh.mesh().lengths()),
+        double_areas_(mesh.mesh().double_areas()) {}
 
-  Index end_of(Index edge, bool last) const {
-    const Index h = mesh_.edges().halfedge(edge);
-    return last ? mesh_.mesh().to(h) : mesh_.mesh().from(h);
+  Index end_of(Index edge, bool last) const { return mesh_.edges().end(edge, last); }
+  bool is_usable(Index f) const {  // three distinct vertices
+    const Face& t = faces_[f];
+    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
   }
   // By how much an edge climbs per length, from its start on; 0 where slopes do not count.
   double gradient_along(Index edge) const;
@@ -85,6 +92,8 @@ class Places {
   const PointLayout& layout_;
   Costs costs_;
   Travel travel_;
+  std::span<const Face> faces_;
+  std::span<const double> lengths_, double_areas_;
 };
 
 }  // namespace brushfire::steiner

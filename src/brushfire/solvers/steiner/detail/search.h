@@ -48,9 +48,8 @@ class Search {
   void mark(Index edge, Index j, double value);
   void send(Index edge);
   void sweep(Index edge, Index& first, Index& last);
-  void step(Index edge, Index from, Index to, double cost, Index& first, Index& last);
-  void send_into_face(const FaceOver& over, Index first, Index last);
-  void send_to_row(const FaceOver& over, Index target, Index first, Index last);
+  void send_into_face(const FaceOver& over, const Offering& from);
+  void send_to_row(const FaceOver& over, Index target, const Offering& from);
   void take_offers(Index offering_row, Index target);
   void find_lower_terms(const FaceOver& over, Index target, const Receiving& to);
   void cross(Index edge, Index first, Index last);
@@ -63,6 +62,7 @@ class Search {
   Costs costs_;
   Travel travel_;
   Places places_;
+  std::span<const Index> opposite_;
   std::span<const detail::LocatedSource> sources_;
   double width_ = 1;  // of a bucket
   BucketQueue queue_;

@@ -6,6 +6,7 @@
 #include <brushfire/solvers/steiner/detail/stretches.h>
 #include <brushfire/solvers/steiner/weights.h>
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,13 +23,17 @@ struct Bridge {
 // Weights in the numbers of domain.open(), all of it without walls of cost +inf. O(faces).
 Weights weights_on_open(const Domain& domain, const Weights& weights);
 
+// What becomes of faces of weight +inf: they are cut out; or left, as faces that nothing enters, where that is the
+// same, since they part the faces around no vertex.
+enum class Walls : std::uint8_t { CutOut, Left };
+
 class WeightedMesh {
  public:
   // Throws as check() does. O(vertices + faces + edges that are special).
-  WeightedMesh(const Domain& domain, const Weights& weights);
+  WeightedMesh(const Domain& domain, const Weights& weights, Walls walls = Walls::CutOut);
 
-  // The same mesh, in the same numbers, with other weights; null where walls or fences are others. Throws as check()
-  // does. O(faces + edges that are special).
+  // The same mesh, in the same numbers, with other weights; null where fences are others, or what is cut out. Throws as
+  // check() does. O(faces + edges that are special).
   std::shared_ptr<const WeightedMesh> reweighted(const Weights& weights) const;
 
   const Domain& domain() const { return domain_; }
@@ -46,7 +51,7 @@ class WeightedMesh {
   const SlopePace* pace() const { return pace_ ? &*pace_ : nullptr; }
   double height(Index v) const { return mesh().positions()[v].z / mesh().unit(); }
 
-  // Points and vertices of the caller's mesh there and back, as those of Domain.
+  // Points and vertices of the caller's mesh there and back, as those of Domain. No point behind a wall is anywhere.
   std::vector<SurfacePoint> on_open(const SurfacePoint& point) const;
   Index open_vertex(Index v) const { return fenced_.vertex(v); }  // of domain().open()
   Index face(Index f) const { return domain_.face(fenced_.face(f)); }
@@ -57,13 +62,16 @@ class WeightedMesh {
   struct Opened {  // weights in the numbers of domain.open()
     Weights weights;
   };
-  WeightedMesh(const Domain& domain, const Opened& given);
+  WeightedMesh(const Domain& domain, const Opened& given, Walls walls);
   void set_weights(const Weights& opened);
   void find_bridges(const std::vector<EdgeCost>& fences);
   std::vector<Index> open_halfedges(Index a, Index b) const;
 
+  bool is_entered(const SurfacePoint& point) const;
+
   Domain domain_;
-  Barriers barriers_;  // walls and fences of domain_.open()
+  Walls walls_;
+  Barriers barriers_;  // of domain_.open(): fences, and walls that are cut out
   Domain fenced_;      // that with these cut open
   std::shared_ptr<const EdgeTable> edges_;
   std::vector<double> face_weight_, edge_weight_;

@@ -1,6 +1,7 @@
 // Which curves are to be seen from which faces.
 #pragma once
 
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/detail/engine.h>
 #include <brushfire/solvers/windows/algebra/curve_segments.h>
 #include <brushfire/solvers/windows/algebra/rays.h>
@@ -26,7 +27,7 @@ class CurveIndex {
     for (Index s = 0; s < sources.size(); ++s) {
       if (sources[s].curve) add(mesh, *sources[s].curve, s);
     }
-    std::sort(entries_.begin(), entries_.end(), [](const CurveInFace& a, const CurveInFace& b) {
+    detail::sort(entries_.begin(), entries_.end(), [](const CurveInFace& a, const CurveInFace& b) {
       return std::tie(a.face, a.source, a.segment, a.place) < std::tie(b.face, b.source, b.segment, b.place);
     });
   }

@@ -2,6 +2,7 @@
 #include <brushfire/solvers/windows/paths/results.h>
 
 #include <brushfire/core/detail/double_double.h>
+#include <brushfire/core/detail/sort.h>
 
 #include <algorithm>
 #include <limits>
@@ -19,7 +20,7 @@ Results::Results(RunState& run, std::span<Part> parts, DistanceField& field) : r
       if (p.at.on == PointLocation::On::Vertex && p.offset == 0) places_.emplace_back(s.label, p.at.vertex);
     }
   }
-  std::sort(places_.begin(), places_.end());
+  detail::sort(places_.begin(), places_.end());
 }
 
 void Results::write(std::vector<Index>& scratch, ThreadTeam* team) {

@@ -1,6 +1,8 @@
 // Shortest ways in the link of a vertex.
 #include <brushfire/solvers/windows/propagation/links.h>
 
+#include <brushfire/core/detail/sort.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -28,7 +30,7 @@ void LinkShadow::find_nodes(const WindowStructure& mesh, std::span<const Index> 
     sides_.emplace_back(h, kNoIndex);
     sides_.emplace_back(3 * (h / 3) + previous3(h % 3), kNoIndex);
   }
-  std::sort(sides_.begin(), sides_.end());
+  detail::sort(sides_.begin(), sides_.end());
   const auto side = [&](Index h) {
     return std::lower_bound(sides_.begin(), sides_.end(), h, [](const auto& s, Index x) { return s.first < x; });
   };

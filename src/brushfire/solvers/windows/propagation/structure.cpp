@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/face_geometry.h>
@@ -43,7 +44,7 @@ std::vector<WindowStructure::Crowd> crowds_of(std::span<const Index> offset, std
     const std::span<const Index> its = corner.subspan(offset[v], offset[v + 1] - offset[v]);
     crowds.push_back({order.vertices[v], {its.begin(), its.end()}, {}});
   }
-  std::sort(crowds.begin(), crowds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+  detail::sort(crowds.begin(), crowds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
   return crowds;
 }
 
@@ -236,7 +237,7 @@ void settle_crowds(WindowStructure& s) {
     }
     by_part.clear();
     for (const Index h : c.corners) by_part.emplace_back(s.part_of_face(h / 3), s.outer_halfedge(h), h);
-    std::sort(by_part.begin(), by_part.end());
+    detail::sort(by_part.begin(), by_part.end());
     for (std::size_t i = 0; i < by_part.size(); ++i) c.corners[i] = std::get<2>(by_part[i]);
     VertexType& its = s.vertex_type[s.order.vertex_rank[c.vertex]];
     if (its == VertexType::Fans && c.corners.size() > kManyFaces) its = VertexType::Full;

@@ -1,6 +1,8 @@
 // Which faces hold which targets.
 #include <brushfire/solvers/windows/propagation/targets.h>
 
+#include <brushfire/core/detail/sort.h>
+
 #include <tuple>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
@@ -20,7 +22,7 @@ void Targets::place(std::span<const PointLocation> targets, WindowStructure& str
       structure.faces[face].has_target = true;
     });
   }
-  std::sort(in_faces_.begin(), in_faces_.end(), [](const TargetInFace& a, const TargetInFace& b) {
+  detail::sort(in_faces_.begin(), in_faces_.end(), [](const TargetInFace& a, const TargetInFace& b) {
     return std::tie(a.face, a.target) < std::tie(b.face, b.target);
   });
   if (structure.wheels.empty()) return;

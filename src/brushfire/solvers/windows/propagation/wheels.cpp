@@ -1,6 +1,7 @@
 // Turns about a hub, and where a ray comes to the rim.
 #include <brushfire/solvers/windows/propagation/wheels.h>
 
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/windows/propagation/fan.h>
 
 #include <algorithm>
@@ -107,7 +108,7 @@ void Wheels::stop_at(std::span<const Index> faces) {
       if (place.sweep != kNoIndex) sweeps_[place.sweep].stops.push_back(place.face);
     }
   }
-  for (Sweep& sweep : sweeps_) std::sort(sweep.stops.begin(), sweep.stops.end());
+  for (Sweep& sweep : sweeps_) detail::sort(sweep.stops.begin(), sweep.stops.end());
 }
 
 // In larger and smaller blocks of spokes. Between the ends of a block the ray is nowhere farther from the hub than at
