@@ -59,8 +59,7 @@ function openHeld({ bytes, name, state, values }) {
 // Values that were computed elsewhere: shown until a source is set.
 function showGiven(values) {
   show();
-  const reached = values.reduce((n, d) => n + (Number.isFinite(d) ? 1 : 0), 0);
-  draw({ distance: values, source: new Int32Array(values.length), reached, given: true });
+  draw({ distance: values, source: new Int32Array(values.length), given: true });
 }
 
 // The field of the state as it is now; pictures of older ones are not drawn.
@@ -76,7 +75,7 @@ export async function refresh() {
   clearTimeout(busy);
   $('busy').hidden = true;
   if (!fields) return;
-  draw(...fields, view);
+  draw(fields[0], fields[1], view);
   tellFrame(app.state.sources);
 }
 
@@ -121,7 +120,7 @@ function draw(field, other, view) {
   const error = showError(drawn, other?.drawn);
   showView(view);
   const bound = Number.isFinite(field.maxErrorBound) ? `, every distance within ${(100 * field.maxErrorBound).toPrecision(2)} % (proven)` : '';
-  $('summary').textContent = `${app.name}: ${field.reached} of ${field.distance.length} vertices reached, the farthest at ${number(farthest)}${bound}${error}`;
+  $('summary').textContent = `${app.name}: ${field.distance.reduce((n, d) => n + (Number.isFinite(d) ? 1 : 0), 0)} of ${field.distance.length} vertices reached, the farthest at ${number(farthest)}${bound}${error}`;
   document.documentElement.dataset.solved = String(Number(document.documentElement.dataset.solved ?? 0) + 1);
 }
 
