@@ -50,6 +50,51 @@ def draw_flattening(scan, folder):
         )
 
 
+def picture(u, v):
+    """What is stuck on: 0 beyond it, 1 its frame, 2 and 3 a board, 4 an arrow up."""
+    x, y = 2 * u - 1, 2 * v - 1
+    board = 2 + (np.floor(4 * x) + np.floor(4 * y)).astype(int) % 2
+    arrow = ((np.abs(x) < 0.12) & (np.abs(y) < 0.6)) | ((y > 0.15) & (np.abs(x) < 0.75 - y))
+    inside = np.where(arrow, 4, np.where(np.maximum(np.abs(x), np.abs(y)) > 0.9, 1, board))
+    return np.where((np.abs(x) <= 1) & (np.abs(y) <= 1), inside, 0)
+
+
+def painted(mesh, faces, uv, pieces):
+    """The surface, with the faces that the picture touches cut into pieces^2, and the picture's numbers for vertices."""
+    whole = np.delete(mesh.faces, faces, axis=0)
+    steps = [(i, j) for i in range(pieces) for j in range(pieces - i)]
+    small = [[(i, j), (i + 1, j), (i, j + 1)] for i, j in steps]
+    small += [[(i + 1, j), (i + 1, j + 1), (i, j + 1)] for i, j in steps if i + j < pieces - 1]
+    weights = np.array([[(pieces - i - j, i, j) for i, j in corners] for corners in small]) / pieces
+    cut = mesh.faces[faces]
+    points = np.einsum("tkc,fcx->ftkx", weights, mesh.vertices[cut]).reshape(-1, 3)
+    middle = np.einsum("tc,fcx->ftx", weights.mean(axis=1), uv[cut]).reshape(-1, 2)
+    added = mesh.vertex_count + np.arange(len(points)).reshape(-1, 3)
+    labels = np.concatenate([np.zeros(mesh.vertex_count, int), np.repeat(picture(*middle.T), 3)])
+    return bf.Mesh(np.concatenate([mesh.vertices, points]), np.concatenate([whole, added])), labels
+
+
+def draw_decal(scan, folder):
+    size = np.linalg.norm(np.ptp(scan.vertices, axis=0))
+    flat = bf.Mesh([[x, y, 0] for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))], [[0, 1, 2], [0, 2, 3]])
+    sheet, numbers = painted(flat, np.arange(2), (flat.vertices[:, :2] + 1) / 2, 120)
+    low, high = scan.vertices.min(axis=0), scan.vertices.max(axis=0)
+    flank = low + (high - low) * [0.72, 0.36, 1]
+    place = int(np.argmin(np.linalg.norm(scan.vertices - flank, axis=1)))
+    panels = [sheet.panel(labels=numbers, title="the picture")]
+    for title, right in (("stuck on, upright", [1, 0, 0]), ("the same, turned by 45 degrees", [1, -1, 0])):
+        faces, uv = bf.decal(scan, place, right, size / 4)
+        mesh, numbers = painted(scan, faces, uv, 6)
+        panels.append(mesh.panel(labels=numbers, title=title))
+        print(f"decal.png: {title}: {len(faces)} faces, {bf.distortion(*part_of(scan, faces, uv * size / 4))}")
+    bf.render(panels, file=folder / "decal.png", **LOOK)
+
+
+def part_of(mesh, faces, uv):
+    used, corners = np.unique(mesh.faces[faces], return_inverse=True)
+    return bf.Mesh(mesh.vertices[used], corners.reshape(-1, 3)), uv[used]
+
+
 def stress(uv, landmarks, matrix):
     apart = np.linalg.norm(uv[landmarks][:, None] - uv[None], axis=2)
     return np.sqrt(((apart - matrix) ** 2).sum() / (matrix**2).sum())
@@ -105,5 +150,6 @@ if __name__ == "__main__":
     measure_gradient(scan)
     if given.figures:
         draw_flattening(scan, given.figures)
+        draw_decal(scan, given.figures)
         draw_gradient(scan, given.figures)
         draw_reeb(given.figures)

@@ -3,10 +3,12 @@
 //     time_replan [VERTICES]
 #include <brushfire/solvers/weighted/replanner.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -50,10 +52,12 @@ int main(int count, char** arguments) {
   Replanner planner(mesh, weights, sources);
   std::printf("%u vertices, a run from nothing: %.2f s\n", mesh.vertex_count(), fresh);
   std::printf("%-34s %-8s %10s %10s %12s\n", "one per cent changes", "to", "time", "of a run", "points anew");
+  const auto print = [&](const char* where, const char* how, double time, double renewed) {
+    std::printf("%-34s %-8s %8.3f s %8.1f %% %10.1f %%\n", where, how, time, 100 * time / fresh, 100 * renewed);
+  };
   const auto row = [&](const char* where, const char* how) {
     const double time = seconds([&] { planner.change(weights); });
-    std::printf("%-34s %-8s %8.3f s %8.1f %% %10.1f %%\n", where, how, time, 100 * time / fresh,
-                100 * planner.renewed());
+    print(where, how, time, planner.renewed());
   };
   const struct {
     const char* name;
@@ -73,4 +77,30 @@ int main(int count, char** arguments) {
     weights.face = before;
     row(p.name, "and back");
   }
+  std::uniform_real_distribution<double> share(0.06, 0.94);
+  constexpr int kPlaces = 40;
+  std::vector<double> times, walls;
+  double renewed = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const std::vector<double> before = weights.face;
+    const double x = share(random), y = share(random);
+    for (const double factor : {2.0, kInfinity}) {
+      scale(weights.face, n, x, y, factor);
+      (factor == 2 ? times : walls).push_back(seconds([&] { planner.change(weights); }));
+      renewed += planner.renewed() / (2 * kPlaces);
+      weights.face = before;
+      times.push_back(seconds([&] { planner.change(weights); }));
+    }
+  }
+  const auto median = [](std::vector<double>& values) {
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    return values[values.size() / 2];
+  };
+  const auto mean = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  };
+  print("forty places anywhere, mean", "weights", mean(times), renewed);
+  print("forty places anywhere, mean", "walls", mean(walls), renewed);
+  print("forty places anywhere, median", "weights", median(times), renewed);
+  print("forty places anywhere, median", "walls", median(walls), renewed);
 }

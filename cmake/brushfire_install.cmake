@@ -35,6 +35,17 @@ if(BRUSHFIRE_FIGURE)
   install(FILES src/brushfire/figure/font/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/brushfire RENAME LICENSE.DejaVu)
 endif()
 
+# Whoever links a static library links what it links. Of a shared one that is private, and no header shows it: its users
+# need none of it installed. (pkg-config looks for what stands in Requires.private even for --cflags.)
+get_target_property(type brushfire TYPE)
+if(type STREQUAL "STATIC_LIBRARY")
+  set(brushfire_pc_libraries " -pthread${BRUSHFIRE_PC_LIBRARIES}")
+else()
+  set(BRUSHFIRE_FIND_DEPENDENCIES "")
+  set(BRUSHFIRE_PC_MODULES "")
+  set(brushfire_pc_libraries "")
+endif()
+
 set(brushfire_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/brushfire)
 install(EXPORT brushfire_targets NAMESPACE brushfire:: DESTINATION ${brushfire_cmake_dir})
 configure_package_config_file(cmake/brushfireConfig.cmake.in brushfireConfig.cmake INSTALL_DESTINATION ${brushfire_cmake_dir})
@@ -43,16 +54,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/brushfireConfig.cmake ${CMAKE_CURRENT_
   cmake/FindDraco.cmake cmake/FindLZ4.cmake cmake/FindLibZip.cmake cmake/FindMeshoptimizer.cmake cmake/FindWebP.cmake
   DESTINATION ${brushfire_cmake_dir})
 
-# What the library links is private to a shared one; whoever links a static one links it too. The prefix is told from where
-# the file lies, so that the folder can be moved.
-get_target_property(type brushfire TYPE)
-if(type STREQUAL "STATIC_LIBRARY")
-  set(brushfire_pc_private "")
-  set(brushfire_pc_libraries " -pthread${BRUSHFIRE_PC_LIBRARIES}")
-else()
-  set(brushfire_pc_private ".private")
-  set(brushfire_pc_libraries "")
-endif()
+# The prefix is told from where the file lies, so that the folder can be moved.
 file(RELATIVE_PATH brushfire_pc_up /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(REGEX REPLACE "/$" "" brushfire_pc_up ${brushfire_pc_up})
 configure_file(cmake/brushfire.pc.in brushfire.pc @ONLY)

@@ -180,8 +180,10 @@ def decal(
     """
     wide = number(width, "width")
     high = wide if height is None else number(height, "height")
-    if not (wide > 0 and high > 0):
-        raise BrushfireError("decal: width and height are greater than 0")
+    if not (0 < wide < np.inf and 0 < high < np.inf):
+        raise BrushfireError("decal: width and height are finite numbers greater than 0")
+    if not mesh.face_count or len(mesh.vertices) < mesh.vertex_count:
+        raise BrushfireError("decal: a mesh with faces and positions is needed")
     longest = float(np.linalg.norm(np.ptp(mesh.vertices, axis=0)))
     edges = mesh.vertices[mesh.faces] - mesh.vertices[np.roll(mesh.faces, 1, axis=1)]
     reach = np.hypot(wide, high) / 2 + float(np.linalg.norm(edges, axis=2).max())

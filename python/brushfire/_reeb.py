@@ -119,6 +119,10 @@ def _integral(mesh: Mesh, samples: int, method: str | None) -> tuple[Floats, flo
     used = np.unique(mesh.faces)
     if not len(used):
         raise BrushfireError("reeb_graph: a mesh with faces is needed")
+    if len(mesh.vertices) < mesh.vertex_count:
+        raise BrushfireError("reeb_graph: a mesh with positions is needed")
+    if not mesh.area > 0:
+        raise BrushfireError("reeb_graph: a surface without area has no mean distances")
     chosen = mesh.farthest_points(min(max(samples, 1), len(used)))
     corner = _corner_areas(mesh)
     weight = np.bincount(chosen.nearest[used], corner[used], len(chosen.vertices))

@@ -71,7 +71,14 @@ def pair_distances(
     space, chosen = chosen_in(mesh, weights, method, tolerance, radius, bound, precision)
     with shown(progress, "pairs") as report:
         result = _core.pair_distances(space, start, end, chosen, thread_count(threads), report)
-    return result / np.sqrt(mesh.area) if normalise else result
+    return result / _root_of_area(mesh) if normalise else result
+
+
+def _root_of_area(mesh: Mesh) -> float:
+    root = float(np.sqrt(mesh.area))
+    if not 0 < root < np.inf:
+        raise BrushfireError("a surface without area has no unit: distances are not normalised")
+    return root
 
 
 def _named_meshes(meshes: Any) -> list[tuple[str, Any]]:
@@ -94,7 +101,7 @@ def _fill(mesh: Mesh, out: Any, rows: slice, normalise: bool, how: dict[str, Any
         return
     mesh.distance_matrix(some, out=out[rows], threads=1, **how)
     if normalise:
-        out[rows] /= np.sqrt(mesh.area)
+        out[rows] = out[rows] / np.float64(_root_of_area(mesh))
 
 
 def distance_matrices(

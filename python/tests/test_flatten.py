@@ -92,3 +92,13 @@ def test_a_decal_keeps_lengths_on_a_rolled_sheet():
     )
     assert uv[middle + 20] == pytest.approx([0.5 + 1 / 6, 0.5], abs=1e-9)
     assert 0 < len(faces) < mesh.face_count
+
+
+def test_what_no_decal_sticks_to_is_told():
+    corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    for mesh in (bf.Mesh(corners, np.zeros((0, 3), dtype=int)), bf.Mesh.from_lengths([[0, 1, 2]], [[1, 1, 1]])):
+        with pytest.raises(bf.BrushfireError, match="faces and positions"):
+            bf.decal(mesh, 0, [1, 0, 0], 1.0)
+    for width in (0, -1, np.inf, np.nan):
+        with pytest.raises(bf.BrushfireError, match="width"):
+            bf.decal(bf.Mesh(corners, [[0, 1, 2]]), 0, [1, 0, 0], width)

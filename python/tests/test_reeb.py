@@ -108,3 +108,10 @@ def test_a_search_finds_poses_of_one_shape_first():
     for i, (kind, graph) in enumerate(shapes):
         ranked = sorted((-graph.similarity(other), k) for j, (k, other) in enumerate(shapes) if j != i)
         assert [k for _, k in ranked[:2]] == [kind, kind], (kind, ranked[:4])
+
+
+def test_surfaces_without_area_and_without_positions_are_told():
+    with pytest.raises(bf.BrushfireError, match="without area"):
+        bf.reeb_graph(bf.Mesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]]))
+    with pytest.raises(bf.BrushfireError, match="positions"):
+        bf.reeb_graph(bf.Mesh.from_lengths([[0, 1, 2]], [[1, 1, 1]]))

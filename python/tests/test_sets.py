@@ -56,3 +56,13 @@ def test_pairs_of_another_shape_are_refused(bumpy):
     for wrong in (-1, bumpy.vertex_count, 2**40):
         with pytest.raises(bf.BrushfireIndexError):
             bumpy.pair_distances([[0, wrong]])
+
+
+def test_a_surface_without_area_is_no_unit():
+    line = bf.Mesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]])
+    for call in (
+        lambda: bf.distance_matrices([line], normalise=True),
+        lambda: line.pair_distances([[0, 1]], normalise=True),
+    ):
+        with pytest.raises(bf.BrushfireError, match="without area"):
+            call()

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace brushfire::test {
@@ -44,6 +45,17 @@ TEST_F(MatrixVerb, WritesThoseOfSeveralMeshesIntoAFolder) {
   EXPECT_EQ(run({path("n.off"), "-o", path("d.npy")}).code, 2);  // no folder
   const Ended json = run({path("n.off"), "-o", path("all/"), "--json"});
   EXPECT_NE(json.out.find("\"files\": 2,"), std::string::npos) << json.out;
+}
+
+TEST_F(MatrixVerb, WritesInUnitsOfTheRootOfTheArea) {
+  const double root = std::sqrt(12.0);
+  ASSERT_EQ(run({"--normalise", "--dtype", "float64", "-o", path("d.npy")}).code, 0);
+  EXPECT_EQ(read_npy(path("d.npy")).values[1 * 5 + 3], 5 / root);
+  const Ended ended = run({"--normalise", "--radius", "3", "--rows", "0", "-o", path("d.mtx"), "--json"});
+  EXPECT_NE(ended.out.find("\"normalised_by\": 3.46"), std::string::npos) << ended.out;
+  EXPECT_NE(content("d.mtx").find("1 2 0.866"), std::string::npos) << content("d.mtx");
+  write("line.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
+  EXPECT_EQ(run_program({"matrix", path("line.off"), "--normalise", "-o", path("l.npy")}).code, 2);
 }
 
 TEST_F(MatrixVerb, WritesAllPairsInFloatByDefault) {

@@ -20,7 +20,7 @@ FUNCTIONS = {
     "isolines": ["isolines", "curved_isolines", "distance", "weighted"],
     "log-map": ["log_map"],
     "gradient": ["gradient", "distance", "weighted"],
-    "matrix": ["distance_matrix", "write_distance_matrix", "weighted"],
+    "matrix": ["distance_matrix", "write_distance_matrix", "distance_matrices", "weighted"],
     "pairs": ["pair_distances", "weighted"],
     "merge": ["merge_shards"],
     "render": ["render", "panel", "animate", "distance", "weighted"],

@@ -294,6 +294,16 @@ TEST_F(WeightFiles, GridsBecomeTerrainThatIsWalkedInSecondsAndDrawnAsIsochrones)
   EXPECT_EQ(costs.heights[105], 0);
   EXPECT_EQ(costs.heights.back(), kInfinity);
   EXPECT_EQ(run_program({"terrain", path("dem.asc"), "--values", path("w.txt"), "-o", path("s.asc")}).code, 2);
+  // As a GeoTIFF, which is a terrain again, in builds with GDAL; others say how to make one.
+  const Ended tiff = run_program({"terrain", path("dem.asc"), "--values", path("s.npy"), "-o", path("s.tif")});
+  if (tiff.code != 0) {
+    EXPECT_NE(tiff.err.find("gdal_translate"), std::string::npos) << tiff.err;
+    return;
+  }
+  const Grid there = read_grid(path("s.tif"));
+  EXPECT_EQ(there.heights, costs.heights);
+  EXPECT_EQ(there.placement.origin, heights.placement.origin);
+  EXPECT_EQ(run_program({"terrain", path("s.tif"), "-o", path("s.ply"), "--quiet"}).code, 0);
 }
 
 }  // namespace

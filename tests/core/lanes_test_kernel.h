@@ -99,6 +99,15 @@ void gather_some() {
   expect_lanes(z, "z", [&](int k) { return from[3 * index[k] + 2]; });
 }
 
+template <class T, int N>
+void load_some_fours() {
+  const auto from = std::make_unique<T[]>(4 * N);
+  for (int i = 0; i < 4 * N; ++i) from[i] = static_cast<T>(i) + T(0.5);
+  Lanes<T, N> four[4];
+  load_fours(from.get(), four[0], four[1], four[2], four[3]);
+  for (int i = 0; i < 4; ++i) expect_lanes(four[i], "of four", [&](int k) { return from[4 * k + i]; });
+}
+
 template <class T>
 void pack() {
   using V = Lanes<T, 8>;
@@ -183,6 +192,8 @@ inline void gather_all() {
   gather_some<double, 8>();
   gather_some<float, 8>();
   gather_some<float, 16>();
+  load_some_fours<float, 4>(), load_some_fours<float, 8>(), load_some_fours<float, 16>();
+  load_some_fours<double, 4>(), load_some_fours<double, 8>();
 }
 inline void pack_all() {
   pack<double>();

@@ -130,6 +130,36 @@ TEST(DistanceGradient, IsThatOfSinglePathsWhereLegsPassThroughVertices) {
   for (Index w = 0; w < mesh.vertex_count(); ++w) EXPECT_LT(norm(sum[w] - all.vertices[w]), 1e-12) << w;
 }
 
+// Rays are followed fast over faces that are oriented alike, point by point over others.
+TEST(DistanceGradient, DoesNotDependOnHowFacesAreOriented) {
+  const Mesh mesh = jittered(shapes::icosphere(3).mesh(), 0.02, 4);
+  std::vector<Face> turned(mesh.faces().begin(), mesh.faces().end());
+  std::mt19937 dice(4);
+  for (Face& f : turned) {
+    if (dice() % 8 == 0) std::swap(f[1], f[2]);
+  }
+  const Mesh other(mesh.positions(), turned);
+  const Face corner = turned[30];
+  const std::vector<double> weights = random_weights(mesh.vertex_count(), 4);
+  std::array<DistanceGradient, 2> found;
+  for (const Mesh* m : {&mesh, &other}) {
+    SurfacePoint inside{30, {}};
+    const std::array<double, 3> share{0.2, 0.5, 0.3};
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (m->faces()[30][k] == corner[i]) inside.weights[k] = share[i];
+      }
+    }
+    const std::vector<Source> sources{{inside}, {vertex_point(*m, 9), 0.1}};
+    found[m == &mesh ? 0 : 1] = distance_gradient_wrt_vertices(*m, sources, traced(*m, sources), weights);
+  }
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    EXPECT_LT(norm(found[0].vertices[v] - found[1].vertices[v]), 1e-9) << v;
+  }
+  EXPECT_LT(norm(found[0].places[0] - found[1].places[0]), 1e-9);
+  EXPECT_NEAR(found[0].offsets[1], found[1].offsets[1], 1e-9);
+}
+
 TEST(OneSidedVertices, AreOppositeOfTheSource) {
   // Around a cone's base: straight over the apex's both sides.
   const Mesh cone = shapes::cone(3, 12, 1, 2).mesh();

@@ -45,6 +45,16 @@ TEST(Flatten, LaysARolledSheetFlat) {
   EXPECT_EQ(flat.mesh.vertex_count(), sheet.positions.size());  // a disc has no seam
 }
 
+TEST(Flatten, LaysALineOnALine) {
+  std::vector<Vec3> positions;
+  std::vector<Face> faces;
+  for (Index i = 0; i < 9; ++i) positions.push_back({0.3 * i, 0.4 * i, 0});
+  for (Index i = 2; i < 9; ++i) faces.push_back({0, i - 1, i});
+  const Flattening flat = flatten(Mesh(positions, faces), exactly(9));
+  EXPECT_LT(flat.distortion.stress, 1e-9);
+  for (const std::array<double, 2>& uv : flat.uv) EXPECT_LT(std::abs(uv[1]), 1e-6);
+}
+
 TEST(Flatten, IsTheSameAtBothEndsOfTheRangeOfNumbers) {
   const Shape shape = shapes::saddle(4);
   const Flattening plain = flatten(shape.mesh(), exactly(12));

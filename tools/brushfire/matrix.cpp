@@ -11,6 +11,7 @@
 #include <brushfire/core/error.h>
 #include <brushfire/queries/distance_matrix.h>
 #include <brushfire/queries/matrix_job.h>
+#include <brushfire/queries/pair_distances.h>
 
 #include <algorithm>
 #include <chrono>
@@ -40,7 +41,7 @@ Examples:
   brushfire matrix cortex.gii --nearest 1001 -o d.npy   # sorted rows, and d.index.npy
   brushfire matrix cortex.gii --radius 20 --method exact -o near.npz
   brushfire matrix cortex.gii --shard 3/16 -o d.npy     # writes d.03-of-16.npy, for brushfire merge
-  brushfire matrix pose1.off pose2.off pose3.off -o matrices/
+  brushfire matrix pose1.off pose2.off pose3.off --normalise -o matrices/
 
 Of several meshes every matrix becomes FOLDER/NAME.npy, by the name of the mesh's file.
 
@@ -54,6 +55,7 @@ struct Arguments {
   SharedArguments shared;
   std::string rows, columns;  // "": all
   std::string type = "float32";
+  bool normalise = false;
   MatrixFileArguments file_options;
 };
 
@@ -114,8 +116,15 @@ struct Written {
   bool complete = true;
 };
 
+// As files hold it.
+MatrixFileOptions layout_of(const Arguments& a, double unit) {
+  MatrixFileOptions layout = file_options(a.file_options);
+  layout.unit = unit;
+  return layout;
+}
+
 Written write_sparse(const Arguments& a, const Domain& domain, Places rows, ValueType type,
-                     const MatrixOptions& options, const Talk& talk) {
+                     const MatrixOptions& options, double unit, const Talk& talk) {
   Written w{.output = a.output};
   std::size_t found = 0;
   w.rows = rows ? rows->size() : domain.mesh().vertex_count();
@@ -128,20 +137,19 @@ Written write_sparse(const Arguments& a, const Domain& domain, Places rows, Valu
     }
     if (report) report(share);
   };
-  w.entries = write_distances_within(a.output, domain, *a.shared.radius, rows, type, told, file_options(a.file_options),
-                                     &found);
+  w.entries = write_distances_within(a.output, domain, *a.shared.radius, rows, type, told, layout_of(a, unit), &found);
   w.found = found;
   return w;
 }
 
 Written write_dense(const Arguments& a, const Domain& domain, Places rows, Places columns, ValueType type,
-                    const MatrixOptions& options, const Talk& talk) {
+                    const MatrixOptions& options, double unit, const Talk& talk) {
   Progress report;
   MatrixOptions told = options;
   told.distance.progress = [&](double share) {
     if (report) report(share);
   };
-  MatrixJob job(a.output, domain, rows, columns, type, told, file_options(a.file_options));
+  MatrixJob job(a.output, domain, rows, columns, type, told, layout_of(a, unit));
   Written w{.output = job.output().string(), .rows = job.rows(), .found = job.found()};
   const std::uint64_t nearest = file_options(a.file_options).nearest;
   w.entries = w.rows * (nearest > 0 ? nearest : job.columns());
@@ -178,11 +186,12 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
   const Places columns = column_places ? Places(*column_places) : std::nullopt;
   const std::uint64_t column_count = columns ? columns->size() : mesh.vertex_count();
 
+  const double unit = arguments.normalise ? root_of_area(mesh) : 1;
   const auto start = std::chrono::steady_clock::now();
   const ValueType type = arguments.type == "float32" ? ValueType::Float32 : ValueType::Float64;
   const Written written = is_sparse(arguments.output)
-                              ? write_sparse(arguments, surface.domain(), rows, type, options, talk)
-                              : write_dense(arguments, surface.domain(), rows, columns, type, options, talk);
+                              ? write_sparse(arguments, surface.domain(), rows, type, options, unit, talk)
+                              : write_dense(arguments, surface.domain(), rows, columns, type, options, unit, talk);
   const double solve_s = seconds_since(start);
   talk.end_progress();
 
@@ -201,6 +210,7 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
         .add("columns", static_cast<std::int64_t>(column_count))
         .add("entries", static_cast<std::int64_t>(written.entries))
         .add("radius", options.distance.max_distance)
+        .add("normalised_by", unit)
         .add("unit", unit_of(arguments.shared))
         .add("dtype", arguments.type)
         .add("solve_s", solve_s);
@@ -272,6 +282,7 @@ void add_matrix(CommandLine& command_line) {
     verb.arguments("MORE", arguments->more, "Further meshes: every one's matrix goes into a folder, -o FOLDER/");
     verb.option("--rows", arguments->rows, "PLACES", "all, vertices, ranges of them, labels, or a file of places");
     verb.option("--columns,--cols", arguments->columns, "PLACES", "The same for the columns");
+    verb.flag("--normalise", arguments->normalise, "In units of the square root of the area of the surface");
     verb.choice("--dtype", arguments->type, {"float32", "float64"}, "Type of the values");
     verb.option("-o,--output", arguments->output, "FILE", "Write the matrix: .npy .zarr, with --radius also .npz .mtx");
     add_matrix_files(verb, arguments->file_options);

@@ -34,7 +34,7 @@ class Failure(Exception):
 
 
 def blocks_of(file: Path) -> list[Block]:
-    page = file.relative_to(ROOT).as_posix()
+    page = (file.relative_to(ROOT) if file.is_relative_to(ROOT) else file).as_posix()
     lines = file.read_text().splitlines()
     found: list[Block] = []
     reason: str | None = None

@@ -8,6 +8,7 @@
 #include <brushfire/mesh/detail/locality_order.h>
 #include <brushfire/solvers/detail/walls.h>
 #include <brushfire/solvers/windows/paths/field_rays.h>
+#include <brushfire/solvers/windows/paths/ray_walk.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,9 @@ struct Axes {
   Vec3 along, inward;
 };
 
+// Rays that are followed at once: enough for none to wait for memory, few enough for their crossings to stay near.
+constexpr std::size_t kTogether = 8;
+
 class Sweep {
  public:
   // value: of every vertex of the mesh.
@@ -40,6 +44,7 @@ class Sweep {
       : mesh_(mesh),
         field_(field),
         rays_(field),
+        walk_(field),
         value_(value),
         pull_(mesh.halfedge_count()),
         stray_(mesh.vertex_count(), 0),
@@ -53,15 +58,19 @@ class Sweep {
     add_up(weights);
     Poll poll(64);
     // Rays of neighbours run through the same faces.
+    std::size_t waiting = 0;
     for (const Index v : vertex_locality_order(mesh_).vertices) {
       poll();
       if (weights[v] == 0) continue;
-      // One that starts elsewhere than was thought: it passes through a vertex, or is another one as short.
-      const Index start = leg(v, weights[v]), thought = parent(v);
-      if (start == thought) continue;
-      send_on(start, weights[v]);
-      if (thought != kNoIndex) send_on(thought, -weights[v]);
+      if (const std::optional<FieldRays::Arrival> arrival = rays_.arrival(v)) {
+        together_[waiting].vertex = v;
+        together_[waiting++].arrival = *arrival;
+        if (waiting == together_.size()) follow(std::exchange(waiting, 0), weights);
+      } else {
+        check_start(v, leg(v, weights[v]), weights[v]);
+      }
     }
+    follow(waiting, weights);
     while (!strays_.empty()) {
       poll();
       const Index v = strays_.top().second;
@@ -153,6 +162,35 @@ class Sweep {
     begin(start, Mesh::face_of(crossings_.back().halfedge), in_space(axes(crossings_.back().halfedge), u));
   }
 
+  // The last legs of some vertices at once.
+  void follow(std::size_t count, const std::vector<double>& weights) {
+    const std::span<windows::RayWalk::Ray> rays = std::span(together_).first(count);
+    walk_.follow(rays);
+    for (const windows::RayWalk::Ray& ray : rays) {
+      const double weight = weights[ray.vertex];
+      if (!ray.start) {
+        check_start(ray.vertex, leg(ray.vertex, weight), weight);
+        continue;
+      }
+      pull(ray.vertex, weight * in_space(axes(ray.arrival.halfedge), ray.arrival.arrow));
+      for (const windows::RayWalk::Crossing& c : ray.crossings) {
+        pull_[c.halfedge].across += weight * c.across;
+        pull_[c.halfedge].moment += weight * c.moment;
+      }
+      const Index last = ray.crossings.back().halfedge;
+      begin(*ray.start, Mesh::face_of(last), weight * in_space(axes(last), ray.u));
+      check_start(ray.vertex, *ray.start, weight);
+    }
+  }
+
+  // A leg that starts elsewhere than was thought: it passes through a vertex, or is another one as short.
+  void check_start(Index v, Index start, double weight) {
+    const Index thought = parent(v);
+    if (start == thought) return;
+    send_on(start, weight);
+    if (thought != kNoIndex) send_on(thought, -weight);
+  }
+
   // The same by the leg's points, from its end to its beginning.
   Index along_points(Index v, double weight) {
     const WindowField::Leg leg = field_.last_leg(v);
@@ -208,12 +246,14 @@ class Sweep {
   const Mesh& mesh_;
   const WindowField& field_;
   FieldRays rays_;
+  windows::RayWalk walk_;
   std::span<const double> value_;
   std::vector<PointLocation> sources_;
   std::vector<Pull> pull_;                                // [halfedge_count]
   std::vector<double> stray_;                             // [vertex_count] weight that still has to go on from there
   std::priority_queue<std::pair<double, Index>> strays_;  // by value: where there is some
-  std::vector<windows::RayCrossing> crossings_;           // of the ray at hand
+  std::array<windows::RayWalk::Ray, kTogether> together_;
+  std::vector<windows::RayCrossing> crossings_;  // of the ray at hand
   DistanceGradient gradient_;
 };
 

@@ -45,7 +45,7 @@ void Fingerprint::add(const Weighting& weighting) {
 }
 
 std::uint64_t fingerprint_of(const Domain& domain, const Places& rows, const Places& columns, ValueType type,
-                             const DistanceOptions& options) {
+                             const DistanceOptions& options, double unit) {
   const Mesh& mesh = domain.open();
   Fingerprint f;
   f.add(std::string_view(kVersion));
@@ -66,6 +66,7 @@ std::uint64_t fingerprint_of(const Domain& domain, const Places& rows, const Pla
   f.add(static_cast<std::uint64_t>(options.precision));
   f.add(options.max_distance);
   if (options.weighting) f.add(*options.weighting);
+  if (unit != 1) f.add(unit);
   return f.value();
 }
 

@@ -102,9 +102,12 @@ std::vector<std::array<double, 2>> scaled(const Mesh& mesh, std::span<const Inde
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     if (mesh.corners(v).empty()) uv[v] = {kNone, kNone};
   }
+  // Coordinates are of the size of the root of their axis' value, and rounded by what k terms of the first one's are,
+  // over that root: of a lesser value there is nothing but rounding.
+  const double rounding = static_cast<double>(k) * std::numeric_limits<double>::epsilon() * gram.value(order[0]);
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double value = gram.value(order[axis]);
-    if (!(value > 0)) continue;  // on a line
+    if (!(value > std::max(0.0, rounding))) continue;  // on a line
     // The sign that makes the coordinate of the first landmark that has one positive: the same picture every time.
     std::size_t first = 0;
     while (first + 1 < k && std::abs(gram.vector(order[axis], first)) < 1e-9) ++first;

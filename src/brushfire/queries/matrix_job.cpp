@@ -9,6 +9,7 @@
 #include <brushfire/queries/detail/fingerprint.h>
 #include <brushfire/queries/detail/little_endian.h>
 #include <brushfire/queries/detail/matrix_store.h>
+#include <brushfire/queries/detail/matrix_unit.h>
 #include <brushfire/queries/detail/nearest_store.h>
 #include <brushfire/queries/detail/row_ledger.h>
 #include <brushfire/queries/detail/rows.h>
@@ -68,6 +69,7 @@ void check(const fs::path& path, const Places& rows, const Places& columns, cons
     refuse("shard " + std::to_string(options.shard) + " of " + std::to_string(options.shards) +
            ": shards are numbered from 1 on");
   }
+  detail::require_unit(options.unit);
   if (options.nearest > 0 && path.extension() != ".npy") refuse("the nearest of every row are written as .npy");
   if (options.nearest > 0 && options.shards > 1) {
     refuse("a shard holds whole rows: choose the nearest when the shards are merged");
@@ -124,7 +126,7 @@ struct MatrixJob::State {
     stored.rows = own_file ? numbers.size() : all.count();
     stored.columns = all.columns();
     stored.type = type;
-    head.matrix = detail::fingerprint_of(domain, row_places, columns, type, options.distance);
+    head.matrix = detail::fingerprint_of(domain, row_places, columns, type, options.distance, file.unit);
     head.rows = all.count();
     head.columns = all.columns();
     head.value_bytes = stored.value_bytes();
@@ -132,6 +134,7 @@ struct MatrixJob::State {
     head.all_vertices = (row_places ? 0u : 1u) | (columns ? 0u : 2u);
     head.entries = stored.rows;
     head.words = in_words(all, type, options.distance);
+    if (file.unit != 1) head.words += ", in units of " + detail::readable_number(file.unit);
     head.layout = detail::layout_of(output, stored, file);
     stored.row_vertices = vertices_of(domain.mesh(), row_places);
     stored.column_vertices = vertices_of(domain.mesh(), columns);
@@ -199,7 +202,8 @@ struct MatrixJob::State {
           rows, part,
           [&](unsigned, std::size_t i, std::span<const T> values) {
             if (detail::has_finite(values, enough)) {
-              put(entry(i), std::span<const char>(detail::as_little_endian(values)));
+              const std::vector<T> scaled = detail::in_unit(values, file.unit);
+              put(entry(i), std::span<const char>(detail::as_little_endian(std::span<const T>(scaled))));
               ++computed;
             } else {
               ledger->release(entry(i));

@@ -39,6 +39,9 @@ struct MatrixFileOptions {
   // (d.index.npy) which they are; what is not reached comes last, by number. Where the columns are all vertices a row
   // costs what it has to reach. In .npy files that are no shards, and not symmetric.
   std::uint64_t nearest = 0;
+  // Distances are written in this unit, > 0: root_of_area() (pair_distances.h) where meshes of different sizes are
+  // compared. Radii stay in the mesh's units.
+  double unit = 1;
 };
 
 // One process's part in a matrix that is written to disk: PATH ends in .npy (little-endian, C order, version 1.0) or in

@@ -96,6 +96,12 @@ std::vector<double> pair_distances(const Domain& domain, std::span<const Pair> p
   return result;
 }
 
-double root_of_area(const Mesh& mesh) { return std::sqrt(mesh.report().area); }
+double root_of_area(const Mesh& mesh) {
+  const double root = std::sqrt(mesh.report().area);
+  if (!(root > 0) || !std::isfinite(root)) {
+    throw Error(ErrorCode::InvalidArgument, "a surface without area has no unit: distances are not normalised");
+  }
+  return root;
+}
 
 }  // namespace brushfire

@@ -28,7 +28,7 @@ std::vector<double> pair_distances(const Domain& domain, std::span<const std::ar
                                    const MatrixOptions& options = {});
 
 // What distances are divided by where meshes of different sizes are compared: the square root of the area of the
-// surface, the whole of it.
+// surface, the whole of it. Throws Error(InvalidArgument) where it has none.
 double root_of_area(const Mesh& mesh);
 
 }  // namespace brushfire

@@ -7,6 +7,7 @@
 #include <brushfire/queries/detail/fingerprint.h>
 #include <brushfire/queries/detail/little_endian.h>
 #include <brushfire/queries/detail/matrix_store.h>
+#include <brushfire/queries/detail/matrix_unit.h>
 #include <brushfire/queries/detail/row_ledger.h>
 #include <brushfire/queries/detail/rows.h>
 #include <brushfire/queries/matrix_job.h>
@@ -46,7 +47,8 @@ class SparseJob {
     blocks_ = all_.blocks_by_place(kThreadRows);
     cut_into_files();
     detail::LedgerHead head;
-    head.matrix = detail::fingerprint_of(domain, rows, std::nullopt, kType, limited(options, radius).distance);
+    head.matrix =
+        detail::fingerprint_of(domain, rows, std::nullopt, kType, limited(options, radius).distance, file_options.unit);
     detail::Fingerprint layout;
     layout.add(std::string_view("sparse"));
     layout.add(std::uint64_t{kFileRows});
@@ -149,6 +151,7 @@ class SparseJob {
           rows[std::lower_bound(place.begin(), place.end(), std::pair(i, std::size_t{0}))->second];
       row.column.assign(f.vertex.begin(), f.vertex.end());
       row.value.assign(f.distance.begin(), f.distance.end());
+      if (file_.unit != 1) row.value = detail::in_unit(std::span<const T>(row.value), file_.unit);
     });
     detail::Output output(file_of(file).string());
     for (const detail::SparseEntries<T>& row : rows)
@@ -241,6 +244,7 @@ std::uint64_t write_as(const fs::path& path, const Domain& domain, double radius
   if (file_options.shards != 1) {
     throw Error(ErrorCode::InvalidArgument, "sparse rows have no shards: ask for ranges of rows");
   }
+  detail::require_unit(file_options.unit);
   if (file_options.symmetry && rows) {
     throw Error(ErrorCode::InvalidArgument, "a symmetric matrix needs rows and columns that are the same places");
   }

@@ -1,6 +1,9 @@
 // The update over one edge, against closed forms.
 #include <brushfire/solvers/carried_source/detail/update.h>
 
+#include <brushfire/core/detail/random.h>
+#include <brushfire/solvers/carried_source/detail/offer_batch.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -118,6 +121,74 @@ TEST(CarriedUpdate, ASourceAboveTheEdgeOrInTheDarkIsTheVertexItself) {
   EXPECT_EQ(below(1, 2, false).sigma, 5);
   EXPECT_EQ(below(1, 2, false).y, 0);
   EXPECT_EQ(below(1, -2, true).sigma, 5);
+}
+
+// Any numbers and facts, those of no triangle included.
+template <class T>
+OfferBatch<T> any_batch(Random& random) {
+  using Batch = OfferBatch<T>;
+  Batch batch;
+  batch.count = Batch::kLanes;
+  const auto four = [&](T low, T high) {
+    const auto any = [&] { return static_cast<T>(random.uniform(low, high)); };
+    return Four<T>{any(), any(), any(), any()};
+  };
+  for (int i = 0; i < Batch::kLanes; ++i) {
+    batch.facts[i] = static_cast<std::uint32_t>(random.below(2 * Batch::kBendsThere));
+    batch.here[i] = four(-2, 4), batch.there[i] = four(-2, 4);
+    batch.by[i] = four(T(0.1), 1), batch.to[i] = four(T(0.1), 1);
+    batch.ends[i] = four(-1, 1), batch.around[i] = four(-1, 1);
+  }
+  return batch;
+}
+
+// As a march works it out where the offer stands alone.
+template <class T>
+Offer<T> offer_of(const OfferBatch<T>& batch, int i) {
+  using Batch = OfferBatch<T>;
+  const Update u{batch.facts[i]};
+  const auto is = [&](std::uint32_t fact) { return (batch.facts[i] & fact) != 0; };
+  const Four<T>&here = batch.here[i], &there = batch.there[i], &around = batch.around[i];
+  Side<T> by, to;
+  by.length = batch.by[i].a, by.c = batch.by[i].b, by.s = batch.by[i].c, by.end_c = batch.by[i].d;
+  to.length = batch.to[i].a, to.c = batch.to[i].b, to.s = batch.to[i].c, to.end_c = batch.to[i].d;
+  by.end_s = batch.ends[i].a, to.end_s = batch.ends[i].b;
+  const auto see = [&](const Four<T>& from, const SideTurn<T>& t, bool turned, bool dark) {
+    return source_below<T>(from.a, from.b, from.c, from.d, turned, dark, t.c, t.s, t.tc, t.ts, t.side, by.length);
+  };
+  const SourceAt<T> a =
+      see(here, side_turn(by.c, by.s, u.hand(), {around.a, around.b}), is(Batch::kTurnedHere), is(Batch::kDarkHere));
+  SourceAt<T> b = see(there, side_turn(by.end_c, by.end_s, u.hand_there(), {around.c, around.d}),
+                      is(Batch::kTurnedThere), is(Batch::kDarkThere));
+  b.x = by.length - b.x;
+  const OfferFrame<T> f = offer_frame(by, to, u, {around.a, around.b}, {batch.ends[i].c, batch.ends[i].d});
+  const Offer<T> o = offer_over<T>(by.length, f.x, f.y, to.length, here.a, there.a, a, b,
+                                   {bending_by<T>(is(Batch::kBendsHere)), bending_by<T>(is(Batch::kBendsThere))});
+  const T oy = f.sign * o.y;
+  return {o.value, o.sigma, o.x * f.turn_c - oy * f.turn_s, o.x * f.turn_s + oy * f.turn_c};
+}
+
+template <class T>
+void expect_offers_alone() {
+  Random random(5);
+  for (int round = 0; round < 500; ++round) {
+    for (const Variant variant : {Variant::Portable, Variant::Best}) {
+      OfferBatch<T> batch = any_batch<T>(random);
+      BRUSHFIRE_ON_TARGET(variant, work_out(batch));
+      for (int i = 0; i < OfferBatch<T>::kLanes; ++i) {
+        const Offer<T> alone = offer_of(batch, i);
+        ASSERT_EQ(batch.value[i], alone.value) << round << ' ' << i;
+        ASSERT_EQ(batch.sigma[i], alone.sigma) << round << ' ' << i;
+        ASSERT_EQ(batch.x[i], alone.x) << round << ' ' << i;
+        ASSERT_EQ(batch.y[i], alone.y) << round << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(CarriedUpdate, IsTheSameBitsAloneAndInABatchOnEveryProcessor) {
+  expect_offers_alone<float>();
+  expect_offers_alone<double>();
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 // | lane_numbers<V>(), first_lanes<V>(count) | 0, 1, 2 ...; the mask of those below count |
 // | gather<V>(from, index) | from[index[k]] |
 // | gather_pairs(from, index, a, b) | from[2 * index[k]], from[2 * index[k] + 1] |
+// | load_fours(from, a, b, c, d) | from[4 * k], from[4 * k + 1], from[4 * k + 2], from[4 * k + 3] |
 // | load_points(from, x, y, z) | three numbers from from[k] on |
 // | + - * / - < <= == | on lanes; & bit-wise, << >> of whole numbers |
 // | & \| ^ ~, without, bits, any, all | on masks; without(a, b): b and not a; bit k: lane k |

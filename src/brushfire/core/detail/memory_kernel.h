@@ -57,6 +57,30 @@ BRUSHFIRE_INLINE V gather(const T* from, const std::uint32_t* index) {
   }
 }
 
+// The first, second, third and fourth of each four that follow each other.
+template <class T>
+BRUSHFIRE_INLINE void load_fours(const T* from, Lanes<T, 4>& a, Lanes<T, 4>& b, Lanes<T, 4>& c, Lanes<T, 4>& d) {
+  using V = Lanes<T, 4>;
+  if constexpr (kFits<T, 4>) {
+    const auto p = load<V>(from).v, q = load<V>(from + 4).v, r = load<V>(from + 8).v, s = load<V>(from + 12).v;
+    const auto low_pq = shuffled<0, 4, 1, 5>(p, q), high_pq = shuffled<2, 6, 3, 7>(p, q);
+    const auto low_rs = shuffled<0, 4, 1, 5>(r, s), high_rs = shuffled<2, 6, 3, 7>(r, s);
+    a = V(shuffled<0, 1, 4, 5>(low_pq, low_rs)), b = V(shuffled<2, 3, 6, 7>(low_pq, low_rs));
+    c = V(shuffled<0, 1, 4, 5>(high_pq, high_rs)), d = V(shuffled<2, 3, 6, 7>(high_pq, high_rs));
+  } else {
+    T by_place[4][4];
+    for (int k = 0; k < 16; ++k) by_place[k % 4][k / 4] = from[k];
+    a = load<V>(by_place[0]), b = load<V>(by_place[1]), c = load<V>(by_place[2]), d = load<V>(by_place[3]);
+  }
+}
+template <class T, int N>
+BRUSHFIRE_INLINE void load_fours(const T* from, Lanes<T, N>& a, Lanes<T, N>& b, Lanes<T, N>& c, Lanes<T, N>& d) {
+  Lanes<T, N / 2> a0, b0, c0, d0, a1, b1, c1, d1;
+  load_fours(from, a0, b0, c0, d0);
+  load_fours(from + 2 * N, a1, b1, c1, d1);
+  a = joined(a0, a1), b = joined(b0, b1), c = joined(c0, c1), d = joined(d0, d1);
+}
+
 // Numbers that lie side by side, or three of them.
 template <class V>
 struct Pairs {

@@ -26,6 +26,6 @@ class Fingerprint {
 
 // Of this version of the library, too: another one may round otherwise.
 std::uint64_t fingerprint_of(const Domain& domain, const Places& rows, const Places& columns, ValueType type,
-                             const DistanceOptions& options);
+                             const DistanceOptions& options, double unit = 1);
 
 }  // namespace brushfire::detail

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -17,7 +18,12 @@ enum : std::uint8_t { kDearer = 1, kCheaper = 2 };
 class Carrying {
  public:
   Carrying(Run& before, const Run& after)
-      : before_(before), after_(after), match_(before, after), mesh_(*after.mesh), layout_(*after.layout) {}
+      : before_(before),
+        after_(after),
+        match_(before, after),
+        mesh_(*after.mesh),
+        layout_(*after.layout),
+        opposite_(mesh_.mesh().opposite()) {}
 
   Carried operator()() {
     find_changes();
@@ -63,6 +69,7 @@ class Carrying {
   Match match_;
   const WeightedMesh& mesh_;
   const PointLayout& layout_;
+  std::span<const Index> opposite_;
   std::vector<std::uint8_t> change_;    // [edges] kDearer, kCheaper: of a step along it, in a face beside it, over it
   std::vector<Index> source_after_;     // [sources before] kNoIndex: there is none like it
   bool same_sources_ = true;            // each is what it was, under its number
@@ -265,21 +272,20 @@ void Carrying::for_each_neighbour(Index e, Use use) const {
   Index h = begin;
   do {
     for (const Index g : {Mesh::next(h), Mesh::previous(h)}) use(mesh_.edges().edge(g));
-    h = mesh_.mesh().opposite(h);
+    h = opposite_[h];
   } while (h != begin);
   for (const Bridge& b : mesh_.bridges(e)) use(b.to);
 }
 
 void Carrying::forget_descendants() {
-  while (!lost_.empty()) {
-    const Index e = lost_.back(), first = layout_.row(e), end = first + layout_.count(e);
-    lost_.pop_back();
+  // First in, first out: a row has lost most of what it will before its neighbours hear of it.
+  for (std::size_t next = 0; next < lost_.size(); ++next) {
+    const Index e = lost_[next], first = layout_.row(e), count = layout_.count(e);
     waits_[e] = 0;
     for_each_neighbour(e, [&](Index r) {
+      const Index* parents = front_.parent.data() + layout_.row(r);
       for (Index i = 0; i < layout_.count(r); ++i) {
-        const Index point = layout_.row(r) + i, parent = front_.parent[point];
-        if (parent < first || parent >= end || front_.value[point] == kInfinity) continue;
-        if (front_.value[parent] == kInfinity) lose(r, i);
+        if (parents[i] - first < count && front_.value[parents[i]] == kInfinity) lose(r, i);
       }
     });
   }

@@ -2,10 +2,11 @@
 #include <brushfire/solvers/steiner/detail/wall_faces.h>
 
 #include <algorithm>
-#include <array>
+#include <cstdint>
 #include <numeric>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace brushfire::steiner {
@@ -21,6 +22,8 @@ class Fans {
 
   bool are_parted_at(Index v) {
     corners_ = mesh_.corners(v);
+    const auto open_corners = std::count_if(corners_.begin(), corners_.end(), [&](Index h) { return is_open(h); });
+    if (open_corners < 2) return false;  // most: inside of walls
     const std::size_t whole = count(v, false), open = count(v, true);
     return open > whole;
   }
@@ -70,16 +73,17 @@ class Fans {
 }  // namespace
 
 bool walls_part_a_vertex(const Mesh& mesh, const Weights& weights) {
-  std::vector<Index> at_walls;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    if (weights.face[f] < kInfinity) continue;
-    at_walls.insert(at_walls.end(), mesh.faces()[f].begin(), mesh.faces()[f].end());
-  }
-  if (at_walls.empty()) return false;
-  std::sort(at_walls.begin(), at_walls.end());
-  at_walls.erase(std::unique(at_walls.begin(), at_walls.end()), at_walls.end());
+  const auto is_wall = [](double w) { return w == kInfinity; };
+  if (std::none_of(weights.face.begin(), weights.face.end(), is_wall)) return false;
+  std::vector<std::uint8_t> is_seen(mesh.vertex_count(), 0);
   Fans fans(mesh, weights);
-  return std::any_of(at_walls.begin(), at_walls.end(), [&](Index v) { return fans.are_parted_at(v); });
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (!is_wall(weights.face[f])) continue;
+    for (const Index v : mesh.faces()[f]) {
+      if (std::exchange(is_seen[v], std::uint8_t{1}) == 0 && fans.are_parted_at(v)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace brushfire::steiner

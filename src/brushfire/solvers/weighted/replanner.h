@@ -35,8 +35,9 @@ struct ReplannerOptions {
 // What a change costs is what it changes: paths over what has become dearer are forgotten, with all that is reached
 // through them, and searched again from around. Something that changes far from the sources costs little, what changes
 // beside the only source costs a run. Hence let the sources be what stays (the goal, with `towards`), and what moves be
-// where paths are read off, which costs nothing. Walls and fences that come or go cut the mesh anew and lay points out
-// anew, which takes some two fifths of a run by itself. Not for use from several threads at once.
+// where paths are read off, which costs nothing. Fences that come or go, and walls that part the faces around a vertex,
+// cut the mesh anew and lay points out anew, which takes some third of a run by itself. Not for use from several
+// threads at once.
 class Replanner {
  public:
   // Throws what WeightedSolver's constructor and distance() throw.

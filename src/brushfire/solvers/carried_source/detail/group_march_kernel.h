@@ -81,8 +81,8 @@ BRUSHFIRE_INLINE void offer(GroupState& s, const Records<float>& records, const 
     if (lenses.end[there] != kNoIndex) b = see_through(records.lenses[lenses.end[there]], s.fronts[end], by.length);
   }
   b.x = Values(by.length) - b.x;
-  const OfferFrame<float> f = offer_frame(by, to, u, at.around, s.fronts[target].own.around);
-  const BendingEnds<float> bending{bending_by<float>(at.bends), bending_by<float>(by.end_bends)};
+  const auto f = offer_frame(by, to, u, at.around, s.fronts[target].own.around);
+  const BendingEnds<Values> bending{bending_by<float>(at.bends), bending_by<float>(by.end_bends)};
   const Offer<Values> o =
       offer_over<Values>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, b, bending);
   const Values c(f.turn_c), sine(f.turn_s), oy = Values(f.sign) * o.y;

@@ -26,6 +26,8 @@ struct March<T>::Turn {
   const Side<T>* sides;
   const DarkSets* dark;       // null: none
   const LensNumbers* lenses;  // null: none
+  Front* fronts;
+  std::uint32_t bends;  // OfferBatch::kBendsHere, or 0
 };
 
 template <class T>
@@ -117,7 +119,7 @@ BRUSHFIRE_INLINE SourceAt<T> March<T>::see(const Front& f, const Side<T>& side, 
 
 template <class T>
 template <bool kLabelled>
-BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, Update u, const Side<T>& to) {
+[[gnu::noinline]] void March<T>::offer_alone(const Turn& at, Index target, Update u, const Side<T>& to) {
   const Index support = u.support(), hand = u.hand(), there = u.hand_there();
   const Side<T>& by = at.sides[support];
   const Front& other = fronts_[at.ends[support].end];
@@ -126,11 +128,11 @@ BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, 
   const SourceAt<T> a = see(at.front, by, false, hand, at.lenses ? at.lenses[support].here[hand] : kNoIndex, dark_here);
   SourceAt<T> b = see(other, by, true, there, at.lenses ? at.lenses[support].end[there] : kNoIndex, dark_there);
   b.x = by.length - b.x;
-  const OfferFrame<T> f = offer_frame(by, to, u, at.front.around, fronts_[target.end].around);
+  const OfferFrame<T> f = offer_frame(by, to, u, at.front.around, fronts_[target].around);
   const BendingEnds<T> bending{bending_by<T>(at.record.head().bends), bending_by<T>(by.end_bends)};
   const auto take = [&](const Offer<T>& o, Index label) {
     const T oy = f.sign * o.y;
-    accept<kLabelled>(target.end, {o.value, o.sigma, o.x * f.turn_c - oy * f.turn_s, o.x * f.turn_s + oy * f.turn_c},
+    accept<kLabelled>(target, {o.value, o.sigma, o.x * f.turn_c - oy * f.turn_s, o.x * f.turn_s + oy * f.turn_c},
                       u.sector(), label);
   };
   if (kLabelled && other.label != at.front.label) {
@@ -144,13 +146,61 @@ BRUSHFIRE_INLINE void March<T>::offer(const Turn& at, const SideEnd<T>& target, 
   } else {
     take(offer_over<T>(by.length, f.x, f.y, to.length, at.front.value, other.value, a, b, bending), at.front.label);
   }
-  ++updates_;
+}
+
+template <class T>
+template <bool kLabelled>
+BRUSHFIRE_INLINE void March<T>::add_offer(const Turn& at, Index target, Update u, const Side<T>& to) {
+  const Index support = u.support(), hand = u.hand(), there = u.hand_there();
+  const Side<T>& by = at.sides[support];
+  const Front& other = at.fronts[at.ends[support].end];
+  Front& end = at.fronts[target];
+  using Batch = OfferBatch<T>;
+  Batch& batch = batch_;
+  const int i = batch.count;
+  std::uint32_t facts = u.bits & (2 * Update::kAcross - 1);
+  const auto add_if = [&facts](bool is, std::uint32_t fact) { facts |= is ? fact : 0; };
+  add_if((at.front.sector & by.turned[hand]) != 0, Batch::kTurnedHere);
+  add_if((other.sector & by.end_turned[there]) != 0, Batch::kTurnedThere);
+  if (at.dark) {
+    add_if((at.front.sector & at.dark[support].here[hand]) != 0, Batch::kDarkHere);
+    add_if((other.sector & at.dark[support].end[there]) != 0, Batch::kDarkThere);
+  }
+  facts |= at.bends | by.end_bends * std::uint32_t{Batch::kBendsThere};
+  batch.facts[i] = facts;
+  batch.target[i] = target;
+  batch.label[i] = at.front.label;
+  batch.sector[i] = static_cast<std::uint8_t>(u.sector());
+  batch.here[i] = {at.front.value, at.front.sigma, at.front.x, at.front.y};
+  batch.there[i] = {other.value, other.sigma, other.x, other.y};
+  batch.by[i] = {by.length, by.c, by.s, by.end_c};
+  batch.to[i] = {to.length, to.c, to.s, to.end_c};
+  batch.ends[i] = {by.end_s, to.end_s, end.around.c, end.around.s};
+  batch.around[i] = {at.front.around.c, at.front.around.s, other.around.c, other.around.s};
+  end.has_offer = 1;
+  batch.count = i + 1;
+  if (batch.count == Batch::kLanes) take_offers<kLabelled>();
+}
+
+template <class T>
+template <bool kLabelled>
+[[gnu::noinline]] void March<T>::take_offers() {
+  OfferBatch<T>& b = batch_;
+  if (b.count == 0) return;
+  BRUSHFIRE_ON_TARGET(Variant::Best, work_out(b));
+  for (int i = 0; i < b.count; ++i) {
+    fronts_[b.target[i]].has_offer = 0;
+    accept<kLabelled>(b.target[i], {b.value[i], b.sigma[i], b.x[i], b.y[i]}, b.sector[i], b.label[i]);
+  }
+  b.count = 0;
 }
 
 template <class T>
 template <bool kLabelled>
 BRUSHFIRE_INLINE void March<T>::turn(Index v) {
-  Front& f = fronts_[v];
+  Front* const fronts = fronts_.data();
+  Front& f = fronts[v];
+  if (f.has_offer) take_offers<kLabelled>();
   f.state = kClosed;
   ++f.turns, ++turns_;
   const Record<T> record = records_[v];
@@ -161,39 +211,61 @@ BRUSHFIRE_INLINE void March<T>::turn(Index v) {
                 record.ends(),
                 record.sides(),
                 head.has_dark ? record.dark() : nullptr,
-                head.has_lenses ? record.lenses() : nullptr};
+                head.has_lenses ? record.lenses() : nullptr,
+                fronts,
+                head.bends * std::uint32_t{OfferBatch<T>::kBendsHere}};
   const Update* const updates = record.updates();
   const T r = front.value - front.sigma, later = r > head.reach ? 1 / (r - head.reach) : kAnywhere<T>;
   const T now = front.value - slack_;
   // Lists are made without branches: which sides lead ahead and which ends are closed cannot be foreseen.
   Index ahead = 0, offers = 0, alongs = 0;
-  for (Index k = 0; k < head.sides; ++k) {
+  const Index sides = head.sides;
+  Index* const ahead_of = lists_.ahead.data();
+  Index* const alongs_of = lists_.alongs.data();
+  std::uint8_t* const closed = lists_.closed.data();
+  PlannedOffer* const planned = lists_.offers.data();
+  for (Index k = 0; k < sides; ++k) {
     const SideEnd<T>& e = at.ends[k];
-    const Front& end = fronts_[e.end];
-    lists_.ahead[ahead] = k;
+    const Front& end = fronts[e.end];
+    ahead_of[ahead] = k;
     ahead += end.value > now + e.need - e.bulge * later ? 1u : 0u;
-    lists_.closed[k] = end.state == kClosed ? 1 : 0;
+    closed[k] = end.state == kClosed ? 1 : 0;
   }
   for (Index i = 0; i < ahead; ++i) {
-    const Index k = lists_.ahead[i], before = offers;
-    for (Index u = at.ends[k].first_update; u < at.ends[k + 1].first_update; ++u) {
-      lists_.offers[offers] = {k, updates[u]};
-      offers += lists_.closed[updates[u].support()];
+    const Index k = ahead_of[i], before = offers, end = at.ends[k + 1].first_update;
+    for (Index u = at.ends[k].first_update; u < end; ++u) {
+      planned[offers] = {k, updates[u]};
+      offers += closed[updates[u].support()];
     }
-    lists_.alongs[alongs] = k;
+    alongs_of[alongs] = k;
     alongs += offers == before ? 1u : 0u;
   }
-  for (Index i = 0; i < offers; ++i) {
-    const auto [k, update] = lists_.offers[i];
-    offer<kLabelled>(at, at.ends[k], update, at.sides[k]);
-  }
-  for (Index i = 0; i < alongs; ++i) {
-    const Index k = lists_.alongs[i];
+  updates_ += offers;
+  const auto offer_along = [&](Index k) {
     const Side<T>& side = at.sides[k];
     const T x = side.length * side.end_c, y = side.length * side.end_s, value = front.value + side.length;
     const bool conduit = (side.end_c == 0) & (side.end_s == 0);
     accept<kLabelled>(at.ends[k].end, {value, conduit ? value : front.value, x, y}, side.sector, front.label);
+  };
+  for (Index i = 0; i < offers; ++i) {
+    const auto [k, update] = planned[i];
+    const Front& support = fronts[at.ends[update.support()].end];
+    if (support.has_offer) [[unlikely]] {
+      take_offers<kLabelled>();
+      if (support.state != kClosed) {  // it fell: the offer is for its own turn
+        offer_along(k);
+        continue;
+      }
+    }
+    bool alone = at.lenses != nullptr;
+    if constexpr (kLabelled) alone |= support.label != front.label;
+    if (alone) [[unlikely]] {
+      offer_alone<kLabelled>(at, at.ends[k].end, update, at.sides[k]);
+    } else {
+      add_offer<kLabelled>(at, at.ends[k].end, update, at.sides[k]);
+    }
   }
+  for (Index i = 0; i < alongs; ++i) offer_along(alongs_of[i]);
 }
 
 // In passes: what falls into the bucket while it is worked on has its turn afterwards, by its value. Where edges are
@@ -225,6 +297,7 @@ void March<T>::work_labelled() {
       }
       if (fronts_[pass_[i]].state == kWaiting) turn<kLabelled>(pass_[i]);
     }
+    take_offers<kLabelled>();
   }
   queue_.clear_current();
 }

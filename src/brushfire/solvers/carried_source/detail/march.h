@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/core/detail/bucket_queue.h>
+#include <brushfire/solvers/carried_source/detail/offer_batch.h>
 #include <brushfire/solvers/carried_source/detail/records.h>
 #include <brushfire/solvers/carried_source/detail/update.h>
 
@@ -65,7 +66,8 @@ class March {
     Around<T> around;  // of the vertex; stays
     Index label = kNoIndex;
     SectorSet sector = 1;
-    std::uint8_t turns = 0, state = kAway;
+    std::uint8_t turns : 7 = 0, has_offer : 1 = 0;  // that waits in the batch
+    std::uint8_t state = kAway;
   };
 
   struct Turn;
@@ -74,7 +76,12 @@ class March {
   template <bool kLabelled>
   void turn(Index v);
   template <bool kLabelled>
-  void offer(const Turn& at, const SideEnd<T>& target, Update u, const Side<T>& to);
+  void add_offer(const Turn& at, Index target, Update u, const Side<T>& to);
+  // What is worked out by itself, and accepted at once: where fronts of two sources meet, and at odd vertices.
+  template <bool kLabelled>
+  void offer_alone(const Turn& at, Index target, Update u, const Side<T>& to);
+  template <bool kLabelled>
+  void take_offers();
   SourceAt<T> see(const Front& f, const Side<T>& side, bool at_end, Index hand, Index lenses, SectorSet dark) const;
   template <bool kLabelled>
   void accept(Index v, const Offer<T>& offer, Index sector, Index label);
@@ -95,6 +102,7 @@ class March {
   const Records<T>& records_;
   std::vector<Front> fronts_;
   Lists lists_;
+  OfferBatch<T> batch_;
   BucketQueue queue_;
   Pile touched_;
   std::vector<Index> pass_;

@@ -23,8 +23,9 @@ struct SideTurn {
 // `hand`: 1 where the target lies to the right; c, s: the side's direction at the vertex, whose angles sum to `around`.
 template <class T>
 BRUSHFIRE_INLINE SideTurn<T> side_turn(T c, T s, Index hand, Around<T> around) {
-  const T sign = minus_if<T>(hand), turn = sign * around.s;
-  return {c, s, c * around.c - s * turn, s * around.c + c * turn, sign};
+  SideTurn<T> t{c, s, 0, 0, minus_if<T>(hand)};
+  turn_round(c, s, t.side, around.c, around.s, t.tc, t.ts);
+  return t;
 }
 
 template <class T>
@@ -32,26 +33,15 @@ BRUSHFIRE_INLINE T bending_by(std::uint8_t bends) {
   return bends != 0 ? kGrazing<T> : T(-1);
 }
 
-// The target in the frame of the edge, and how vectors turn from there into the target's own frame.
-template <class T>
-struct OfferFrame {
-  T x, y, sign, turn_c, turn_s;
-};
 // Over the edge along `by` to the end of `to`; `own`, `end`: of the vertex and of the target.
 template <class T>
 BRUSHFIRE_INLINE OfferFrame<T> offer_frame(const Side<T>& by, const Side<T>& to, Update u, Around<T> own,
                                            Around<T> end) {
-  const T own_turn = minus_if<T>(u.hand()) * own.s;
-  const T tc = u.across() ? to.c * own.c - to.s * own_turn : to.c;
-  const T ts = u.across() ? to.s * own.c + to.c * own_turn : to.s;
-  OfferFrame<T> f;
-  f.x = to.length * (tc * by.c + ts * by.s), f.y = to.length * std::abs(ts * by.c - tc * by.s);
+  const SideTurn<T> turned = side_turn(to.c, to.s, u.hand(), own);
+  const T tc = u.across() ? turned.tc : to.c, ts = u.across() ? turned.ts : to.s;
   // Where the way back to the vertex has a known direction.
   const T c = u.seam() ? end.c : to.end_c, s = u.seam() ? end.s : to.end_s;
-  f.sign = minus_if<T>(u.same_turn() ? 0 : 1);
-  const T inverse = T(-1) / to.length, sy = f.sign * f.y;
-  f.turn_c = (c * f.x + s * sy) * inverse, f.turn_s = (s * f.x - c * sy) * inverse;
-  return f;
+  return frame_over(by.c, by.s, tc, ts, to.length, c, s, minus_if<T>(u.same_turn() ? 0 : 1));
 }
 
 }  // namespace brushfire::carried_source

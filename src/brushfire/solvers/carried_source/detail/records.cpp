@@ -3,6 +3,7 @@
 #include <brushfire/solvers/carried_source/detail/records.h>
 
 #include <brushfire/core/cancel.h>
+#include <brushfire/core/detail/prefault.h>
 #include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/carried_source/detail/optics.h>
 #include <brushfire/solvers/carried_source/detail/unrolled.h>
@@ -73,11 +74,22 @@ class RecordBuilder {
     // To where it lies aligned, with room behind for what is asked for ahead of time.
     UninitializedArray<std::byte> loose(out_.data.size() + 2 * Records<T>::kAlignment);
     loose.swap(out_.data);
-    std::memcpy(out_.data.data() + (out_.base() - out_.data.data()), loose.data(), loose.size());
+    copy_in_large_pages(loose, out_.data.data() + (out_.base() - out_.data.data()));
     return std::move(out_);
   }
 
  private:
+  // A march reads records in no order that a TLB could hold.
+  static void copy_in_large_pages(const UninitializedArray<std::byte>& from, std::byte* to) {
+    constexpr std::size_t kPiece = std::size_t{1} << 18;
+    PagesAhead pages(to, from.size());
+    for (std::size_t at = 0; at < from.size(); at += kPiece) {
+      const std::size_t bytes = std::min(kPiece, from.size() - at);
+      pages.reach(to + at + bytes - 1);  // before any of it is written
+      std::memcpy(to + at, from.data() + at, bytes);
+    }
+  }
+
   void unroll_all() {
     split_.resize(mesh_.halfedge_count());
     std::vector<Index> count(mesh_.vertex_count() + std::size_t{1}, 0);

@@ -29,10 +29,13 @@ inline constexpr T kGrazing = std::is_same_v<T, float> ? T(0x1p-12) : T(0x1p-26)
 namespace brushfire::carried_source {
 
 using portable::BendingEnds;
+using portable::frame_over;
 using portable::Offer;
 using portable::offer_beside;
 using portable::offer_over;
+using portable::OfferFrame;
 using portable::source_below;
 using portable::SourceAt;
+using portable::turn_round;
 
 }  // namespace brushfire::carried_source

@@ -6,6 +6,27 @@
 namespace brushfire::carried_source::BRUSHFIRE_TARGET {
 using namespace lanes::BRUSHFIRE_TARGET;
 
+// A direction turned by the sum of a vertex's angles, the way round that `side` says.
+template <class V>
+BRUSHFIRE_INLINE void turn_round(V c, V s, V side, V around_c, V around_s, V& tc, V& ts) {
+  const V turn = side * around_s;
+  tc = c * around_c - s * turn, ts = s * around_c + c * turn;
+}
+
+// The target in the frame of the edge, and how vectors turn from there into the target's own frame.
+template <class V>
+struct OfferFrame {
+  V x, y, sign, turn_c, turn_s;
+};
+// From directions in the vertex's frame, of the edge (bc, bs) and of the way to the target (tc, ts); c, s: of the way
+// back in the target's; sign: -1 where angles at the target run the other way round, else 1.
+template <class V>
+BRUSHFIRE_INLINE OfferFrame<V> frame_over(V bc, V bs, V tc, V ts, V length, V c, V s, V sign) {
+  const V x = length * (tc * bc + ts * bs), y = length * magnitude(ts * bc - tc * bs);
+  const V inverse = V(NumberIn<V>(-1)) / length, sy = sign * y;
+  return {x, y, sign, (c * x + s * sy) * inverse, (s * x - c * sy) * inverse};
+}
+
 // A source in the frame of an edge, and the value of the front there.
 template <class V>
 struct SourceAt {
@@ -25,23 +46,22 @@ struct Offer {
 // vertex's frame; tc, ts: the same less (or plus) that angle; side: 1 where the target lies to the left of the edge as
 // it leaves the vertex, -1 where to the right.
 template <class V>
-BRUSHFIRE_INLINE SourceAt<V> source_below(V value, V sigma, V px, V py, MaskFor<V> turned, MaskFor<V> dark,
-                                          NumberIn<V> c, NumberIn<V> s, NumberIn<V> tc, NumberIn<V> ts,
-                                          NumberIn<V> side, NumberIn<V> length) {
+BRUSHFIRE_INLINE SourceAt<V> source_below(V value, V sigma, V px, V py, MaskFor<V> turned, MaskFor<V> dark, V c, V s,
+                                          V tc, V ts, V side, V length) {
   using T = NumberIn<V>;
-  const V cc = select(turned, V(tc), V(c)), ss = select(turned, V(ts), V(s)), zero = V(T(0));
-  const V x = px * cc + py * ss, y = V(side) * (py * cc - px * ss);
-  const MaskFor<V> own = dark | (V(kGrazing<T>) * (magnitude(x) + V(length)) < y);
+  const V cc = select(turned, tc, c), ss = select(turned, ts, s), zero = V(T(0));
+  const V x = px * cc + py * ss, y = side * (py * cc - px * ss);
+  const MaskFor<V> own = dark | (V(kGrazing<T>) * (magnitude(x) + length) < y);
   return {select(own, zero, x), select(own, zero, y), select(own, value, sigma)};
 }
 
 // Ends of the edge that bend light: behind a saddle or a boundary there is a shadow. A ray that passes such an end by
 // this share of its own length goes on from there, as from a source: it may be lit on one side of the ray only, and the
 // nearer source is right on both. (Where it is lit, neighbours that see the farther one say so.)
-template <class T>
+template <class V>
 struct BendingEnds {
-  static constexpr T kNever = -1;
-  T at_v = kNever, at_b = kNever;  // kGrazing, or kNever
+  static constexpr NumberIn<V> kNever = -1;
+  V at_v = kNever, at_b = kNever;  // kGrazing, or kNever
 };
 
 // The offer of v (value `at_v`, source a) and b (value `at_b`, source b, x from v as well) to c = (x, y). `along` is
@@ -54,11 +74,10 @@ struct BendingEnds {
 //   nearer, and where each comes before the other's end (u, w > 0) a fan opens between the two, with the rational
 //   interpolant that keeps values and slopes at both ends and convexity between.
 template <class V>
-BRUSHFIRE_INLINE Offer<V> offer_over(NumberIn<V> length, NumberIn<V> to_x, NumberIn<V> to_y, NumberIn<V> along, V at_v,
-                                     V at_b, const SourceAt<V>& a, const SourceAt<V>& b,
-                                     BendingEnds<NumberIn<V>> bending = {}) {
+BRUSHFIRE_INLINE Offer<V> offer_over(V l, V x, V y, V along, V at_v, V at_b, const SourceAt<V>& a, const SourceAt<V>& b,
+                                     const BendingEnds<V>& bending = {}) {
   using T = NumberIn<V>;
-  const V zero = V(T(0)), one = V(T(1)), l = V(length), x = V(to_x), y = V(to_y);
+  const V zero = V(T(0)), one = V(T(1));
   // Whether they see c: crossing / wide is where, from v (0) to b (1).
   const V deep_a = y - a.y, deep_b = y - b.y, wide_a = l * deep_a, wide_b = l * deep_b;
   const V cross_a = a.x * y - x * a.y, cross_b = b.x * y - x * b.y;
@@ -87,16 +106,16 @@ BRUSHFIRE_INLINE Offer<V> offer_over(NumberIn<V> length, NumberIn<V> to_x, Numbe
     through = through + select(fan, m * m * inverse, zero);
     part = select(fan, u * inverse, part);
     // A front that opens is rounder than its sources are far.
-    const V bend = (miss_a + miss_b) * V(T(0.5) / (length * length));
+    const V bend = (miss_a + miss_b) * (V(T(0.5)) / (l * l));
     shorter = one / select(fan, lesser(radius * bend + one, V(T(3))), one);
     const V fx = part * (b.x - a.x) - ax, fy = part * (b.y - a.y) - deep_a;
     radius = select(fan, square_root(fx * fx + fy * fy), radius);
   }
-  const V edge = at_v + V(along);
+  const V edge = at_v + along;
   constexpr T kNever = std::numeric_limits<T>::infinity();
   const V cross = select(first_seen, cross_a, cross_b), wide = select(first_seen, wide_a, wide_b);
-  const auto round_v = without(fan, cross < V(bending.at_v) * wide);
-  const auto round_b = without(fan, V(T(1) - bending.at_b) * wide < cross);
+  const auto round_v = without(fan, cross < bending.at_v * wide);
+  const auto round_b = without(fan, (one - bending.at_b) * wide < cross);
   // The way through v, whose source is nearer, does not win by rounding.
   const auto over =
       without(round_v, (seen_a | seen_b) & (through < V(kTie<T>) * edge) & (at_v < V(kNever)) & (at_b < V(kNever)));
@@ -110,10 +129,10 @@ BRUSHFIRE_INLINE Offer<V> offer_over(NumberIn<V> length, NumberIn<V> to_x, Numbe
 // Where v and b belong to different sources their fronts meet on the edge, and each one offers by itself: this one v's,
 // past the edge where its light is not stopped before b, else along the side.
 template <class V>
-BRUSHFIRE_INLINE Offer<V> offer_beside(NumberIn<V> length, NumberIn<V> to_x, NumberIn<V> to_y, NumberIn<V> along,
-                                       V at_v, V at_b, const SourceAt<V>& a, BendingEnds<NumberIn<V>> bending = {}) {
+BRUSHFIRE_INLINE Offer<V> offer_beside(V length, V to_x, V to_y, V along, V at_v, V at_b, const SourceAt<V>& a,
+                                       const BendingEnds<V>& bending = {}) {
   using T = NumberIn<V>;
-  const V x = V(length) - a.x, foretold = a.sigma + square_root(x * x + a.y * a.y);
+  const V x = length - a.x, foretold = a.sigma + square_root(x * x + a.y * a.y);
   const V reached = select(V(kTie<T>) * foretold < at_b, V(std::numeric_limits<T>::infinity()), foretold);
   return offer_over<V>(length, to_x, to_y, along, at_v, reached, a, a, bending);
 }

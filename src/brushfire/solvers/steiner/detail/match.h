@@ -7,8 +7,9 @@
 
 namespace brushfire::steiner {
 
-// In the numbers of `after`, what had which number before; kNoIndex: nothing like it was there. Walls and fences that
-// come and go cut the mesh anew, which renumbers it and lays some rows out anew.
+// In the numbers of `after`, what had which number before; kNoIndex: nothing like it was there. Fences, and walls that
+// have to be cut out (wall_faces.h), cut the mesh anew when they come and go, which renumbers it and lays some rows out
+// anew.
 struct Match {
   Match(const Run& before, const Run& after);
 

@@ -13,12 +13,6 @@
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 namespace {
 
-// Places on an edge are known to a few epsilons of its length. A ray may cross no edge this near (share of the edge) to
-// an end or to the point before: what is longer keeps its direction to 1e-7.
-constexpr Real kTooShort = 1e-8;
-// By what angle the ray may miss its pseudo-source: seen from the last edge crossed.
-constexpr Real kMissed = 1e-7;
-
 struct Position {
   Index halfedge;  // the next edge to cross, from inside of its face
   Vec2 source;     // the ray's pseudo-source, in the halfedge's frame: below; of parallel light the direction there

@@ -8,6 +8,12 @@
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
+// Places on an edge are known to a few epsilons of its length. A ray may cross no edge this near (share of the edge) to
+// an end or to the point before: what is longer keeps its direction to 1e-7.
+inline constexpr Real kTooShort = 1e-8;
+// By what angle the ray may miss its pseudo-source: seen from the last edge crossed.
+inline constexpr Real kMissed = 1e-7;
+
 // Where a ray, followed backwards, comes into a face over one of its edges. In the frame of the edge's halfedge in it.
 struct RayCrossing {
   Index halfedge = kNoIndex;
