@@ -11,17 +11,17 @@ Carrier::Carrier(VectorSystem& system, std::span<const Index> from) : system_(sy
   const Pattern& pattern = system.operators().pattern;
   const HeatEquation<double>& equation = system.scalar_heat();
   const detail::Components& components = system.components();
-  std::vector<std::uint8_t> is_lit(components.count, 0), lit(components.of_vertex.size(), 0);
-  std::vector<double> last(lit.size(), 0.0);
+  std::vector<std::uint8_t> is_heated(components.count, 0), heated(components.of_vertex.size(), 0);
+  std::vector<double> last(heated.size(), 0.0);
   for (const Index v : from) {
     last[v] += 1;
-    is_lit[components.of_vertex[v]] = 1;
+    is_heated[components.of_vertex[v]] = 1;
   }
-  for (std::size_t v = 0; v < lit.size(); ++v) {
-    lit[v] = components.of_vertex[v] != kNoIndex && is_lit[components.of_vertex[v]];
+  for (std::size_t v = 0; v < heated.size(); ++v) {
+    heated[v] = components.of_vertex[v] != kNoIndex && is_heated[components.of_vertex[v]];
   }
   equation.factors.solve(0, 1, last);
-  heat_ = relayed(last, std::move(lit), [&](std::uint32_t, const std::vector<std::uint8_t>& beyond) {
+  heat_ = relayed(last, std::move(heated), [&](std::uint32_t, const std::vector<std::uint8_t>& beyond) {
     last = sent_over<double>(pattern, equation.matrix, beyond, last);
     equation.factors.solve(0, 1, last);
     return last;

@@ -9,11 +9,11 @@ namespace brushfire::heat {
 std::vector<std::uint8_t> System::lit_by(const Sparks& sparks) const {
   std::vector<bool> component(component_count_, false);
   for (const Spark& s : sparks) component[component_[s.vertex]] = true;
-  std::vector<std::uint8_t> lit(vertex_count());
+  std::vector<std::uint8_t> heated(vertex_count());
   for (Index v = 0; v < vertex_count(); ++v) {
-    lit[v] = component_[v] != kNoIndex && component[component_[v]] && takes_heat(v);
+    heated[v] = component_[v] != kNoIndex && component[component_[v]] && takes_heat(v);
   }
-  return lit;
+  return heated;
 }
 
 Heat System::diffuse(const Sparks& sparks) const {

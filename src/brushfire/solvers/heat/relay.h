@@ -26,14 +26,14 @@ struct Heat {
   double unit(std::size_t v, std::uint32_t in_level) const;
 };
 
-// Whether somewhere in `lit`, [vertex_count], heat has become too small to go on: every width-th value.
-bool starves(const std::vector<std::uint8_t>& lit, std::span<const double> value, std::size_t width = 1);
+// Whether somewhere in `heated`, [vertex_count], heat has become too small to go on: every width-th value.
+bool starves(const std::vector<std::uint8_t>& heated, std::span<const double> value, std::size_t width = 1);
 
 // Asked with ascending levels for the heat at the vertices that are `beyond`, [vertex_count], in units of kStep^level.
 using SendOn = std::function<std::vector<double>(std::uint32_t level, const std::vector<std::uint8_t>& beyond)>;
 
-// From heat in units of 1, right where it is not small, heat at all the vertices that are `lit`.
-Heat relayed(std::vector<double> value, std::vector<std::uint8_t> lit, const SendOn& send_on);
+// From heat in units of 1, right where it is not small, heat at all the vertices that are `heated`.
+Heat relayed(std::vector<double> value, std::vector<std::uint8_t> heated, const SendOn& send_on);
 
 // The right-hand side whose solution is `last` / kStep at the vertices beyond and 0 at the others, but for what is put
 // in there: what the matrix couples over their edge. Columns side by side.

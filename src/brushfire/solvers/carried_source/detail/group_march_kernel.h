@@ -23,7 +23,7 @@ BRUSHFIRE_INLINE FrontLanes front_lanes(const GroupFront& f) {
     const Lens& lens = lenses[static_cast<std::size_t>(std::countr_zero(f.sector[k]))];
     x[k] = static_cast<float>(lens.xx) * f.x[k] + static_cast<float>(lens.xy) * f.y[k];
     y[k] = static_cast<float>(lens.yx) * f.x[k] + static_cast<float>(lens.yy) * f.y[k];
-    dark[k] = lens.lit ? 0 : 1;
+    dark[k] = lens.visible ? 0 : 1;
   }
   const MaskFor<Values> is_dark = share_bits(load<Sectors>(dark), Sectors(1u));
   return source_below<Values>(load<Values>(f.value), load<Values>(f.sigma), load<Values>(x), load<Values>(y),

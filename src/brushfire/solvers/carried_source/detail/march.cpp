@@ -108,7 +108,7 @@ BRUSHFIRE_INLINE SourceAt<T> March<T>::see(const Front& f, const Side<T>& side, 
     const Lens& lens = records_.lenses[lenses][static_cast<std::size_t>(std::countr_zero(f.sector))];
     const T x = static_cast<T>(lens.xx) * f.x + static_cast<T>(lens.xy) * f.y;
     const T y = static_cast<T>(lens.yx) * f.x + static_cast<T>(lens.yy) * f.y;
-    return source_below<T>(f.value, f.sigma, x, y, false, !lens.lit, 1, 0, 1, 0, 1, side.length);
+    return source_below<T>(f.value, f.sigma, x, y, false, !lens.visible, 1, 0, 1, 0, 1, side.length);
   }
   const SideTurn<T> t =
       at_end ? side_turn(side.end_c, side.end_s, hand, f.around) : side_turn(side.c, side.s, hand, f.around);

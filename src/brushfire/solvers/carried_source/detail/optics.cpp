@@ -58,7 +58,7 @@ Optic Optics::of(Index v, const Direction& named) {
 }
 
 Index Optics::keep(const Lenses& lenses) {
-  if (std::none_of(lenses.begin(), lenses.end(), [](const Lens& l) { return l.lit; })) return 0;
+  if (std::none_of(lenses.begin(), lenses.end(), [](const Lens& l) { return l.visible; })) return 0;
   lenses_.push_back(lenses);
   return static_cast<Index>(lenses_.size() - 1);
 }

@@ -71,7 +71,7 @@ SourceAt<double> Points::see(Index v, const Known& known, const Direction& side,
     const Lens lens = lenses_of(sectors, ends_of_fans(mesh_, fans(), v), side, hand)[known.sector];
     const double x = lens.xx * known.to_source.x + lens.xy * known.to_source.y;
     const double y = lens.yx * known.to_source.x + lens.yy * known.to_source.y;
-    return source_below<double>(known.value, known.sigma, x, y, false, !lens.lit, 1, 0, 1, 0, 1, length);
+    return source_below<double>(known.value, known.sigma, x, y, false, !lens.visible, 1, 0, 1, 0, 1, length);
   }
   const SightSets sets = sight_of(sectors, side.angle);
   const auto i = static_cast<std::size_t>(hand);

@@ -25,7 +25,7 @@ SightSets sight_of(std::span<const Sector> sectors, double angle);
 // A vector becomes (xx x + xy y, yx x + yy y); nothing where the light does not come to the edge.
 struct Lens {
   double xx = 0, xy = 0, yx = 0, yy = 0;
-  bool lit = false;
+  bool visible = false;
 };
 using Lenses = std::array<Lens, kSectors>;
 

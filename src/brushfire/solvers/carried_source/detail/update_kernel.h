@@ -56,8 +56,8 @@ BRUSHFIRE_INLINE SourceAt<V> source_below(V value, V sigma, V px, V py, MaskFor<
 }
 
 // Ends of the edge that bend light: behind a saddle or a boundary there is a shadow. A ray that passes such an end by
-// this share of its own length goes on from there, as from a source: it may be lit on one side of the ray only, and the
-// nearer source is right on both. (Where it is lit, neighbours that see the farther one say so.)
+// this share of its own length goes on from there, as from a source: it may be visible on one side of the ray only, and
+// the nearer source is right on both. (Where it is visible, neighbours that see the farther one say so.)
 template <class V>
 struct BendingEnds {
   static constexpr NumberIn<V> kNever = -1;
@@ -97,7 +97,7 @@ BRUSHFIRE_INLINE Offer<V> offer_over(V l, V x, V y, V along, V at_v, V at_b, con
   const V noise = V(8 * kEpsilon<T>) * at_v;
   const auto both = seen_a & seen_b;
   const auto fan = both & (noise < miss_a) & (noise < miss_b) & (zero < u) & (zero < w);
-  // The one that c is lit by: the only one that sees it; of both, the lesser value or the greater.
+  // The one that c is seen by: the only one; of both, the lesser value or the greater.
   const auto first_seen = without(seen_b, seen_a) | (both & ((value_a < value_b) ^ (zero < sum)));
   V through = select(first_seen, value_a, value_b), part = select(first_seen, zero, one);
   V radius = select(first_seen, far_a, far_b), shorter = one;
