@@ -23,7 +23,11 @@ const SCENES = {
   tiles: '#shape=saddle&source=f:6400:1,0,0&method=exact&by=log+map',
 };
 
+// Of one size, whatever room the words below it leave.
 const picture = (page) => page.evaluate(async () => {
+  const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+  Object.assign(document.getElementById('canvas').parentElement.style, { position: 'fixed', width: '628px', height: '458px' });
+  for (let i = 0; i < 3; ++i) await frame();
   const bytes = new Uint8Array(await (await window.brushfire.scene.picture()).arrayBuffer());
   return btoa(Array.from(bytes, (b) => String.fromCharCode(b)).join(''));
 });

@@ -208,15 +208,15 @@ std::vector<Complex> VectorHeatSolver::State::polar(Index source) {
   return x;
 }
 
-std::vector<Complex> VectorHeatSolver::log_map(Index at, LogMapStrategy strategy) {
-  const Index source = heat::only_side_of(state_->domain, at);
+std::vector<Complex> VectorHeatSolver::log_map(Index source, LogMapStrategy strategy) {
+  const Index side = heat::only_side_of(state_->domain, source);
   std::vector<Complex> x = strategy == LogMapStrategy::VectorHeat
-                               ? state_->polar(source)
-                               : state_->affine(source, strategy == LogMapStrategy::AffineAdaptive);
-  const Complex origin = strategy == LogMapStrategy::VectorHeat ? Complex() : x[source];
-  const double unit = state_->system.is_point(state_->system.components().of_vertex[source]) ? 0 : state_->mesh.unit();
+                               ? state_->polar(side)
+                               : state_->affine(side, strategy == LogMapStrategy::AffineAdaptive);
+  const Complex origin = strategy == LogMapStrategy::VectorHeat ? Complex() : x[side];
+  const double unit = state_->system.is_point(state_->system.components().of_vertex[side]) ? 0 : state_->mesh.unit();
   for (Complex& z : x) z = (z - origin) * unit;
-  x[source] = 0;
+  x[side] = 0;
   std::vector<double> radius;
   for (const Complex& z : x) radius.push_back(std::isfinite(std::abs(z)) ? std::abs(z) : kInfinity);
   return heat::of_nearest_sides(state_->domain, std::move(x), [&](Index a, Index b) { return radius[a] < radius[b]; });

@@ -279,8 +279,9 @@ void Carrying::for_each_neighbour(Index e, Use use) const {
 
 void Carrying::forget_descendants() {
   // First in, first out: a row has lost most of what it will before its neighbours hear of it.
-  for (std::size_t next = 0; next < lost_.size(); ++next) {
-    const Index e = lost_[next], first = layout_.row(e), count = layout_.count(e);
+  std::size_t next = 0;
+  while (next < lost_.size()) {
+    const Index e = lost_[next++], first = layout_.row(e), count = layout_.count(e);
     waits_[e] = 0;
     for_each_neighbour(e, [&](Index r) {
       const Index* parents = front_.parent.data() + layout_.row(r);
