@@ -1,4 +1,5 @@
-// Linear isolines of a finer mesh whose vertices have exact values, then every node moved onto its level.
+// Linear isolines of a finer mesh whose vertices have exact values and tell how the level sets run; then every node
+// moved onto its level, and arcs between them.
 #include <brushfire/queries/curved_isolines.h>
 
 #include <brushfire/core/cancel.h>
@@ -6,79 +7,15 @@
 #include <brushfire/core/detail/text.h>
 #include <brushfire/core/error.h>
 #include <brushfire/mesh/detail/flat_face.h>
+#include <brushfire/queries/detail/level_mesh.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <utility>
 
 namespace brushfire {
 namespace {
-
-// Every face that a level may cross, cut into a fan around its middle, with its edges in kSamples parts: an arc that
-// dips through an edge and back is seen if it takes more than a part.
-constexpr Index kSamples = 8;
-
-// The finer mesh. It is only combinatorial: isolines() looks at values and connections, not at where vertices are.
-class FineMesh {
- public:
-  explicit FineMesh(const WindowField& field) : field_(field), mesh_(field.mesh()) {}
-
-  void add_face(Index f) {
-    std::vector<Index> rim;
-    for (Index k = 0; k < 3; ++k) {
-      for (Index i = 0; i < kSamples; ++i) rim.push_back(on_edge(3 * f + k, i));
-    }
-    const Index middle = add_vertex({f, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
-    for (std::size_t i = 0; i < rim.size(); ++i) {
-      faces_.push_back({rim[i], rim[(i + 1) % rim.size()], middle});
-      parent_.push_back(f);
-    }
-  }
-
-  Mesh mesh() const { return Mesh(std::vector<Vec3>(origin_.size()), faces_); }
-  const std::vector<double>& values() const { return values_; }
-  const SurfacePoint& origin(Index v) const { return origin_[v]; }
-  Index parent(Index fine_face) const { return parent_[fine_face]; }
-  Face face(Index fine_face) const { return faces_[fine_face]; }
-
- private:
-  Index add_vertex(const SurfacePoint& p) {
-    origin_.push_back(p);
-    values_.push_back(field_.value(p).distance);
-    return static_cast<Index>(origin_.size() - 1);
-  }
-
-  // Sample i along halfedge h: the same vertex from whichever face of the edge it is asked for.
-  Index on_edge(Index h, Index i) {
-    if (i == 0) return once({mesh_.from(h), mesh_.from(h), 0}, {h / 3, corner_weights(h, 0)});
-    const bool upward = mesh_.from(h) < mesh_.to(h);
-    const Index low = std::min(mesh_.from(h), mesh_.to(h)), high = std::max(mesh_.from(h), mesh_.to(h));
-    return once({low, high, upward ? i : kSamples - i}, {h / 3, corner_weights(h, static_cast<double>(i) / kSamples)});
-  }
-
-  static std::array<double, 3> corner_weights(Index h, double t) {
-    std::array<double, 3> w{0, 0, 0};
-    w[h % 3] = 1 - t;
-    w[Mesh::next(h) % 3] = t;
-    return w;
-  }
-
-  Index once(const std::array<Index, 3>& key, const SurfacePoint& p) {
-    const auto [at, is_new] = known_.try_emplace(key, 0);
-    if (is_new) at->second = add_vertex(p);
-    return at->second;
-  }
-
-  const WindowField& field_;
-  const Mesh& mesh_;
-  std::map<std::array<Index, 3>, Index> known_;  // edge (lower, higher vertex) and sample
-  std::vector<SurfacePoint> origin_;
-  std::vector<double> values_;
-  std::vector<Face> faces_;
-  std::vector<Index> parent_;
-};
 
 // A place in one face of the coarse mesh.
 struct Place {
@@ -92,11 +29,11 @@ std::array<double, 3> between(const std::array<double, 3>& a, const std::array<d
 
 class CurveBuilder {
  public:
-  CurveBuilder(const WindowField& field, const FineMesh& fine, double chord_error)
+  CurveBuilder(const WindowField& field, const detail::LevelMesh& fine, double chord_error)
       : field_(field), mesh_(field.mesh()), fine_(fine), chord_error_(chord_error) {}
 
   // The fine mesh's isoline, its nodes on the level and arcs between them.
-  Isoline refined(const Isoline& coarse, const Mesh& fine_mesh) {
+  Isoline refined(const Isoline& coarse) {
     level_ = coarse.level;
     std::vector<SurfacePoint> nodes;
     for (const SurfacePoint& p : coarse.line.points) {
@@ -111,7 +48,7 @@ class CurveBuilder {
       const bool last = i + 1 == n;
       if (last && !coarse.line.closed) break;
       const std::size_t j = (i + 1) % n;
-      const Index face = parent_of(fine_mesh, coarse.line.points[i], coarse.line.points[j]);
+      const Index face = parent_of(coarse.line.points[i], coarse.line.points[j]);
       bend(Place{face, weights_of(nodes[i], face)}, Place{face, weights_of(nodes[j], face)}, 0, out.line.points);
     }
     if (out.line.closed && out.line.points.size() > 1 && same(out.line.points.front(), out.line.points.back())) {
@@ -131,7 +68,7 @@ class CurveBuilder {
 
   // Nodes of isolines() lie on edges of the fine mesh: along it, to where the exact value is the level.
   SurfacePoint on_level(const SurfacePoint& fine_point) const {
-    const Face t = fine_.face(fine_point.face);
+    const Face& t = fine_.mesh().faces()[fine_point.face];
     std::array<Index, 3> end{};
     std::size_t ends = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -154,7 +91,7 @@ class CurveBuilder {
     constexpr int kSteps = 60;
     for (int i = 0; i < kSteps && b - a > 1e-15; ++i) {
       const double c = std::clamp(a + (b - a) * at_0 / (at_0 - at_1), a, b);
-      const double at_c = f(c);
+      const double at = f(c), at_c = at < kInfinity ? at : std::max(std::abs(at_0), std::abs(at_1));
       if (at_c == 0) return c;
       if ((at_c < 0) == (at_1 < 0)) {
         if (c == b) return c;
@@ -171,8 +108,8 @@ class CurveBuilder {
     return 0.5 * (a + b);
   }
 
-  Index parent_of(const Mesh& fine_mesh, const SurfacePoint& p, const SurfacePoint& q) const {
-    return fine_.parent(common_face(fine_mesh, locate(fine_mesh, p), locate(fine_mesh, q), p.face));
+  Index parent_of(const SurfacePoint& p, const SurfacePoint& q) const {
+    return fine_.parent(common_face(fine_.mesh(), locate(fine_.mesh(), p), locate(fine_.mesh(), q), p.face));
   }
 
   // A place whose value differs from the level by less than this share of it is on it: the value is known no better.
@@ -259,7 +196,7 @@ class CurveBuilder {
 
   const WindowField& field_;
   const Mesh& mesh_;
-  const FineMesh& fine_;
+  const detail::LevelMesh& fine_;
   double chord_error_;
   double level_ = 0;
   std::size_t finished_ = 0;  // nodes of the lines so far
@@ -268,41 +205,18 @@ class CurveBuilder {
   const std::uint64_t memory_ = available_memory();
 };
 
-// A level may cross a face if it lies between the corners' values, or beyond them by less than the face is large: the
-// distance changes at most as fast as one walks.
-bool may_cross(const Mesh& mesh, const WindowField& field, Index f, std::span<const double> levels) {
-  if (!mesh.is_face_usable(f)) return false;
-  double low = kInfinity, high = -kInfinity, longest = 0;
-  for (Index k = 0; k < 3; ++k) {
-    SurfacePoint p{f, {0, 0, 0}};
-    p.weights[k] = 1;
-    const double d = field.value(p).distance;
-    low = std::min(low, d);
-    high = std::max(high, d);
-    longest = std::max(longest, mesh.lengths()[3 * f + k] * mesh.unit());
-  }
-  if (high == kInfinity) return false;
-  return std::any_of(levels.begin(), levels.end(),
-                     [&](double level) { return level >= low - longest && level <= high + longest; });
-}
-
 }  // namespace
 
 std::vector<Isoline> curved_isolines(const WindowField& field, std::span<const double> levels, double chord_error) {
   if (!(chord_error > 0)) {
     throw Error(ErrorCode::InvalidArgument, "chord error " + number_as_text(chord_error) + " is not > 0");
   }
-  const Mesh& mesh = field.mesh();
-  FineMesh fine(field);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    stop_if_cancelled();
-    if (may_cross(mesh, field, f, levels)) fine.add_face(f);
-  }
-  const Mesh fine_mesh = fine.mesh();
+  isolines(Mesh(), {}, levels);  // throws what it throws for levels
+  const detail::LevelMesh fine(field, levels, chord_error);
   std::vector<Isoline> out;
   CurveBuilder builder(field, fine, chord_error);
-  for (const Isoline& line : isolines(fine_mesh, fine.values(), levels)) {
-    Isoline curve = builder.refined(line, fine_mesh);
+  for (const Isoline& line : isolines(fine.mesh(), fine.values(), levels)) {
+    Isoline curve = builder.refined(line);
     if (curve.line.points.size() > 1) out.push_back(std::move(curve));
   }
   return out;

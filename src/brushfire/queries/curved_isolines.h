@@ -15,12 +15,15 @@ namespace brushfire {
 // field.
 //
 // Every node lies on its level to rounding. Arcs are followed by straight pieces that stay within `chord_error` (> 0,
-// the mesh's units) of them; where an arc leaves a face over an edge and returns within an eighth of that edge, the
-// piece keeps to the edge instead: at most a 512th of (edge length)^2 / radius beside it. Order, orientation,
-// closedness and ends are those of isolines().
+// the mesh's units) of them, and corners are cut by less than that. How curves run does not hang on how large faces are
+// or where vertices lie: parts of a level set, and gaps between them, of at least the chord error are found wherever
+// they lie (an eighth of the face's longest edge, where that is less). Order, orientation, closedness and ends are
+// those of isolines(). A corner that is farther than the run went (DistanceOptions::max_distance) lies above all
+// levels.
 //
 // Throws as isolines() does, Error(InvalidArgument) for a chord error that is not > 0 and for a field without windows.
-// About 22 evaluations of the field for every face that a level may cross, and 10 for every node.
+// Some tens of evaluations of the field for every face that a level crosses, more where fronts meet, and 10 for every
+// node.
 //
 // Based on: Surazhsky et al., "Fast exact and approximate geodesics on meshes", 2005 (what windows say inside faces).
 std::vector<Isoline> curved_isolines(const WindowField& field, std::span<const double> levels, double chord_error);

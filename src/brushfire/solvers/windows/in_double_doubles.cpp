@@ -26,6 +26,7 @@
 #include "propagation/window_lists.cpp"
 
 #include "paths/keep_plain.cpp"
+#include "paths/kept_fronts.cpp"
 #include "paths/point_values.cpp"
 #include "paths/results.cpp"
 

@@ -1,10 +1,12 @@
 // The least of: straight from a source in the face, around its corners, along its windows.
 #include <brushfire/solvers/windows/paths/point_values.h>
 
+#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/windows/algebra/frame.h>
 #include <brushfire/solvers/windows/algebra/line_source.h>
 #include <brushfire/solvers/windows/paths/results.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -51,6 +53,19 @@ KeptWindows::KeptWindows(const Mesh& mesh, std::span<const detail::LocatedSource
   std::vector<std::size_t> fill(first_.begin(), first_.end() - 1);
   windows_.resize(windows.size());
   for (const KeptWindow& k : windows) windows_[fill[k.halfedge]++] = k.window;
+  for (Index s = 0; s < sources_.size(); ++s) {
+    if (sources_[s].at.on == PointLocation::On::Vertex || sources_[s].curve) continue;
+    for_each_face_around(mesh_, sources_[s].at, [&](const FaceWeights& f) { point_sources_.push_back({f, s}); });
+  }
+  detail::stable_sort(point_sources_.begin(), point_sources_.end(),
+                      [](const PointSource& a, const PointSource& b) { return a.at.face < b.at.face; });
+}
+
+std::span<const KeptWindows::PointSource> KeptWindows::point_sources_in(Index face) const {
+  const auto first = std::partition_point(point_sources_.begin(), point_sources_.end(),
+                                          [&](const PointSource& s) { return s.at.face < face; });
+  const auto last = std::find_if(first, point_sources_.end(), [&](const PointSource& s) { return s.at.face != face; });
+  return {first, last};
 }
 
 PointValue KeptWindows::at(const PointLocation& point) const {
@@ -92,17 +107,14 @@ void KeptWindows::offer_sources(const FaceWeights& at, Least& least) const {
   Index k = 0;  // the frame: any halfedge with a length
   while (k < 3 && !(shape.length[k] > 0)) ++k;
   if (k < 3) offer_curves(at, k, least);
-  for (Index s = 0; k < 3 && s < sources_.size(); ++s) {
-    if (sources_[s].at.on == PointLocation::On::Vertex || sources_[s].curve) continue;
-    for_each_face_around(mesh_, sources_[s].at, [&](const FaceWeights& f) {
-      if (f.face != at.face) return;
-      Ray ray{{}, kNoIndex, mesh_.vertex_count() + s, {}};
-      if (mesh_.is_face_usable(f.face)) {
-        ray.source = in_frame(frame_of(shape, k), k, f.weights);
-        ray.halfedge = 3 * at.face + k;
-      }
-      least.offer(at, sources_[s].offset + shift_ + distance_in(shape, f.weights, at.weights), s, ray);
-    });
+  if (k == 3) return;
+  for (const auto& [place, s] : point_sources_in(at.face)) {
+    Ray ray{{}, kNoIndex, mesh_.vertex_count() + s, {}};
+    if (mesh_.is_face_usable(at.face)) {
+      ray.source = in_frame(frame_of(shape, k), k, place.weights);
+      ray.halfedge = 3 * at.face + k;
+    }
+    least.offer(at, sources_[s].offset + shift_ + distance_in(shape, place.weights, at.weights), s, ray);
   }
 }
 
