@@ -8,7 +8,8 @@ Without a word: sources, wheel, bill, sums. The others take long, or root and a 
   debs     Debian packages from clean machines of bookworm and trixie, lintian's words, symbols and ABI: debs trixie
   clean    those in dist/ on bare machines: installed, the first tutorial run, timed: clean deb-trixie wheel npm ...
   again    sources and wheels twice: the same bytes?
-  recipes  the recipes in packaging/ against what they speak of; workflows by actionlint, scripts by shellcheck
+  recipes  the recipes in packaging/ against what they speak of; workflows by actionlint, scripts by shellcheck;
+           recipes build: conan's and conda's to their ends, on this machine's libraries
   bill     SBOM (CycloneDX) and a list of licences of what the wheel has in it
   sums     SHA256SUMS of all of it
 """
@@ -81,6 +82,8 @@ def do(part: str, names: list[str]) -> None:
 
         recipes.check()
         recipes.lint()
+        if "build" in names:
+            recipes.build()
     elif part == "bill":
         bill.write(libraries())
     else:

@@ -30,7 +30,8 @@ bool is_descriptor_path(const std::string& path) {
 void refuse_what_is_no_file(const std::string& path, bool reads_named_pipes) {
   if (path.find('\0') != std::string::npos) not_readable(path, "a name with a zero byte in it is no file's");
   struct posix::stat status{};
-  if (posix::stat(path.c_str(), &status) != 0) not_readable(path, errno == ENOENT ? "no such file" : std::strerror(errno));
+  if (posix::stat(path.c_str(), &status) != 0)
+    not_readable(path, errno == ENOENT ? "no such file" : std::strerror(errno));
   if (S_ISDIR(status.st_mode)) not_readable(path, "is a directory");
   if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) not_readable(path, "is a device");
   if (S_ISSOCK(status.st_mode)) not_readable(path, "is a socket");

@@ -27,20 +27,29 @@ int as_errno(DWORD error) {
     case ERROR_FILE_NOT_FOUND:
     case ERROR_PATH_NOT_FOUND:
     case ERROR_INVALID_NAME:
-    case ERROR_BAD_NETPATH: return ENOENT;
+    case ERROR_BAD_NETPATH:
+      return ENOENT;
     case ERROR_FILE_EXISTS:
-    case ERROR_ALREADY_EXISTS: return EEXIST;
+    case ERROR_ALREADY_EXISTS:
+      return EEXIST;
     case ERROR_ACCESS_DENIED:
-    case ERROR_SHARING_VIOLATION: return EACCES;
+    case ERROR_SHARING_VIOLATION:
+      return EACCES;
     case ERROR_LOCK_VIOLATION:
-    case ERROR_IO_PENDING: return EWOULDBLOCK;
+    case ERROR_IO_PENDING:
+      return EWOULDBLOCK;
     case ERROR_DISK_FULL:
-    case ERROR_HANDLE_DISK_FULL: return ENOSPC;
-    case ERROR_INVALID_HANDLE: return EBADF;
+    case ERROR_HANDLE_DISK_FULL:
+      return ENOSPC;
+    case ERROR_INVALID_HANDLE:
+      return EBADF;
     case ERROR_BROKEN_PIPE:
-    case ERROR_NO_DATA: return EPIPE;
-    case ERROR_NOT_ENOUGH_MEMORY: return ENOMEM;
-    default: return EIO;
+    case ERROR_NO_DATA:
+      return EPIPE;
+    case ERROR_NOT_ENOUGH_MEMORY:
+      return ENOMEM;
+    default:
+      return EIO;
   }
 }
 

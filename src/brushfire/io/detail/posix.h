@@ -1,6 +1,6 @@
 // The POSIX calls that files are read and written by. Where the system has others, Windows, these have the same names
-// and mean the same: a file that is open may be renamed, removed and replaced, bytes are never taken for text, names are
-// UTF-8, and a lock keeps nobody from reading.
+// and mean the same: a file that is open may be renamed, removed and replaced, bytes are never taken for text, names
+// are UTF-8, and a lock keeps nobody from reading.
 #pragma once
 
 #include <fcntl.h>

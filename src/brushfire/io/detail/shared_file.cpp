@@ -101,8 +101,8 @@ void SharedFile::unlock(std::uint64_t offset) const { set_lock(descriptor_, offs
 
 bool SharedFile::is_at(const std::string& path) const {
   struct posix::stat open{}, named{};
-  return posix::fstat(descriptor_, &open) == 0 && posix::stat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
-         open.st_dev == named.st_dev;
+  return posix::fstat(descriptor_, &open) == 0 && posix::stat(path.c_str(), &named) == 0 &&
+         open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
 }  // namespace brushfire::detail

@@ -47,8 +47,8 @@ bool lock(int descriptor) {
 // Whether the name still means the file that is open: it may have been removed, and another one have been made.
 bool is_at(int descriptor, const std::string& path) {
   struct posix::stat open{}, named{};
-  return posix::fstat(descriptor, &open) == 0 && posix::lstat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
-         open.st_dev == named.st_dev;
+  return posix::fstat(descriptor, &open) == 0 && posix::lstat(path.c_str(), &named) == 0 &&
+         open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
 bool is_temporary_of(std::string_view name, std::string_view target) {
@@ -150,7 +150,8 @@ bool TemporaryFile::rename_to(const std::string& target) {
 }
 
 // Where the file cannot be made or the file system has no locks, nobody is kept out.
-FileLock::FileLock(const std::string& path) : descriptor_(posix::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+FileLock::FileLock(const std::string& path)
+    : descriptor_(posix::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   is_taken_ = descriptor_ >= 0 && !lock(descriptor_) && errno == EWOULDBLOCK;
 }
 
