@@ -70,8 +70,8 @@ def build() -> None:
     if not profile.exists():
         run(tools() / "conan", "profile", "detect", CONAN_HOME=str(home))
         text = (ROOT / "packaging/conan/conanfile.py").read_text()
-        needed = dict(re.findall(r'"(\w+)/\[?>?=?([\w.]+)', text))
-        stand_ins = "".join(f"{name}/{least if least.count('.') != 1 else least + '.0'}\n" for name, least in needed.items())
+        needed = dict(re.findall(r'"(\w+)/(?:\[>=)?(cci\.\d+|\d[\d.]*)', text))
+        stand_ins = "".join(f"{name}/{least}\n" for name, least in needed.items())
         profile.write_text(profile.read_text().replace("compiler.cppstd=gnu17", "compiler.cppstd=20")
                            + f"\n[platform_requires]\n{stand_ins}")  # fmt: skip
     # A shared library, since a static one passes on what it links by the names of packages.
