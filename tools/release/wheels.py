@@ -120,6 +120,8 @@ def build(target: Target, abis: tuple[str, ...] = tuple(PYTHONS)) -> list[Path]:
         wheels.append(pack(target, abi, module(target, abi, sources), sources))
         if target.system == "Linux" and "gnu" in target.triple:
             audit(wheels[-1])
+        if abi == "abi3":
+            run(sys.executable, "-m", "abi3audit", "--strict", wheels[-1])
         note(wheels[-1], try_out(target, wheels[-1], PYTHONS[abi][0]))
     return wheels
 
