@@ -8,8 +8,9 @@ Without a word: sources, wheel, bill, sums. The others take long, or root and a 
   debs     Debian packages from clean machines of bookworm and trixie, lintian's words, symbols and ABI: debs trixie
   clean    those in dist/ on bare machines: installed, the first tutorial run, timed: clean deb-trixie wheel npm ...
   again    sources and wheels twice: the same bytes?
-  recipes  the recipes in packaging/ against what they speak of; workflows by actionlint, scripts by shellcheck
-  bill     SBOM (CycloneDX) and a list of licences of what the wheel has in it
+  recipes  the recipes in packaging/ against what they speak of; workflows by actionlint, scripts by shellcheck;
+           recipes build: conan's and conda's to their ends, on this machine's libraries
+  bill     SBOM (CycloneDX) and a list of licences of what the wheels have in them
   sums     SHA256SUMS of all of it
 """
 
@@ -24,6 +25,7 @@ from pathlib import Path
 import bill
 import native
 import sources
+import third_party
 from common import DIST, SCRATCH, commit_date, run, version
 
 PARTS = ("sources", "wheel", "cross", "debs", "clean", "again", "recipes", "bill", "sums")
@@ -81,7 +83,11 @@ def do(part: str, names: list[str]) -> None:
 
         recipes.check()
         recipes.lint()
+        if "build" in names:
+            recipes.build()
     elif part == "bill":
+        if list(DIST.glob("*manylinux2014*.whl")):
+            bill.write_cross(third_party.all_libraries())
         bill.write(libraries())
     else:
         sums()

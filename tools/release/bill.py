@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+from importlib import metadata
 from pathlib import Path
 
+import zig
 from common import DIST, run, version
 from native import owner
+from third_party import Library
 
 # Headers that are compiled in, and the licences of what Debian's packages hold.
 HEADERS = ("libboost-dev", "libstb-dev", "libfast-float-dev", "nlohmann-json3-dev", "libeigen3-dev")
@@ -47,7 +50,28 @@ def component(package: str) -> dict:
 
 def write(libraries: list[Path]) -> None:
     """Of the native wheel: the system's libraries in it, and the headers."""
-    components = [component(package) for package in sorted({*HEADERS, *map(owner, libraries)})]
+    write_components("", [component(package) for package in sorted({*HEADERS, *map(owner, libraries)})])
+
+
+def write_cross(libraries: dict[Library, str]) -> None:
+    """Of the wheels that are built by zig: what is compiled from Debian's sources, and zig's own libc++."""
+    built = [{"type": "library", "name": library.source, "version": version,
+              "purl": f"pkg:deb/debian/{library.source}@{version}?arch=source",
+              "licenses": [{"expression": library.licence}]} for library, version in libraries.items()]  # fmt: skip
+    runtime = {"type": "library", "name": "libc++, libunwind, compiler-rt", "version": f"of zig {zig.VERSION}",
+               "licenses": [{"expression": "Apache-2.0 WITH LLVM-exception"}]}  # fmt: skip
+    write_components("-cross", [*map(component, HEADERS), *built, runtime])
+
+
+def nanobind() -> dict:
+    """In every wheel, with the hash table that it carries along (tsl::robin_map, MIT)."""
+    installed = metadata.version("nanobind")
+    return {"type": "library", "name": "nanobind", "version": installed, "purl": f"pkg:pypi/nanobind@{installed}",
+            "licenses": [{"expression": "BSD-3-Clause AND MIT"}]}  # fmt: skip
+
+
+def write_components(suffix: str, components: list[dict]) -> None:
+    components = [*components, nanobind()]
     ours = {"type": "library", "name": "brushfire", "version": version(), "licenses": [{"expression": "MIT"}]}
     font = {"type": "file", "name": "DejaVu Sans, a part of it", "licenses": [{"license": {"name": "Bitstream Vera"}}]}
     document = {
@@ -57,9 +81,9 @@ def write(libraries: list[Path]) -> None:
         "metadata": {"component": ours},
         "components": [*components, font],
     }
-    (DIST / f"brushfire-{version()}.cdx.json").write_text(json.dumps(document, indent=1) + "\n")
+    (DIST / f"brushfire-{version()}{suffix}.cdx.json").write_text(json.dumps(document, indent=1) + "\n")
     lines = [f"{part['name']:24} {part.get('version', ''):28} {licence_of(part)}" for part in (ours, *components, font)]
-    (DIST / "LICENCES.txt").write_text("\n".join(lines) + "\n")
+    (DIST / f"LICENCES{suffix}.txt").write_text("\n".join(lines) + "\n")
 
 
 def licence_of(part: dict) -> str:

@@ -24,7 +24,7 @@ MARK = "--- the next block ---"
 
 @dataclass(frozen=True)
 class Place:
-    kind: str  # deb, wheel or npm
+    kind: str  # deb, wheel, cross or npm
     release: str
     packages: str  # glob in dist/
     before: str  # what the distribution brings, not timed
@@ -39,6 +39,7 @@ class Place:
 APT = "apt-get -qq install -y --no-install-recommends"
 SHELL = ("sh", (START, PATHS), "bash -euo pipefail block.sh")
 VENV = "venv/bin/pip install --disable-pip-version-check --only-binary :all: --find-links /root/packages brushfire"
+WHEELS = (("wheel", "*.whl"), ("cross", "*-manylinux2014_x86_64*.whl"))  # pip takes the one for the newer system first
 NODE = ("js", (BROWSER,), "for block in block-*.mjs; do node $block; done")
 
 
@@ -49,8 +50,8 @@ def python(program: str) -> tuple[str, tuple[Path, ...], str]:
 PLACES = (
     Place("deb", "bookworm", "debian/bookworm/*.deb", ":", f"{APT} /root/packages/*.deb", (SHELL,)),
     Place("deb", "trixie", "debian/trixie/*.deb", ":", f"{APT} /root/packages/*.deb", (SHELL, python("python3"))),
-    *(Place("wheel", release, "*.whl", f"{APT} python3-venv && ! command -v cc", f"python3 -m venv venv && {VENV}",
-            (python("venv/bin/python"),)) for release in ("bookworm", "trixie")),
+    *(Place(kind, release, found, f"{APT} python3-venv && ! command -v cc", f"python3 -m venv venv && {VENV}",
+            (python("venv/bin/python"),)) for kind, found in WHEELS for release in ("bookworm", "trixie")),
     *(Place("npm", release, "*.tgz", f"{APT} npm", "npm install --no-audit --no-fund /root/packages/*.tgz", (NODE,))
       for release in ("bookworm", "trixie")),
 )  # fmt: skip

@@ -17,6 +17,8 @@ PROFILES = {"bookworm": "nopython", "trixie": ""}
 def build(release: str) -> list[Path]:
     """The packages of one release, in dist/debian/RELEASE; with lintian's words beside them."""
     out = DIST / "debian" / release
+    former = out / "libbrushfire1.abi"
+    before = former.read_bytes() if former.exists() else None
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
     machine = Machine(release, f"debs-{release}")
@@ -41,6 +43,8 @@ def build(release: str) -> list[Path]:
         if "-dbgsym_" not in file.name:
             shutil.copy(file, out)
     interface(machine, out)
+    if before is not None:
+        compare(machine, before, out)
     machine.remove()
     say(f"{release}: {len(found)} packages; lintian: {len(re.findall('^[EW]:', said, re.MULTILINE))} errors and warnings")
     return sorted(out.glob("*.deb"))
@@ -57,3 +61,11 @@ def interface(machine: Machine, out: Path) -> None:
     )
     shutil.copy(machine.folder / "root/libbrushfire1.abi", out)
 
+
+def compare(machine: Machine, before: bytes, out: Path) -> None:
+    """The library's ABI with that of the build which stood in dist/ before: what abidiff says, in abidiff.txt."""
+    (machine.folder / "root/before.abi").write_bytes(before)
+    # Of its status 1 and 2 say that it failed, 4 and 8 what it found.
+    said = machine.inside("cd /root && { abidiff before.abi libbrushfire1.abi || [ $(($? & 3)) = 0 ]; }")
+    (out / "abidiff.txt").write_text(said or "(no difference)\n")
+    say(f"{machine.release}: abidiff: {said.strip() or 'no difference'}"[:500])

@@ -1,18 +1,24 @@
-"""The recipes in packaging/ against what they speak of: versions, CMake's options; and by their own tools where these are.
+"""The recipes in packaging/ against what they speak of: versions, CMake's options; and by conan and rattler-build themselves.
 
-GitHub's workflows and all scripts, too, by actionlint and shellcheck.
+Their registries hold what the recipes need, and are not asked: to build one, this machine's own libraries stand in for that.
+GitHub's workflows and all scripts are looked at, too, by actionlint and shellcheck.
 """
 
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 import sys
 import tempfile
+import venv
+from functools import cache
 from pathlib import Path
 
-from common import ROOT, run, version
+from common import ROOT, SCRATCH, run, say, version
+
+TOOLS = ("conan>=2", "py-rattler-build")
 
 
 def options_of_cmake() -> set[str]:
@@ -40,10 +46,40 @@ def check() -> None:
     if features != set(manifest["features"]):
         raise SystemExit(f"vcpkg: portfile.cmake has {sorted(features)}, vcpkg.json {sorted(manifest['features'])}")
     print(f"vcpkg, conda, conan: version {version()}, {len(used)} of CMake's options")
-    if conan := program("conan"):
-        with tempfile.TemporaryDirectory() as home:
-            run(conan, "export", packaging / "conan", "--version", version(), CONAN_HOME=home)
-        print("conan: exported")
+    with tempfile.TemporaryDirectory() as home:
+        run(tools() / "conan", "export", packaging / "conan", "--version", version(), CONAN_HOME=home)
+    print("conan: exported")
+    print("conda:", run(tools() / "python", Path(__file__).with_name("conda.py")))
+
+
+@cache
+def tools() -> Path:
+    """Where conan and rattler-build are: in a virtual environment of their own."""
+    folder = SCRATCH.parent / "recipes"
+    if not (folder / "bin/conan").exists():
+        venv.create(folder, with_pip=True)
+        run(folder / "bin/python", "-m", "pip", "install", "-q", "--disable-pip-version-check", *TOOLS)
+    return folder / "bin"
+
+
+def build() -> None:
+    """Each recipe to its end and its own tests, with this machine's libraries in place of those in its registry."""
+    say("conan: building")
+    home = SCRATCH / "conan"
+    profile = home / "profiles/default"
+    if not profile.exists():
+        run(tools() / "conan", "profile", "detect", CONAN_HOME=str(home))
+        text = (ROOT / "packaging/conan/conanfile.py").read_text()
+        needed = dict(re.findall(r'"(\w+)/(?:\[>=)?(cci\.\d+|\d[\d.]*)', text))
+        stand_ins = "".join(f"{name}/{least}\n" for name, least in needed.items())
+        profile.write_text(profile.read_text().replace("compiler.cppstd=gnu17", "compiler.cppstd=20")
+                           + f"\n[platform_requires]\n{stand_ins}")  # fmt: skip
+    # A shared library, since a static one passes on what it links by the names of packages.
+    run(tools() / "conan", "create", ROOT / "packaging/conan", "--version", version(), "-o", "brushfire/*:shared=True",
+        CONAN_HOME=str(home))  # fmt: skip
+    print("conan: built, and its test package run")
+    say("conda: building")
+    print("conda:", run(tools() / "python", Path(__file__).with_name("conda.py"), SCRATCH / "conda", PATH=os.environ["PATH"]))
 
 
 def program(name: str) -> str | None:

@@ -17,7 +17,8 @@ import time
 import zipfile
 from pathlib import Path
 
-import native
+import elsewhere
+import pythons
 import third_party
 from common import DIST, ROOT, SCRATCH, VIEWER, commit_date, interpreter, run, say, version
 from zig import TARGETS, Target, cmake
@@ -57,14 +58,10 @@ def module_name(target: Target, abi: str) -> str:
 
 def module(target: Target, abi: str, sources: Path) -> Path:
     """The compiled module. Both ABIs are built in one folder: the library is compiled once."""
-    python = interpreter(PYTHONS[abi][0])
-    if python is None:
-        raise SystemExit(f"{target.name}: no Python {PYTHONS[abi][0]} with headers here")
-    include = run(python, "-c", "import sysconfig; print(sysconfig.get_path('include'))")
     nanobind = run(sys.executable, "-c", "import nanobind; print(nanobind.cmake_dir())")
     build = SCRATCH / target.name / "build"
-    options = [f"-DPython_EXECUTABLE={python}", f"-DPython_INCLUDE_DIR={include}", f"-Dnanobind_DIR={nanobind}",
-               f"-Dnanobind_ROOT={nanobind}", "-DCMAKE_SHARED_LINKER_FLAGS=-s", "-DCMAKE_MODULE_LINKER_FLAGS=-s",
+    options = [*pythons.options(target, PYTHONS[abi][0]), f"-Dnanobind_DIR={nanobind}", f"-Dnanobind_ROOT={nanobind}",
+               "-DCMAKE_SHARED_LINKER_FLAGS=-s", "-DCMAKE_MODULE_LINKER_FLAGS=-s",
                "-DBRUSHFIRE_TOGETHER=ON", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON"]  # fmt: skip
     defines = re.search(r"\[tool.scikit-build.cmake.define\]\n(.*?)\n\n", (ROOT / "pyproject.toml").read_text(), re.DOTALL)[1]
     options += [f"-D{name}={value}" for name, value in re.findall(r'^(\w+) = "(\w+)"', defines, re.MULTILINE)]
@@ -123,21 +120,29 @@ def build(target: Target, abis: tuple[str, ...] = tuple(PYTHONS)) -> list[Path]:
         wheels.append(pack(target, abi, module(target, abi, sources), sources))
         if target.system == "Linux" and "gnu" in target.triple:
             audit(wheels[-1])
-        note(wheels[-1], tried=target.name == f"manylinux-{platform.machine()}" and try_out(wheels[-1], abi))
+        if abi == "abi3":
+            run(sys.executable, "-m", "abi3audit", "--strict", wheels[-1])
+        note(wheels[-1], try_out(target, wheels[-1], PYTHONS[abi][0]))
     return wheels
 
 
-def try_out(wheel: Path, abi: str) -> bool:
-    native.try_out(wheel, interpreter(PYTHONS[abi][0]))
-    return True
+def try_out(target: Target, wheel: Path, minor: str) -> str | None:
+    """How it has been run, and what that printed; None where this machine cannot."""
+    if target.name == f"manylinux-{platform.machine()}":
+        return elsewhere.by_its_own(interpreter(minor), wheel)
+    if target.name == "manylinux-aarch64":
+        return elsewhere.by_qemu(target, minor, wheel)
+    return elsewhere.by_wine(target, minor, wheel) if target.system == "Windows" else None
 
 
-def note(wheel: Path, *, tried: bool) -> None:
-    """In dist/BUILT.txt: what has been made, and whether it has been run."""
+def note(wheel: Path, told: str | None) -> None:
+    """In dist/BUILT.txt: what has been made, whether it has been run, and that all compute the same."""
     file = DIST / "BUILT.txt"
     others = [line for line in file.read_text().splitlines() if not line.startswith(wheel.name)] if file.exists() else []
-    here = f"{wheel.name}: built, {'installed and run here' if tried else 'not run: this machine is another one'}"
-    file.write_text("\n".join(sorted([*others, here])) + "\n")
+    lines = sorted([*others, f"{wheel.name}: built, {' '.join(told.split()) if told else 'not run'}"])
+    file.write_text("\n".join(lines) + "\n")
+    if len(set(re.findall(r"fields: \w+", "".join(lines)))) > 1:
+        raise SystemExit("wheels compute other bits on other machines:\n" + "\n".join(lines))
 
 
 def audit(wheel: Path) -> None:

@@ -89,6 +89,8 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+# Boost 1.74 derives from a template that the standard has dropped, and libc++ with it.
+set(CMAKE_CXX_FLAGS_INIT -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION)
 """)
     return file
 
@@ -101,7 +103,7 @@ def cmake(target: Target, source: Path, build: Path, *options: str, targets: tup
     program = zig().parents[4] / "bin/cmake"
     run(program, "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
         f"-DCMAKE_TOOLCHAIN_FILE={toolchain(target)}", *launcher, *options)  # fmt: skip
-    run(program, "--build", build, *(f"--target={name}" for name in targets),
+    run(program, "--build", build, *(f"--target={name}" for name in targets), "--", "-k0",
         CCACHE_COMPILERTYPE="clang", CCACHE_COMPILERCHECK="content")  # fmt: skip
 
 

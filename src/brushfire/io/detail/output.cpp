@@ -4,16 +4,12 @@
 #include <brushfire/core/error.h>
 #include <brushfire/io/detail/input.h>
 #include <brushfire/io/detail/output.h>
+#include <brushfire/io/detail/posix.h>
 #include <brushfire/io/detail/waiting.h>
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <climits>
 #include <cstdio>
 #include <cstring>
 #include <utility>
@@ -37,16 +33,16 @@ Output::Output(const Destination& destination)
 }
 
 void Output::open(const std::string& path) {
-  struct stat status{};
+  struct posix::stat status{};
   if (path == "-") {
     if (std::fflush(stdout) != 0) fail(std::string("cannot be written: ") + std::strerror(errno));
     descriptor_ = STDOUT_FILENO;
     is_stdout_ = true;
-    waits_ = fstat(descriptor_, &status) == 0 && !S_ISREG(status.st_mode);
+    waits_ = posix::fstat(descriptor_, &status) == 0 && !S_ISREG(status.st_mode);
     return;
   }
   if (path.find('\0') != std::string::npos) fail("a name with a zero byte in it is no file's");
-  const bool exists = stat(path.c_str(), &status) == 0;
+  const bool exists = posix::stat(path.c_str(), &status) == 0;
   if (!exists && errno == ELOOP) fail(std::strerror(errno));
   if (exists && S_ISDIR(status.st_mode)) fail("is a directory");
   target_ = exists && !S_ISREG(status.st_mode) ? path : followed(path);
@@ -58,20 +54,20 @@ void Output::open(const std::string& path) {
   if (!temporary_.is_open()) fail(std::string("cannot be created: ") + std::strerror(errno));
   descriptor_ = temporary_.descriptor();
   // Permission to write lets the file be replaced; what it lets others do stays as it was.
-  if (exists) static_cast<void>(!fchmod(descriptor_, status.st_mode & 07777));
+  if (exists) static_cast<void>(!posix::fchmod(descriptor_, status.st_mode & 07777));
 }
 
 // A pipe has no reader at first, and is not waited for in a call that nothing ends.
 void Output::open_pipe_or_device() {
   waits_ = true;
-  while ((descriptor_ = ::open(target_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)) < 0) {
+  while ((descriptor_ = posix::open(target_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)) < 0) {
     if (errno != ENXIO && errno != EINTR) fail(std::strerror(errno));
     wait_a_little();
   }
 }
 
 Output::~Output() {
-  if (descriptor_ >= 0 && !is_stdout_ && !temporary_.is_open()) close(descriptor_);
+  if (descriptor_ >= 0 && !is_stdout_ && !temporary_.is_open()) posix::close(descriptor_);
 }
 
 void Output::fail(const std::string& cause) {
@@ -87,7 +83,7 @@ void Output::send(const char* data, std::size_t size) {
   while (size != 0) {
     stop_if_cancelled();
     if (waits_) wait_until_writable(descriptor_);
-    const ssize_t sent = ::write(descriptor_, data, std::min(size, waits_ ? kAtOnce : kLongestCall));
+    const posix::ssize_t sent = posix::write(descriptor_, data, std::min(size, waits_ ? kAtOnce : kLongestCall));
     if (sent < 0 && errno != EINTR && errno != EAGAIN) fail(std::string("cannot be written: ") + std::strerror(errno));
     if (sent <= 0) continue;
     data += sent;
@@ -138,7 +134,7 @@ void Output::commit() {
   if (temporary_.is_open()) {
     descriptor_ = -1;
     if (!temporary_.rename_to(target_)) fail(std::string("cannot be renamed into place: ") + std::strerror(errno));
-  } else if (close(std::exchange(descriptor_, -1)) != 0) {
+  } else if (posix::close(std::exchange(descriptor_, -1)) != 0) {
     fail(std::string("cannot be written: ") + std::strerror(errno));
   }
 }

@@ -1,15 +1,8 @@
 // Names, locks, and the list of what would have to be removed if the process ended now.
 #include <brushfire/io/detail/temporary_file.h>
 
+#include <brushfire/io/detail/posix.h>
 #include <brushfire/io/unfinished.h>
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#if defined(__has_include) && __has_include(<sys/file.h>)
-#include <sys/file.h>
-#endif
 
 #include <algorithm>
 #include <cerrno>
@@ -44,7 +37,7 @@ std::string random_suffix() {
 // True where nobody else holds the file, and this process does now.
 bool lock(int descriptor) {
 #ifdef LOCK_EX
-  return flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  return posix::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
 #else
   static_cast<void>(descriptor);
   return false;
@@ -53,9 +46,9 @@ bool lock(int descriptor) {
 
 // Whether the name still means the file that is open: it may have been removed, and another one have been made.
 bool is_at(int descriptor, const std::string& path) {
-  struct stat open{}, named{};
-  return fstat(descriptor, &open) == 0 && lstat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
-         open.st_dev == named.st_dev;
+  struct posix::stat open{}, named{};
+  return posix::fstat(descriptor, &open) == 0 && posix::lstat(path.c_str(), &named) == 0 &&
+         open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
 bool is_temporary_of(std::string_view name, std::string_view target) {
@@ -67,12 +60,12 @@ bool is_temporary_of(std::string_view name, std::string_view target) {
 }
 
 void remove_if_nobody_holds(const std::string& path) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  const int descriptor = posix::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;
-  struct stat status{};
-  const bool is_file = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
-  if (is_file && lock(descriptor) && is_at(descriptor, path)) unlink(path.c_str());
-  close(descriptor);
+  struct posix::stat status{};
+  const bool is_file = posix::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  if (is_file && lock(descriptor) && is_at(descriptor, path)) posix::unlink(path.c_str());
+  posix::close(descriptor);
 }
 
 void clear_left_over(const std::string& target) {
@@ -103,16 +96,16 @@ TemporaryFile::TemporaryFile(const std::string& target) {
   for (int attempt = 0; attempt < kAttempts && descriptor_ < 0; ++attempt) {
     const std::string path = target + std::string(kMark) + random_suffix();
     const std::lock_guard guard(unfinished().mutex);
-    descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    descriptor_ = posix::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno == EEXIST) continue;
     if (descriptor_ < 0) return;
     // Between the two calls it was nobody's, and may have been cleared away: then there is another name to try.
     if (!lock(descriptor_) && errno == EWOULDBLOCK) {
-      close(std::exchange(descriptor_, -1));
+      posix::close(std::exchange(descriptor_, -1));
       continue;
     }
     if (!is_at(descriptor_, path)) {
-      close(std::exchange(descriptor_, -1));
+      posix::close(std::exchange(descriptor_, -1));
       continue;
     }
     path_ = path;
@@ -135,34 +128,35 @@ TemporaryFile& TemporaryFile::operator=(TemporaryFile&& other) noexcept {
 void TemporaryFile::discard() noexcept {
   if (!path_.empty()) {
     const std::lock_guard guard(unfinished().mutex);
-    unlink(path_.c_str());
+    posix::unlink(path_.c_str());
     unfinished().paths.erase(path_);
     path_.clear();
   }
-  if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
+  if (descriptor_ >= 0) posix::close(std::exchange(descriptor_, -1));
 }
 
 bool TemporaryFile::rename_to(const std::string& target) {
   // Some file systems tell of a full disk only when a descriptor is closed. The file itself stays open, and locked.
-  const int copy = dup(descriptor_);
-  if (copy < 0 || close(copy) != 0) return false;
+  const int copy = posix::dup(descriptor_);
+  if (copy < 0 || posix::close(copy) != 0) return false;
   {
     const std::lock_guard guard(unfinished().mutex);
-    if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
+    if (posix::rename(path_.c_str(), target.c_str()) != 0) return false;
     unfinished().paths.erase(path_);
   }
   path_.clear();
-  close(std::exchange(descriptor_, -1));
+  posix::close(std::exchange(descriptor_, -1));
   return true;
 }
 
 // Where the file cannot be made or the file system has no locks, nobody is kept out.
-FileLock::FileLock(const std::string& path) : descriptor_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+FileLock::FileLock(const std::string& path)
+    : descriptor_(posix::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   is_taken_ = descriptor_ >= 0 && !lock(descriptor_) && errno == EWOULDBLOCK;
 }
 
 FileLock::~FileLock() {
-  if (descriptor_ >= 0) close(descriptor_);
+  if (descriptor_ >= 0) posix::close(descriptor_);
 }
 
 std::string followed(const std::string& path) {
@@ -182,7 +176,7 @@ std::string followed(const std::string& path) {
 void remove_unfinished_files() noexcept {
   detail::Unfinished& all = detail::unfinished();
   all.mutex.lock();  // for good: whoever is about to begin or complete a file waits until the process ends
-  for (const std::string& path : all.paths) unlink(path.c_str());
+  for (const std::string& path : all.paths) detail::posix::unlink(path.c_str());
 }
 
 }  // namespace brushfire

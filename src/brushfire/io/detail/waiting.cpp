@@ -2,8 +2,7 @@
 #include <brushfire/io/detail/waiting.h>
 
 #include <brushfire/core/cancel.h>
-
-#include <poll.h>
+#include <brushfire/io/detail/posix.h>
 
 namespace brushfire::detail {
 namespace {
@@ -13,8 +12,8 @@ constexpr int kLookMilliseconds = 50;  // between two looks at the token
 void wait_for(int descriptor, short events) {
   while (true) {
     stop_if_cancelled();
-    pollfd waited{descriptor, events, 0};
-    if (poll(&waited, 1, kLookMilliseconds) != 0 && waited.revents != 0) return;
+    posix::pollfd waited{descriptor, events, 0};
+    if (posix::poll(&waited, 1, kLookMilliseconds) != 0 && waited.revents != 0) return;
   }
 }
 
@@ -25,7 +24,7 @@ void wait_until_writable(int descriptor) { wait_for(descriptor, POLLOUT); }
 
 void wait_a_little() {
   stop_if_cancelled();
-  poll(nullptr, 0, kLookMilliseconds);
+  posix::poll(nullptr, 0, kLookMilliseconds);
 }
 
 }  // namespace brushfire::detail
