@@ -24,8 +24,13 @@ function say(error) {
 }
 
 async function guarded(run) {
+  say(null);
+  return attempt(run);
+}
+
+// What is said already stays.
+async function attempt(run) {
   try {
-    say(null);
     return await run();
   } catch (error) {
     if (error.code !== 'cancelled') say(error);
@@ -156,7 +161,7 @@ async function showArcs() {
   app.scene.showArcs(null);
   const { state, farthest, report } = app;
   if (!state.arcs || app.field?.given) return;
-  const arcs = await guarded(async () => {
+  const arcs = await attempt(async () => {
     const levels = arcsOf(state, farthest, report.meanEdgeLength);
     return levels && app.engine.arcs(state.sources, solving(state), levels);
   });
