@@ -6,7 +6,8 @@ import { load } from './index.js';
 let library;
 const objects = new Map(); // number -> object
 
-// The buffers of a result, which are moved and not copied: nobody here needs them any more.
+// The buffers of a result, which are moved and not copied: nobody here needs them any more. (Those of an object are its own,
+// and are copied: what is asked of a field later needs its distances.)
 function buffersIn(value, found = new Set()) {
   if (ArrayBuffer.isView(value)) found.add(value.buffer);
   else if (Array.isArray(value)) for (const entry of value) buffersIn(entry, found);
@@ -80,7 +81,7 @@ port.hear(async (message) => {
   }
   try {
     const result = answer(message);
-    port.post({ id: message.id, result }, [...buffersIn(result)]);
+    port.post({ id: message.id, result }, message.make ? [] : [...buffersIn(result)]);
   } catch (e) {
     const code = e instanceof BrushfireError ? e.code : 'internal';
     port.post({ id: message.id, error: { code, message: e.message } });

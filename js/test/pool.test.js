@@ -28,6 +28,12 @@ test('results are those of the synchronous calls', async () => {
   const field = await other.field(3);
   assert.equal((await field.path(100)).length, mesh.path([3, 100]).length);
   assert.deepEqual((await field.at([5])).distance[0], field.distance[5]);
+  // Levels that follow from the field's values, of which the caller has got a copy.
+  const arcs = await field.isolines({ count: 4, chordError: 0.01 });
+  const here = mesh.field(3);
+  assert.ok(arcs.length >= 4);
+  assert.deepEqual(arcs.map((a) => a.length), here.isolines({ count: 4, chordError: 0.01 }).map((a) => a.length));
+  here.free();
   const lines = await other.isolines(all[0].distance, { count: 4 });
   assert.deepEqual(lines, mesh.isolines(all[0].distance, { count: 4 }));
   const cut = await other.cut({ faces: [0, 1] });

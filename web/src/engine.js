@@ -2,11 +2,12 @@
 import { createPool } from 'brushfire';
 
 import { Ground } from './ground.js';
+import { Newest } from './newest.js';
 import { poolParts } from './parts.js';
 import { isCurve } from './state.js';
 
 export class Engine {
-  #pool; #mesh = null; #faces = null; #ground = null; #walls = '[]'; #running = null; #waiting = null;
+  #pool; #mesh = null; #faces = null; #ground = null; #walls = '[]'; #fields = new Newest(); #arcs = new Newest();
 
   static async start() {
     const engine = new Engine();
@@ -30,7 +31,7 @@ export class Engine {
       throw new Error('The file has no faces to show.');
     }
     const [vertices, faces, report] = await Promise.all([mesh.vertices, mesh.faces, mesh.report]);
-    this.#running?.controller.abort();
+    this.cancel();
     this.#ground?.free();
     this.#mesh?.free();
     this.#mesh = mesh;
@@ -59,46 +60,47 @@ export class Engine {
     return this.#ground.curve(source);
   }
 
-  // A field for each of `computations`, side by side. The newest question only: one that still waits when a newer one
-  // comes is dropped, and answers undefined.
+  // A field for each of `computations`, side by side. Of questions that come meanwhile the newest only is answered.
   solve(sources, computations) {
-    this.#waiting?.drop();
-    return new Promise((resolve, reject) => {
-      this.#waiting = { drop: () => resolve(undefined), go: () => this.#go(sources, computations).then(resolve, reject) };
-      if (!this.#running) this.#next();
-    });
-  }
-
-  async #go(sources, computations) {
-    const controller = new AbortController();
-    const { signal } = controller;
-    this.#running = { controller };
-    try {
+    return this.#fields.run(async (signal) => {
       const ground = this.#ground;
       const { starts, number } = await ground.sources(sources);
-      return await Promise.all(computations.map(async (options) => {
+      return Promise.all(computations.map(async (options) => {
         const field = await ground.mesh.distance(starts, { ...options, signal });
         const source = field.source.map((s) => (s < 0 ? s : number[s]));
         // As it is drawn, with two values at each vertex of a wall; and at the vertices of the whole mesh.
         return { ...field, ...(await ground.whole(field.distance, source)), drawn: { distance: field.distance, source } };
       }));
-    } finally {
-      this.#running = null;
-      this.#next();
-    }
+    });
   }
 
-  // Distance of a place, which source is nearest to it, and the path from there.
-  async look(sources, options, place, wantsPath) {
+  // Exact isolines of the field that `options` compute, on the ground; undefined where others are asked for by then.
+  arcs(sources, options, levels) {
+    return this.#arcs.run(async (signal) => {
+      const { mesh } = this.#ground;
+      const { starts } = await this.#ground.sources(sources);
+      const field = await mesh.field(starts, { ...options, signal });
+      try {
+        return await field.isolines(levels);
+      } finally {
+        field.free();
+      }
+    });
+  }
+
+  // Distances of a place by each of `computations`, and the path from the nearest source.
+  async look(sources, computations, place, wantsPath) {
     const { mesh } = this.#ground;
     const { starts, number } = await this.#ground.sources(sources);
     const [[target]] = await this.#ground.placesOf([place]);
-    const { targetDistance: [distance], targetSource: [source] } = await mesh.distance(starts, { ...options, targets: [target] });
-    if (!wantsPath || source < 0) return { distance, path: null };
-    if (!isCurve(sources[number[source]])) return { distance, path: await mesh.path([starts[source], target]) };
+    const fields = await Promise.all(computations.map((options) => mesh.distance(starts, { ...options, targets: [target] })));
+    const distances = fields.map(({ targetDistance }) => targetDistance[0]);
+    const [source] = fields[0].targetSource;
+    if (!wantsPath || source < 0) return { distances, path: null };
+    if (!isCurve(sources[number[source]])) return { distances, path: await mesh.path([starts[source], target]) };
     const field = await mesh.field([starts[source]], { method: 'exact', targets: [target], keep: 'paths' });
     try {
-      return { distance, path: await field.path(target) };
+      return { distances, path: await field.path(target) };
     } finally {
       field.free();
     }
@@ -123,13 +125,8 @@ export class Engine {
     return chart;
   }
 
-  #next() {
-    const next = this.#waiting;
-    this.#waiting = null;
-    next?.go();
-  }
-
   cancel() {
-    this.#running?.controller.abort();
+    this.#fields.stop();
+    this.#arcs.stop();
   }
 }

@@ -41,6 +41,11 @@ export class Ground {
     return this.#cut ? this.#cut.originalFace[face] : face;
   }
 
+  // A curve of this mesh on the whole one.
+  onWhole(curve) {
+    return this.#cut ? { ...curve, faces: curve.faces.map((face) => this.#cut.originalFace[face]) } : curve;
+  }
+
   // For each place of the whole mesh the places here: two where it lies on a wall.
   async placesOf(places) {
     if (!this.#cut || places.length === 0) return places.map((p) => [p]);

@@ -1,16 +1,22 @@
 // The page: what the visitor does changes the state, and the state is shown.
+import { asCommand, asPython } from './code.js';
+import { compared, percent } from './comparison.js';
 import { Engine } from './engine.js';
 import { save } from './exports.js';
 import { heldMesh, tellFrame } from './held.js';
+import { arcsOf, canBeArcs, spacingOf } from './isolines.js';
+import { showLabels } from './panes.js';
 import { listen, openFiles } from './pointer.js';
+import { sentence, showReport } from './report.js';
 import { Scene } from './scene.js';
-import { asCommand, asPython, fromFragment, handles, History, initial, isCurve, relativeError, SHAPES, solving, tidy, toFragment } from './state.js';
+import { ERROR, FIELD, OTHER } from './shader.js';
+import { computationsOf, fromFragment, handles, History, initial, isCurve, SHAPES, solving, tidy, toFragment } from './state.js';
 
 const $ = (id) => document.getElementById(id);
 const METHODS = ['windows', 'exact', 'novotni-klein', 'carried-source', 'kimmel-sethian', 'novotni-klein-2002', 'dijkstra'];
 const number = (x) => (Number.isFinite(x) ? Number(x.toPrecision(7)).toString() : 'unreachable');
 
-export const app = { state: fromFragment(location.hash) ?? initial(), history: new History(), scene: null, engine: null, field: null, path: null, drawing: null, drawsWall: false, file: null };
+export const app = { state: fromFragment(location.hash) ?? initial(), history: new History(), scene: null, engine: null, field: null, path: null, arcs: null, drawing: null, drawsWall: false, file: null };
 
 function say(error) {
   $('message').textContent = error ? String(error.message ?? error) : '';
@@ -18,8 +24,13 @@ function say(error) {
 }
 
 async function guarded(run) {
+  say(null);
+  return attempt(run);
+}
+
+// What is said already stays.
+async function attempt(run) {
   try {
-    say(null);
     return await run();
   } catch (error) {
     if (error.code !== 'cancelled') say(error);
@@ -34,8 +45,9 @@ export async function open(make, name, file, values) {
   app.name = name;
   const { mesh, vertices, faces, report } = opened;
   app.scene.showMesh(vertices, faces, mesh.bounds);
-  $('report').textContent = [`${mesh.vertexCount} vertices, ${mesh.faceCount} faces, ${report.components} component${report.components === 1 ? '' : 's'}.`, ...report.remarks, ...(mesh.file?.remarks ?? [])].join(' ');
-  Object.assign(app, { vertices, faces });
+  $('report').textContent = sentence(mesh, report);
+  showReport($('whole-report'), report);
+  Object.assign(app, { vertices, faces, report });
   if (values) await showGiven(values);
   else await refresh();
 }
@@ -67,16 +79,16 @@ export async function refresh() {
   forget();
   show();
   const busy = setTimeout(() => { $('busy').hidden = false; }, 200);
-  const { against, sources, walls, by } = app.state;
-  const computations = [solving(app.state), ...(against ? [{ method: against }] : [])];
+  const { sources, walls, by } = app.state;
   if (await guarded(() => app.engine.setWalls(walls))) showGround();
-  const fields = await guarded(() => app.engine.solve(sources, computations));
+  const fields = await guarded(() => app.engine.solve(sources, computationsOf(app.state)));
   const view = fields && (await guarded(() => viewOf(by, sources)));
   clearTimeout(busy);
   $('busy').hidden = true;
   if (!fields) return;
   draw(fields[0], fields[1], view);
   tellFrame(app.state.sources);
+  await showArcs();
 }
 
 // The surface, cut open along the walls.
@@ -113,30 +125,51 @@ function draw(field, other, view) {
   app.field = field;
   const drawn = field.drawn ?? field;
   app.scene.showField(drawn.distance, drawn.source);
-  const farthest = field.distance.reduce((most, d) => (Number.isFinite(d) && d > most ? d : most), 0);
-  app.scene.uniforms.farthest.value = farthest || 1;
-  app.scene.uniforms.spacing.value = app.state.lines > 0 ? farthest / app.state.lines : 0;
-  $('legend-high').textContent = number(farthest);
-  const error = showError(drawn, other?.drawn);
+  app.farthest = field.distance.reduce((most, d) => (Number.isFinite(d) && d > most ? d : most), 0);
+  app.scene.uniforms.farthest.value = app.farthest || 1;
+  showSpacing();
+  $('legend-high').textContent = number(app.farthest);
+  const error = showComparison(drawn, other?.drawn);
   showView(view);
-  const bound = Number.isFinite(field.maxErrorBound) ? `, every distance within ${(100 * field.maxErrorBound).toPrecision(2)} % (proven)` : '';
-  $('summary').textContent = `${app.name}: ${field.distance.reduce((n, d) => n + (Number.isFinite(d) ? 1 : 0), 0)} of ${field.distance.length} vertices reached, the farthest at ${number(farthest)}${bound}${error}`;
+  const bound = Number.isFinite(field.maxErrorBound) ? `, every distance within ${percent(field.maxErrorBound)} (proven)` : '';
+  $('summary').textContent = `${app.name}: ${field.distance.reduce((n, d) => n + (Number.isFinite(d) ? 1 : 0), 0)} of ${field.distance.length} vertices reached, the farthest at ${number(app.farthest)}${bound}${error}`;
   document.documentElement.dataset.solved = String(Number(document.documentElement.dataset.solved ?? 0) + 1);
 }
 
-const percent = (share) => `${(100 * share).toPrecision(2)} %`;
-
-// Colours by how far the field is from the other one, where there is one; a sentence about it.
-function showError(field, other) {
-  app.error = other ? field.distance.map((d, v) => relativeError(d, other.distance[v])) : null;
-  const most = app.error ? app.error.reduce((m, e) => Math.max(m, Math.abs(e) || 0), 0) : 0;
-  app.scene.showError(app.error, most);
-  if (!app.error) return '';
-  $('legend-high').textContent = percent(most);
-  const compared = app.error.filter((e) => !Number.isNaN(e));
-  const mean = compared.reduce((sum, e) => sum + Math.abs(e), 0) / Math.max(1, compared.length);
-  return `. Differs from ${app.state.against} by ${percent(mean)} on average and ${percent(most)} at most`;
+// By how much the field differs from the other one, where there is one: as a view, between the two or alone; and in words.
+function showComparison(field, other) {
+  const { method, against, beside, by } = app.state;
+  const { errors, mean, most } = other ? compared(field.distance, other.distance) : {};
+  const isBeside = other && beside && by === 'distance';
+  app.scene.panes = isBeside ? [FIELD, ERROR, OTHER] : [other ? ERROR : FIELD];
+  showLabels($('views'), isBeside ? [method, `difference, ${percent(most)} at most`, against] : []);
+  if (!other) return '';
+  app.scene.showOther(other, errors, most);
+  if (!isBeside) $('legend-high').textContent = percent(most);
+  return `. Differs from ${against} by ${percent(mean)} on average and ${percent(most)} at most`;
 }
+
+function showSpacing() {
+  app.scene.uniforms.spacing.value = spacingOf(app.state, app.farthest);
+  app.scene.draw();
+}
+
+// In place of lines between values, once they are there.
+async function showArcs() {
+  const mine = ++arcsAsked;
+  app.arcs = null;
+  app.scene.showArcs(null);
+  const { state, farthest, report } = app;
+  if (!state.arcs || app.field?.given) return;
+  const arcs = await attempt(async () => {
+    const levels = arcsOf(state, farthest, report.meanEdgeLength);
+    return levels && app.engine.arcs(state.sources, solving(state), levels);
+  });
+  if (mine !== arcsAsked || !arcs) return;
+  app.arcs = arcs;
+  app.scene.showArcs(arcs);
+}
+let arcsAsked = 0;
 
 // Also a value that is none of the choices, as a page that was made for it may have.
 function choose(select, value) {
@@ -150,10 +183,15 @@ function show() {
   $('method').value = state.method;
   choose($('tolerance'), state.tolerance);
   $('against').value = state.against;
+  $('beside').disabled = !state.against;
+  $('arcs').disabled = !canBeArcs(state.method);
+  for (const name of ['beside', 'arcs', 'cells']) $(name).checked = state[name];
+  app.scene.uniforms.showCells.value = state.cells;
   $('tolerance').disabled = state.method !== 'windows';
   $('colormap').value = state.colormap;
   $('lines').value = state.lines;
-  $('lines-value').textContent = state.lines;
+  $('lines-value').textContent = state.every ? '' : state.lines;
+  $('every').value = state.every;
   $('by').value = state.by;
   $('no-walls').disabled = state.walls.length === 0;
   $('undo').disabled = !app.history.canUndo;
@@ -227,11 +265,13 @@ export async function look(point) {
       $('readout').textContent = `Value ${number(value)}`;
       return;
     }
-    const { distance, path } = await app.engine.look(app.state.sources, solving(app.state), point, $('path').checked);
+    const { against } = app.state;
+    const { distances: [distance, other], path } = await app.engine.look(app.state.sources, computationsOf(app.state), point, $('path').checked);
     if (mine !== asked) return;
     app.target = point;
-    $('readout').textContent = `Distance ${number(distance)}${path ? `, path ${number(path.length)} long` : ''}`;
-    $('readout').dataset.distance = distance;
+    const beside = against ? `, by ${against} ${number(other)}` : '';
+    $('readout').textContent = `Distance ${number(distance)}${beside}${path ? `, path ${number(path.length)} long` : ''}`;
+    Object.assign($('readout').dataset, { distance, other });
     app.path = path;
     if (path) app.scene.showPath(path.positions);
   });
@@ -290,14 +330,20 @@ function bind() {
   $('against').onchange = () => change({ against: $('against').value });
   $('tolerance').onchange = () => change({ tolerance: $('tolerance').value });
   $('colormap').onchange = async () => { await change({ colormap: $('colormap').value }); await colours(); };
+  // Where the slider was let go of before can be come back to.
+  let slides = false;
   $('lines').oninput = () => {
-    app.state = { ...app.state, lines: Number($('lines').value) };
-    app.scene.uniforms.spacing.value = app.state.lines > 0 ? app.scene.uniforms.farthest.value / app.state.lines : 0;
+    if (!slides) app.history.add(app.state);
+    slides = true;
+    app.state = { ...app.state, lines: Number($('lines').value), every: '' };
     show();
-    app.scene.draw();
+    showSpacing();
+    showArcs();
   };
+  $('lines').onchange = () => { slides = false; };
+  $('every').onchange = () => change({ every: Number($('every').value) > 0 ? $('every').value : '' });
+  for (const name of ['beside', 'arcs', 'cells']) $(name).onchange = () => change({ [name]: $(name).checked });
   $('path').onchange = () => { if (!$('path').checked) app.scene.showPath(null); };
-  $('cells').onchange = () => { app.scene.uniforms.showCells.value = $('cells').checked; app.scene.draw(); };
   $('wave').onclick = () => wave($('wave').getAttribute('aria-pressed') !== 'true');
   $('draw').onclick = () => drawCurve(app.drawing ? null : [], false);
   $('draw-wall').onclick = () => drawCurve(app.drawing ? null : [], true);
@@ -318,8 +364,9 @@ function bind() {
   $('cancel').onclick = () => app.engine.cancel();
   $('save').onclick = () => guarded(() => save(app, $('export').value));
   const file = () => (app.state.shape ? `${app.state.shape.replace(' ', '-')}.ply` : app.name);
-  $('copy-command').onclick = () => guarded(() => navigator.clipboard.writeText(asCommand(app.state, file())));
-  $('copy-python').onclick = () => guarded(() => navigator.clipboard.writeText(asPython(app.state, file())));
+  for (const [id, text] of [['copy-command', asCommand], ['copy-python', asPython]]) {
+    $(id).onclick = () => guarded(() => navigator.clipboard.writeText(text(app.state, file(), arcsOf(app.state, app.farthest, app.report.meanEdgeLength))));
+  }
   $('controls').onsubmit = (event) => event.preventDefault();
   listen($('canvas'), app, { setSources, drawCurve, look, undo: () => $('undo').click() });
   openFiles($('stage'), $('file'), openFile);

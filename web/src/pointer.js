@@ -18,8 +18,8 @@ export function listen(canvas, app, { setSources, drawCurve, look, undo }) {
     const held = handles(app.state.sources);
     const positions = await app.engine.mesh.position(held.map(({ place }) => place));
     return held.find((_, i) => {
-      const at = app.scene.onPage(...positions.subarray(3 * i, 3 * i + 3));
-      return Math.hypot(at.x - x, at.y - y) < NEAR;
+      const places = app.scene.onPage(...positions.subarray(3 * i, 3 * i + 3));
+      return places.some((at) => Math.hypot(at.x - x, at.y - y) < NEAR);
     });
   }
 

@@ -1,100 +1,34 @@
-// The surface on the screen: colours and isolines by the distance at its vertices, sources, a path, what is under a pixel.
+// The surface on the screen, in one view or several: colours and isolines by the distance at its vertices, sources, a path,
+// what is under a pixel.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
+import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
 
-const VERTEX = `
-  attribute float distance;
-  attribute float cell;
-  attribute float error;
-  attribute vec2 chart;
-  varying float vError;
-  varying vec2 vChart;
-  varying float vDistance;
-  varying float vCell;
-  varying vec3 vPosition;
-  void main() {
-    vDistance = distance;
-    vCell = cell;
-    vError = error;
-    vChart = chart;
-    vec4 p = modelViewMatrix * vec4(position, 1.0);
-    vPosition = p.xyz;
-    gl_Position = projectionMatrix * p;
-  }`;
+import { layout } from './panes.js';
+import { FIELD, OTHER, surfaceMaterial, uniformsFor } from './shader.js';
 
-// Isolines have a constant width on the screen, whatever the spacing of the values there; where they would run together
-// they fade.
-const FRAGMENT = `
-  uniform sampler2D colours;
-  uniform float farthest, spacing, front, pixel;
-  uniform bool showCells;
-  uniform float worst; // the largest error; below 0: errors are not shown
-  uniform float widest; // the largest value with the sign of a side; below 0: sides are not shown
-  uniform float tile; // the width of a tile of the pattern, or of the picture; below 0: there is none
-  uniform bool hasPicture;
-  uniform sampler2D picture;
-  varying float vError;
-  varying vec2 vChart;
-  varying float vDistance;
-  varying float vCell;
-  varying vec3 vPosition;
-  vec3 hue(float turns) { return mix(clamp(abs(6.0 * fract(turns + vec3(0.0, 2.0, 1.0) / 3.0) - 3.0) - 1.0, 0.0, 1.0), vec3(0.55), 0.35); }
-  // Blue on the left, red on the right, lighter towards the curve.
-  vec3 side(float share) { return mix(vec3(0.97), share < 0.0 ? vec3(0.13, 0.4, 0.67) : vec3(0.7, 0.09, 0.17), sqrt(abs(share))); }
-  // A pattern in the coordinates of the log map. Triangles over which they jump, where ways around meet, show none.
-  vec3 decal(vec3 ground) {
-    vec2 grain = fwidth(vChart);
-    if (!(length(vChart) < 1e30) || length(grain) > 3.0 * length(fwidth(vPosition))) return ground;
-    vec2 at = vChart / tile;
-    if (hasPicture) {
-      vec4 ink = texture2D(picture, at + 0.5);
-      return all(lessThan(abs(at), vec2(0.5))) ? mix(ground, ink.rgb, ink.a) : ground;
-    }
-    vec2 edge = abs(fract(at - 0.5) - 0.5) / max(fwidth(at), 1e-9);
-    float odd = mod(floor(at.x) + floor(at.y), 2.0);
-    return mix(vec3(0.5), mix(vec3(0.96), ground * 0.55, odd), clamp(min(edge.x, edge.y), 0.0, 1.0));
-  }
-  void main() {
-    bool reached = vDistance < 1e30;
-    vec3 colour = reached ? texture2D(colours, vec2(clamp(vDistance / farthest, 0.0, 1.0), 0.5)).rgb : vec3(0.6);
-    if (showCells && reached) colour = mix(hue(vCell * 0.382), colour, 0.35);
-    if (worst >= 0.0 && reached) colour = abs(vError) <= 1e30 ? texture2D(colours, vec2(worst > 0.0 ? abs(vError) / worst : 0.0, 0.5)).rgb : vec3(0.6);
-    if (widest >= 0.0 && reached) colour = side(widest > 0.0 ? vError / widest : 0.0);
-    if (tile > 0.0 && reached) colour = decal(colour);
-    vec3 normal = normalize(cross(dFdx(vPosition), dFdy(vPosition)));
-    float light = 0.35 + 0.65 * abs(normal.z);
-    if (reached && spacing > 0.0 && tile <= 0.0) {
-      float steps = vDistance / spacing;
-      float width = fwidth(steps);
-      float line = abs(fract(steps - 0.5) - 0.5) / max(width, 1e-9);
-      float ink = (1.0 - smoothstep(0.4 * pixel, 1.1 * pixel, line)) * (1.0 - smoothstep(0.2, 0.5, width)) * step(0.5, steps);
-      colour = mix(colour, vec3(0.05), 0.8 * ink);
-    }
-    if (front >= 0.0) {
-      if (vDistance > front) colour = mix(colour, vec3(0.5), 0.85);
-      else colour = mix(vec3(1.0, 0.6, 0.1), colour, smoothstep(0.0, 0.04 * farthest, front - vDistance));
-    }
-    gl_FragColor = vec4(light * colour, 1.0);
-  }`;
+const FIELD_OF_VIEW = 35; // degrees
+const NONE = 1e31; // as the shader has it: beyond every number
+
+// What vertices have beside their positions, before anything is known, and how many numbers that are.
+const ATTRIBUTES = [['distance', NONE, 1], ['cell', 0, 1], ['otherDistance', NONE, 1], ['otherCell', 0, 1], ['error', 0, 1], ['chart', 0, 2]];
 
 export class Scene {
   #canvas; #renderer; #camera; #orbit; #scene = new THREE.Scene(); #surface = null; #marks = new THREE.Group(); #walls = new THREE.Group(); #path = null;
-  #ray = new THREE.Raycaster(); #drawn = false; #size = 1;
+  #ray = new THREE.Raycaster(); #drawn = false; #size = 1; #arcs = null; #panes = [FIELD];
 
   constructor(canvas) {
     this.#canvas = canvas;
     this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true, alpha: true });
     this.#renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.#renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // colours of the map come out as they are
-    this.#camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
+    this.#camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
     this.#orbit = new OrbitControls(this.#camera, canvas);
     this.#orbit.addEventListener('change', () => this.draw());
     this.#scene.add(this.#marks, this.#walls);
-    this.uniforms = {
-      colours: { value: null }, farthest: { value: 1 }, spacing: { value: 0 }, front: { value: -1 },
-      pixel: { value: this.#renderer.getPixelRatio() }, showCells: { value: false }, worst: { value: -1 },
-      widest: { value: -1 }, tile: { value: -1 }, hasPicture: { value: false }, picture: { value: null },
-    };
+    this.uniforms = uniformsFor(this.#renderer.getPixelRatio());
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
   }
 
@@ -104,6 +38,26 @@ export class Scene {
     this.#drawn = true;
     requestAnimationFrame(() => {
       this.#drawn = false;
+      this.#render();
+    });
+  }
+
+  // What the views show, from left to right.
+  set panes(panes) {
+    this.#panes = panes;
+    this.#aim();
+    this.draw();
+  }
+
+  #render() {
+    const box = this.#canvas.parentElement;
+    const rectangles = layout(box.clientWidth, box.clientHeight, this.#panes.length);
+    this.#renderer.setScissorTest(rectangles.length > 1);
+    this.#panes.forEach((shows, k) => {
+      const { x, y, width, height } = rectangles[k];
+      for (const set of ['setViewport', 'setScissor']) this.#renderer[set](x, box.clientHeight - y - height, width, height); // from below
+      this.uniforms.shows.value = shows;
+      if (this.#arcs) this.#arcs.visible = shows !== OTHER;
       this.#renderer.render(this.#scene, this.#camera);
     });
   }
@@ -119,14 +73,14 @@ export class Scene {
     this.middle = middle;
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
-    geometry.setAttribute('distance', new THREE.BufferAttribute(new Float32Array(vertices.length / 3).fill(1e31), 1));
-    geometry.setAttribute('cell', new THREE.BufferAttribute(new Float32Array(vertices.length / 3), 1));
-    geometry.setAttribute('error', new THREE.BufferAttribute(new Float32Array(vertices.length / 3), 1));
-    geometry.setAttribute('chart', new THREE.BufferAttribute(new Float32Array(2 * (vertices.length / 3)), 2));
+    for (const [name, value, size] of ATTRIBUTES) {
+      geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(size * (vertices.length / 3)).fill(value), size));
+    }
     geometry.setIndex(new THREE.BufferAttribute(faces, 1));
-    this.#surface = new THREE.Mesh(geometry, new THREE.ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: this.uniforms, side: THREE.DoubleSide }));
+    this.#surface = new THREE.Mesh(geometry, surfaceMaterial(this.uniforms));
     this.#scene.add(this.#surface);
     this.showPath(null);
+    this.showArcs(null);
     if (keepsView) return;
     this.showSources([]);
     this.showWalls([]);
@@ -141,30 +95,36 @@ export class Scene {
   }
 
   showField(distance, source) {
-    const to = this.#surface.geometry.getAttribute('distance');
-    const cell = this.#surface.geometry.getAttribute('cell');
-    for (let v = 0; v < distance.length; ++v) to.array[v] = Number.isFinite(distance[v]) ? distance[v] : 1e31;
-    cell.array.set(source);
-    to.needsUpdate = cell.needsUpdate = true;
+    this.#set('distance', distance);
+    this.#set('cell', source);
     this.draw();
+  }
+
+  // What it is compared with, and by how much it differs from that, `worst` at most.
+  showOther({ distance, source }, errors, worst) {
+    this.#set('otherDistance', distance);
+    this.#set('otherCell', source);
+    this.#set('error', errors);
+    this.uniforms.worst.value = worst;
+    this.draw();
+  }
+
+  #set(name, values, unit = 1) {
+    const to = this.#surface.geometry.getAttribute(name);
+    for (let i = 0; i < values.length; ++i) to.array[i] = Number.isFinite(values[i]) ? values[i] / unit : NONE;
+    to.needsUpdate = true;
   }
 
   // Colours by values with a sign instead, the largest of which is `widest`; null: no longer.
   showSides(values, widest) {
-    const to = this.#surface.geometry.getAttribute('error');
-    if (values) for (let v = 0; v < values.length; ++v) to.array[v] = Number.isFinite(values[v]) ? values[v] : 0;
-    to.needsUpdate = true;
+    if (values) this.#set('error', values);
     this.uniforms.widest.value = values ? widest : -1;
     this.draw();
   }
 
   // A pattern by two coordinates per vertex, in tiles as wide as `tile`, or a picture that wide; null: none.
   showChart(chart, tile) {
-    if (chart) {
-      const to = this.#surface.geometry.getAttribute('chart');
-      for (let i = 0; i < chart.length; ++i) to.array[i] = Number.isNaN(chart[i]) ? 1e31 : chart[i] / this.#size;
-      to.needsUpdate = true;
-    }
+    if (chart) this.#set('chart', chart, this.#size);
     this.uniforms.tile.value = chart ? tile / this.#size : -1;
     this.draw();
   }
@@ -175,15 +135,6 @@ export class Scene {
     const texture = bitmap && new THREE.CanvasTexture(bitmap);
     this.uniforms.picture.value = texture;
     this.uniforms.hasPicture.value = bitmap !== null;
-    this.draw();
-  }
-
-  // Colours by errors instead, the largest of which is `worst`; null: by distances again.
-  showError(errors, worst) {
-    const to = this.#surface.geometry.getAttribute('error');
-    if (errors) for (let v = 0; v < errors.length; ++v) to.array[v] = Number.isNaN(errors[v]) ? 1e31 : errors[v];
-    to.needsUpdate = true;
-    this.uniforms.worst.value = errors ? worst : -1;
     this.draw();
   }
 
@@ -222,6 +173,19 @@ export class Scene {
     this.draw();
   }
 
+  // Isolines as they are, in place of those between the values; null: no longer.
+  showArcs(curves) {
+    const points = [];
+    for (const { positions } of curves ?? []) {
+      const p = this.#inView(positions);
+      for (let i = 3; i < p.length; i += 3) for (let k = -3; k < 3; ++k) points.push(p[i + k]);
+    }
+    const lines = points.length === 0 ? null : new LineSegments2(new LineSegmentsGeometry().setPositions(points), new LineMaterial({ color: 0x101010, linewidth: 1.6 }));
+    this.#arcs = this.#replaced(this.#arcs, lines);
+    this.uniforms.hasArcs.value = curves !== null;
+    this.draw();
+  }
+
   #replaced(old, tube) {
     if (old) {
       this.#scene.remove(old);
@@ -245,11 +209,22 @@ export class Scene {
   // The number that a face that is drawn has for others.
   faceOf = (face) => face;
 
+  // The view at a point of the page, as a rectangle of the page.
+  #paneAt(x, y) {
+    const rectangles = this.#onScreen();
+    return rectangles.find((r) => x < r.x + r.width && y < r.y + r.height) ?? rectangles.at(-1);
+  }
+
+  #onScreen() {
+    const box = this.#canvas.getBoundingClientRect();
+    return layout(box.width, box.height, this.#panes.length).map((r) => ({ ...r, x: box.left + r.x, y: box.top + r.y }));
+  }
+
   // {face, weights} under a point of the canvas, in pixels of the page; null: nothing.
   pick(x, y) {
     if (!this.#surface) return null;
-    const box = this.#canvas.getBoundingClientRect();
-    this.#ray.setFromCamera(new THREE.Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height), this.#camera);
+    const pane = this.#paneAt(x, y);
+    this.#ray.setFromCamera(new THREE.Vector2((2 * (x - pane.x)) / pane.width - 1, 1 - (2 * (y - pane.y)) / pane.height), this.#camera);
     const [hit] = this.#ray.intersectObject(this.#surface);
     if (!hit) return null;
     const at = this.#surface.geometry.getAttribute('position');
@@ -261,11 +236,10 @@ export class Scene {
     return { face: this.faceOf(hit.faceIndex), weights: weights.map((x_) => x_ / sum) };
   }
 
-  // Where a position of the mesh is on the page.
+  // Where a position of the mesh is on the page, in each view.
   onPage(x, y, z) {
     const p = new THREE.Vector3(...this.#inView([x, y, z])).project(this.#camera);
-    const box = this.#canvas.getBoundingClientRect();
-    return { x: box.left + ((p.x + 1) / 2) * box.width, y: box.top + ((1 - p.y) / 2) * box.height };
+    return this.#onScreen().map((r) => ({ x: r.x + ((p.x + 1) / 2) * r.width, y: r.y + ((1 - p.y) / 2) * r.height }));
   }
 
   turn(right, up) {
@@ -289,7 +263,7 @@ export class Scene {
   }
 
   async picture() {
-    this.#renderer.render(this.#scene, this.#camera);
+    this.#render();
     return new Promise((resolve) => this.#canvas.toBlob(resolve, 'image/png'));
   }
 
@@ -305,8 +279,16 @@ export class Scene {
   #resize() {
     const { clientWidth: w, clientHeight: h } = this.#canvas.parentElement;
     this.#renderer.setSize(w, h, false);
-    this.#camera.aspect = w / Math.max(1, h);
-    this.#camera.updateProjectionMatrix();
+    this.#aim();
     this.draw();
+  }
+
+  // As much of the surface across a narrow view as across a square one.
+  #aim() {
+    const { clientWidth: w, clientHeight: h } = this.#canvas.parentElement;
+    const [{ width, height }] = layout(w, h, this.#panes.length);
+    this.#camera.aspect = width / Math.max(1, height);
+    this.#camera.fov = 2 * THREE.MathUtils.radToDeg(Math.atan(Math.tan(THREE.MathUtils.degToRad(FIELD_OF_VIEW / 2)) / Math.min(1, this.#camera.aspect)));
+    this.#camera.updateProjectionMatrix();
   }
 }

@@ -11,12 +11,15 @@ export const SHAPES = {
   cone: ['cone', 60, 120, 1, 2],
 };
 
+// What can be on or off, and is in the address where it is on.
+const SWITCHES = ['beside', 'arcs', 'cells'];
+
 // What colours tell: how far, on which side of a curve and how far, and coordinates around a source as a pattern.
 export const VIEWS = ['distance', 'sides', 'log map'];
 
-export const initial = () => ({ shape: 'folded sphere', sources: [{ face: 0, weights: [1, 0, 0] }], method: 'windows', tolerance: '1e-3', against: '', by: 'distance', walls: [], colormap: 'viridis', lines: 20 });
+export const initial = () => ({ shape: 'folded sphere', sources: [{ face: 0, weights: [1, 0, 0] }], method: 'windows', tolerance: '1e-3', against: '', beside: false, by: 'distance', walls: [], colormap: 'viridis', lines: 20, every: '', arcs: false, cells: false });
 
-const digits = (w) => String(Number(w.toFixed(12)));
+export const digits = (w) => String(Number(w.toFixed(12)));
 
 // Weights as they come back from their text: a shared page shows the same numbers.
 export const tidy = (source) => (isCurve(source) ? { ...source, through: source.through.map(tidyPlace) } : tidyPlace(source));
@@ -64,6 +67,8 @@ export const withHandle = (sources, { k, j }, place) => sources.map((s, i) => {
 
 export function toFragment(state) {
   const words = new URLSearchParams({ shape: state.shape, method: state.method, tolerance: state.tolerance, against: state.against, by: state.by, colours: state.colormap, lines: String(state.lines) });
+  if (state.every) words.set('every', state.every);
+  for (const name of SWITCHES) if (state[name]) words.set(name, '1');
   for (const source of state.sources) words.append('source', sourceText(source));
   for (const wall of state.walls) words.append('wall', wallText(wall));
   return `#${words}`;
@@ -78,7 +83,8 @@ export function fromFragment(fragment) {
   const start = initial();
   if (sources.length === 0 || !sources.every(Boolean) || !walls.every(Boolean)) return null;
   return { ...start, shape: words.get('shape'), sources, method: words.get('method') ?? start.method, tolerance: words.get('tolerance') ?? start.tolerance, against: words.get('against') ?? start.against, by: VIEWS.includes(words.get('by')) ? words.get('by') : start.by, walls: walls.map((through) => ({ through })),
-    colormap: words.get('colours') ?? start.colormap, lines: Math.min(60, Math.max(0, Number(words.get('lines') ?? start.lines) || 0)) };
+    colormap: words.get('colours') ?? start.colormap, lines: Math.min(60, Math.max(0, Number(words.get('lines') ?? start.lines) || 0)),
+    every: Number(words.get('every')) > 0 ? words.get('every') : '', ...Object.fromEntries(SWITCHES.map((name) => [name, words.get(name) === '1'])) };
 }
 
 // One step back, one step forth.
@@ -119,31 +125,6 @@ export class History {
   }
 }
 
+// How the field is computed, and the one that it is compared with, if any.
 export const solving = ({ method, tolerance }) => (method === 'windows' ? { method, tolerance: Number(tolerance) } : { method });
-
-// The share by which a value differs from another one; NaN where one of them is nothing to compare with.
-export const relativeError = (value, against) => (value === against ? 0 : against > 0 ? (value - against) / against : NaN);
-
-// What the page calls the file of a drawn curve.
-export const curveFile = (k) => `curve-${k}.json`;
-
-// What does the same on the command line, and in Python.
-export function asCommand(state, file) {
-  const options = solving(state);
-  const words = ['brushfire', 'distance', file, ...state.sources.map((s, k) => `--source ${isCurve(s) ? curveFile(k) : placeText(s)}`)];
-  if (state.by === 'sides') words.push('--signed');
-  else words.push(`--method ${options.method}`);
-  if (state.by !== 'sides' && options.tolerance !== undefined) words.push(`--tolerance ${state.tolerance}`);
-  if (state.walls.length > 0) words.push('--block-edges walls.txt');
-  return `${words.join(' ')} -o distance.npy`;
-}
-
-export function asPython(state, file) {
-  const options = solving(state);
-  const places = state.sources.map((s, k) => (isCurve(s) ? `*bf.read_lines("${curveFile(k)}", mesh)` : `bf.Point(${s.face}, (${s.weights.map(digits).join(', ')}))`));
-  const walls = state.walls.length > 0 ? '.walled(edges=np.loadtxt("walls.txt", dtype=int))' : '';
-  const imports = `${walls ? 'import numpy as np\n' : ''}import brushfire as bf`;
-  const tolerance = options.tolerance === undefined ? '' : `, tolerance=${state.tolerance}`;
-  const call = state.by === 'sides' ? `signed_distance([${places.join(', ')}])` : `distance([${places.join(', ')}], method="${options.method}"${tolerance})`;
-  return `${imports}\n\nmesh = bf.read(${JSON.stringify(file)})${walls}\nd = mesh.${call}\n`;
-}
+export const computationsOf = (state) => [solving(state), ...(state.against ? [{ method: state.against }] : [])];

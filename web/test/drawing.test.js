@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 
-import { bf, fileOf, folder, middle, place, program, visit, withoutNative } from './visit.js';
+import { bf, fileOf, folder, middle, place, program, save, visit, withoutNative } from './visit.js';
 
 async function draw(v, button, places, end) {
   const m = await middle(v.page);
@@ -15,14 +15,6 @@ async function draw(v, button, places, end) {
     await v.page.waitForFunction((n) => window.brushfire.drawing?.length === n, k + 1);
   }
   await v.nextField(() => v.page.click(end));
-}
-
-async function save(v, what) {
-  await v.page.selectOption('#export', what);
-  const [download] = await Promise.all([v.page.waitForEvent('download'), v.page.click('#save')]);
-  const path = join(folder, download.suggestedFilename());
-  await download.saveAs(path);
-  return path;
 }
 
 const WALL = [[-60, 40], [0, 60], [60, 40]];
@@ -93,6 +85,8 @@ test('sides of a curve have signs and colours of their own, as the program has t
   const { values } = bf.readField(readFileSync(out), out);
   assert.ok(values.every((d, k) => Math.abs(d - sides[k]) <= 1e-9), 'the program says otherwise');
   assert.ok(sides.some((d) => d < -0.1) && sides.some((d) => d > 0.1));
+  const saved = await save(v, 'npy');
+  assert.deepEqual([...bf.readField(readFileSync(saved), saved).values], sides);
   await v.page.click('#copy-python');
   assert.match(await v.page.evaluate('navigator.clipboard.readText()'), /mesh\.signed_distance\(\[\*bf\.read_lines\("curve-0\.json", mesh\)\]\)/);
   assert.deepEqual(v.complaints, []);

@@ -20,6 +20,9 @@ const SCENES = {
   errors: '#shape=torus&source=f:7:0.2,0.3,0.5&method=novotni-klein&against=exact&lines=0&colours=magma',
   sides: '#shape=saddle&source=loop:f:3240:1,0,0;f:3320:1,0,0;f:9680:1,0,0&method=exact&by=sides',
   walls: '#shape=terrain&source=f:14000:1,0,0&method=exact&wall=f:9000:1,0,0;f:12000:1,0,0;f:16000:1,0,0',
+  beside: '#shape=torus&source=f:7:0.2,0.3,0.5&method=dijkstra&against=exact&beside=1&lines=10',
+  arcs: '#shape=cube&source=f:2500:1,0,0&source=f:9000:1,0,0&method=exact&lines=12&arcs=1',
+  cells: '#shape=sphere&source=f:3100:1,0,0&source=f:3300:1,0,0&source=f:2100:1,0,0&method=exact&lines=0&cells=1',
   tiles: '#shape=saddle&source=f:6400:1,0,0&method=exact&by=log+map',
 };
 
@@ -35,6 +38,7 @@ const picture = (page) => page.evaluate(async () => {
 for (const [name, fragment] of Object.entries(SCENES)) {
   test(`${name} are drawn as before`, async () => {
     const v = await visit(fragment, { viewport: { width: 900, height: 520 } });
+    await v.page.waitForFunction('!brushfire.state.arcs || brushfire.arcs');
     const now = await picture(v.page);
     const file = join(golden, `${name}.png`);
     if (renew) {

@@ -8,7 +8,7 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
 
-import { bf, fileOf, folder, here, middle, place, program, visit, withoutNative } from './visit.js';
+import { bf, fileOf, folder, here, middle, place, program, save, visit, withoutNative } from './visit.js';
 
 test('the page opens with a field, and asks nobody else for anything', async () => {
   const v = await visit();
@@ -100,13 +100,7 @@ test('isolines and colours are drawn, and a missing isoline is noticed', async (
 
 test('what is saved reads back, and is what the program computes', { skip: withoutNative }, async () => {
   const v = await visit('#shape=torus&source=f:7:0.2,0.3,0.5&method=exact');
-  const take = async (what) => {
-    await v.page.selectOption('#export', what);
-    const [download] = await Promise.all([v.page.waitForEvent('download'), v.page.click('#save')]);
-    const path = join(folder, download.suggestedFilename());
-    await download.saveAs(path);
-    return readFileSync(path);
-  };
+  const take = async (what) => readFileSync(await save(v, what));
   const { values } = bf.readField(await take('npy'), 'distance.npy');
   const out = join(folder, 'native.npy');
   execFileSync(program, ['distance', fileOf('torus', 120, 60), '--source', 'f:7:0.2,0.3,0.5', '--method', 'exact', '-o', out]);
@@ -177,11 +171,7 @@ test('a curve is drawn, is a source, is moved, shared and saved', async () => {
   await v.page.waitForFunction("document.getElementById('readout').textContent.includes('path')");
   const [distance, pathLength] = await v.page.evaluate("[Number(document.getElementById('readout').dataset.distance), brushfire.path.length]");
   assert.ok(Math.abs(distance - pathLength) <= 1e-10, `${distance} away, a path of ${pathLength}`);
-  await v.page.selectOption('#export', 'curve.json');
-  const [download] = await Promise.all([v.page.waitForEvent('download'), v.page.click('#save')]);
-  const saved = join(folder, download.suggestedFilename());
-  await download.saveAs(saved);
-  assert.ok(readFileSync(saved, 'utf8').length > 100);
+  assert.ok(readFileSync(await save(v, 'curve.json'), 'utf8').length > 100);
   const address = new URL(v.page.url()).hash;
   const sum = await v.page.evaluate('brushfire.field.distance.reduce((s, d) => s + d)');
   await v.nextField(() => v.page.click('#undo'));
@@ -282,9 +272,12 @@ test('on a telephone, in the dark', async () => {
   await v.close();
 });
 
-for (const colorScheme of ['light', 'dark']) {
-  test(`axe finds nothing serious (${colorScheme})`, async () => {
-    const v = await visit('', { colorScheme });
+// As it opens, and with everything in it that can be.
+const FULL = '#shape=torus&source=f:7:0.2,0.3,0.5&method=novotni-klein&against=exact&beside=1&cells=1&every=0.2';
+for (const [colorScheme, fragment] of [['light', ''], ['dark', ''], ['light', FULL], ['dark', FULL]]) {
+  test(`axe finds nothing serious (${colorScheme}${fragment ? ', side by side' : ''})`, async () => {
+    const v = await visit(fragment, { colorScheme });
+    await v.page.click('details summary');
     await v.page.addScriptTag({ path: createRequire(import.meta.url).resolve('axe-core/axe.min.js') });
     const { violations } = await v.page.evaluate('axe.run()');
     const serious = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');

@@ -68,3 +68,12 @@ export function fileOf(...shape) {
   mesh.free();
   return file;
 }
+
+// Saves what the page offers under this name, and returns the path.
+export async function save(v, what) {
+  await v.page.selectOption('#export', what);
+  const [download] = await Promise.all([v.page.waitForEvent('download'), v.page.click('#save')]);
+  const path = join(folder, download.suggestedFilename());
+  await download.saveAs(path);
+  return path;
+}

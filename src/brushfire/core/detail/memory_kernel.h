@@ -279,6 +279,61 @@ BRUSHFIRE_INLINE void store_bytes(std::uint8_t* to, Numbers8 a) {
   _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_packus_epi16(words, words));
 }
 
+#elif defined(BRUSHFIRE_HAS_VECTORS) && defined(__wasm_simd128__)
+
+// For each half of the result, where its bytes are: in the lower half, and in the upper one. A place that a half does
+// not have, from 16 on, gives 0.
+template <>
+struct Permutation<4, 8> {
+  v128_t from_low[2], from_high[2];
+  BRUSHFIRE_INLINE explicit Permutation(Numbers8 index) : Permutation(index.low, index.high) {}
+
+ private:
+  using Half = Numbers8::Half;
+  BRUSHFIRE_INLINE Permutation(Half low, Half high) : from_low{bytes(low), bytes(high)} {
+    for (int k = 0; k < 2; ++k) from_high[k] = wasm_i8x16_sub(from_low[k], wasm_i8x16_const_splat(16));
+  }
+  BRUSHFIRE_INLINE static v128_t bytes(Half index) {
+    return same_bits<v128_t>(((index & 7) * Half(0x04040404) + Half(0x03020100)).v);
+  }
+};
+template <class T>
+BRUSHFIRE_INLINE Lanes<T, 4> permuted_half(Lanes<T, 8> a, const Permutation<4, 8>& index, int half) {
+  const v128_t from_low = wasm_i8x16_swizzle(same_bits<v128_t>(a.low.v), index.from_low[half]);
+  const v128_t from_high = wasm_i8x16_swizzle(same_bits<v128_t>(a.high.v), index.from_high[half]);
+  return Lanes<T, 4>(same_bits<Register<T, 4>>(from_low | from_high));
+}
+template <class T>
+BRUSHFIRE_INLINE Lanes<T, 8> permuted(Lanes<T, 8> a, const Permutation<4, 8>& index) {
+  return {permuted_half(a, index, 0), permuted_half(a, index, 1)};
+}
+
+BRUSHFIRE_INLINE Register<float, 4> two_pairs(const float* from, std::uint32_t i, std::uint32_t j) {
+  return same_bits<Register<float, 4>>(wasm_v128_load64_lane(from + 2 * j, wasm_v128_load64_zero(from + 2 * i), 1));
+}
+template <>
+BRUSHFIRE_INLINE Pairs<Lanes<float, 8>> gather_pairs<Lanes<float, 8>>(const float* from, const std::uint32_t* index) {
+  using Half = Lanes<float, 4>;
+  const auto p01 = two_pairs(from, index[0], index[1]), p23 = two_pairs(from, index[2], index[3]);
+  const auto p45 = two_pairs(from, index[4], index[5]), p67 = two_pairs(from, index[6], index[7]);
+  return {{Half(shuffled<0, 2, 4, 6>(p01, p23)), Half(shuffled<0, 2, 4, 6>(p45, p67))},
+          {Half(shuffled<1, 3, 5, 7>(p01, p23)), Half(shuffled<1, 3, 5, 7>(p45, p67))}};
+}
+
+template <>
+BRUSHFIRE_INLINE Numbers8 load_bytes<Numbers8>(const std::uint8_t* from) {
+  using Numbers4 = Register<std::uint32_t, 4>;
+  const v128_t words = wasm_u16x8_load8x8(from);
+  return {Numbers8::Half(same_bits<Numbers4>(wasm_u32x4_extend_low_u16x8(words))),
+          Numbers8::Half(same_bits<Numbers4>(wasm_u32x4_extend_high_u16x8(words)))};
+}
+
+template <class T>
+BRUSHFIRE_INLINE std::enable_if_t<sizeof(T) == 4> store_packed(T* to, std::uint32_t set, Lanes<T, 8> a) {
+  const auto* const lanes = reinterpret_cast<const std::uint8_t*>(&kPacking[set]);  // the lowest byte comes first
+  store(to, permuted(a, Permutation<4, 8>(load_bytes<Numbers8>(lanes))));
+}
+
 #endif
 
 }  // namespace brushfire::lanes::BRUSHFIRE_TARGET

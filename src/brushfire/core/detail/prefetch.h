@@ -5,9 +5,10 @@
 
 namespace brushfire {
 
-// Asks for the cache line at `address`, which may be anywhere.
+// Asks for the cache line at `address`, which may be anywhere. WebAssembly knows no such hint, and would compute the
+// address all the same.
 BRUSHFIRE_INLINE void prefetch([[maybe_unused]] const void* address) {
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(__wasm__)
   __builtin_prefetch(address);
 #endif
 }

@@ -148,6 +148,19 @@ BRUSHFIRE_INLINE Register<float, 4> root_of(Register<float, 4> a) {
 BRUSHFIRE_INLINE Register<double, 2> root_of(Register<double, 2> a) {
   return same_bits<Register<double, 2>>(wasm_f64x2_sqrt(same_bits<Register<std::int32_t, 4>>(a)));
 }
+// Of two equal numbers, and where one is none, the second: pmin(a, b) is b < a ? b : a.
+BRUSHFIRE_INLINE Register<float, 4> lesser_of(Register<float, 4> a, Register<float, 4> b) {
+  return same_bits<Register<float, 4>>(wasm_f32x4_pmin(same_bits<v128_t>(b), same_bits<v128_t>(a)));
+}
+BRUSHFIRE_INLINE Register<double, 2> lesser_of(Register<double, 2> a, Register<double, 2> b) {
+  return same_bits<Register<double, 2>>(wasm_f64x2_pmin(same_bits<v128_t>(b), same_bits<v128_t>(a)));
+}
+BRUSHFIRE_INLINE Register<float, 4> greater_of(Register<float, 4> a, Register<float, 4> b) {
+  return same_bits<Register<float, 4>>(wasm_f32x4_pmax(same_bits<v128_t>(b), same_bits<v128_t>(a)));
+}
+BRUSHFIRE_INLINE Register<double, 2> greater_of(Register<double, 2> a, Register<double, 2> b) {
+  return same_bits<Register<double, 2>>(wasm_f64x2_pmax(same_bits<v128_t>(b), same_bits<v128_t>(a)));
+}
 BRUSHFIRE_INLINE std::uint32_t bits_of(Register<std::int32_t, 4> m) { return wasm_i32x4_bitmask(m); }
 BRUSHFIRE_INLINE std::uint32_t bits_of(Register<std::int64_t, 2> m) {
   return wasm_i64x2_bitmask(same_bits<Register<std::int32_t, 4>>(m));
