@@ -22,6 +22,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -155,6 +156,8 @@ def measure(options, folder):
         "vertices": vertices.stat().st_size // 24,
         "faces": faces.stat().st_size // 12,
         "source": options.source,
+        "date": time.strftime("%Y-%m-%d"),
+        "load": round(os.getloadavg()[1], 1),  # of the last five minutes
         "truth": os.path.basename(options.truth) if truth is not None else None,
         "results": results,
     }
