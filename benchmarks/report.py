@@ -152,7 +152,8 @@ def versions():
     pins = (HERE / "requirements.txt").read_text().splitlines()
     names = [line.split("==")[0] for line in pins if line and not line.startswith("#")]
     compiler = subprocess.run(["c++", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
-    return compiler + "; " + ", ".join(f"{n} {importlib.metadata.version(n)}" for n in names)
+    installed = {d.metadata["Name"].lower(): d.version for d in importlib.metadata.distributions()}
+    return compiler + "; " + ", ".join(f"{n} {installed[n]}" for n in names if n in installed)
 
 
 def when(rows):
@@ -163,7 +164,7 @@ def when(rows):
         return "at a time that was not noted"
     span = f"on {days[0]}" if len(days) == 1 else f"from {days[0]} to {days[-1]}"
     busy = f"{min(loads):.1f} to {max(loads):.1f} programs ran or waited at a time, these included"
-    return f"{span}, on {os.cpu_count()} processors of a machine on which {busy} (load averages)"
+    return f"{span}, on {os.cpu_count()} processors of a machine on which\n  {busy} (load averages)"
 
 
 def main():
