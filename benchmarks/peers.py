@@ -55,7 +55,8 @@ class Contestant:
         else:
             self.process.wait()
             lines = self.process.stderr.read().strip().splitlines()
-            self.failure = lines[-1] if lines else f"exit status {self.process.returncode}"
+            status = self.process.returncode
+            self.failure = f"ended by signal {-status}" if status < 0 else lines[-1] if lines else f"exit status {status}"
 
     def close(self):
         with contextlib.suppress(BrokenPipeError):
