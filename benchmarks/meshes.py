@@ -1,7 +1,7 @@
 """The meshes of the comparisons: out of Debian's package of CGAL's demonstrations, or made here. Nothing else is needed.
 
 A name is that of a mesh in the package (bunny: the Stanford bunny), of a made one (grid100, folded-sphere), with -x10 for
-stretched tenfold in x, and -shear for sheared until an angle of 135 degrees is in every triangle.
+stretched tenfold in x, and -shear for sheared in x by y (an angle of 135 degrees in every triangle of grid100).
 """
 
 import tarfile
@@ -13,17 +13,19 @@ ROOT = Path(__file__).resolve().parents[1]
 ARCHIVES = (ROOT / "demo/data.tar.gz", Path("/usr/share/doc/libcgal-dev/data.tar.gz"),
             Path("/usr/share/doc/libcgal-demo/data.tar.gz"))  # fmt: skip
 IN_PACKAGE = {"bunny": "bunny00"}
+DEFORMATIONS = {"-x10": np.diag([10.0, 1, 1]), "-shear": np.array([[1, 0, 0], [1, 1, 0], [0, 0, 1.0]])}
 
 
 def read_off(text):
-    words = [word for line in text.splitlines() for word in line.split("#")[0].split()]
-    assert words[0] == "OFF"
-    count, faces = int(words[1]), int(words[2])
-    numbers = words[4:]
-    vertices = np.array(numbers[: 3 * count], float).reshape(-1, 3)
-    rest = np.array(numbers[3 * count : 3 * count + 4 * faces], int).reshape(-1, 4)
-    assert (rest[:, 0] == 3).all(), "triangles only"
-    return vertices, rest[:, 1:]
+    """With colours behind the positions, too, which are left out."""
+    lines = [line.split("#")[0].split() for line in text.splitlines()]
+    (kind, *more), *lines = [words for words in lines if words]
+    counts, lines = (more, lines) if more else (lines[0], lines[1:])
+    count, faces = int(counts[0]), int(counts[1])
+    assert kind in ("OFF", "COFF"), kind
+    rows = lines[count : count + faces]
+    assert all(row[0] == "3" for row in rows), "triangles only"
+    return np.array([row[:3] for row in lines[:count]], float), np.array([row[1:4] for row in rows], int)
 
 
 def write_off(file, vertices, faces):
@@ -64,12 +66,10 @@ def sphere(rounds):
 
 def arrays(name):
     """Vertices and faces, or None where the package is not at hand."""
-    if name.endswith("-x10"):
-        found = arrays(name.removesuffix("-x10"))
-        return found and (found[0] * [10, 1, 1], found[1])
-    if name == "grid100-shear":
-        vertices, faces = grid(100)
-        return vertices @ np.array([[1, 0, 0], [1, 1, 0], [0, 0, 1.0]]), faces
+    for ending, matrix in DEFORMATIONS.items():
+        if name.endswith(ending):
+            found = arrays(name.removesuffix(ending))
+            return found and (found[0] @ matrix, found[1])
     if name == "grid100":
         return grid(100)
     if name == "folded-sphere":

@@ -22,6 +22,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -54,7 +55,8 @@ class Contestant:
         else:
             self.process.wait()
             lines = self.process.stderr.read().strip().splitlines()
-            self.failure = lines[-1] if lines else f"exit status {self.process.returncode}"
+            status = self.process.returncode
+            self.failure = f"ended by signal {-status}" if status < 0 else lines[-1] if lines else f"exit status {status}"
 
     def close(self):
         with contextlib.suppress(BrokenPipeError):
@@ -155,6 +157,8 @@ def measure(options, folder):
         "vertices": vertices.stat().st_size // 24,
         "faces": faces.stat().st_size // 12,
         "source": options.source,
+        "date": time.strftime("%Y-%m-%d"),
+        "load": round(os.getloadavg()[1], 1),  # of the last five minutes
         "truth": os.path.basename(options.truth) if truth is not None else None,
         "results": results,
     }

@@ -5,12 +5,15 @@
 
 import importlib.metadata
 import json
-import math
+import os
 import platform
 import re
+import statistics
 import subprocess
 import sys
 from pathlib import Path
+
+import pareto
 
 HERE = Path(__file__).resolve().parent
 DOCS = HERE.parent / "docs"
@@ -25,15 +28,17 @@ NAMES = {
     "pygeodesic": "pygeodesic (MMP)",
     "gdist": "tvb-gdist (MMP)",
     "igl-exact": "igl.exact_geodesic",
+    "gsp": "GSP, C++ †",
     "gc-fmm-cpp": "geometry-central FMM, C++ †",
     "vcg": "VCG, C++ †",
     "vtp": "VTP research code †",
     "gc-exact": "geometry-central exact, C++ †",
     "cgal": "CGAL exact, C++ †",
 }
-MARCHING_PEERS = ["meshlib", "gc-fmm", "gc-fmm-cpp", "pymeshlab", "vcg"]
+MARCHING = ["carried-source", "novotni-klein", "kimmel-sethian"]
+MARCHING_PEERS = ["gsp", "meshlib", "gc-fmm", "gc-fmm-cpp", "pymeshlab", "vcg"]
 EXACT_PEERS = ["vtp", "gc-exact", "pygeodesic", "cgal"]
-EXACT = 1e-9  # what is counted as exact: it has no place on a logarithmic scale, and is drawn on a line of its own
+EXACT = 1e-9  # what is counted as exact: it has no place on a logarithmic scale, and is drawn in a band of its own
 
 
 def is_ours(name):
@@ -49,7 +54,7 @@ def first(result):
 
 
 def number(value):
-    return "" if value is None else "< 1e-12" if value < 1e-12 else f"{value:.2g}"
+    return "" if value is None else "rounding" if value < EXACT else f"{value:.2g}"
 
 
 def mesh_table(row):
@@ -78,29 +83,28 @@ def ratio(value, digits=1):
     return f"{value:.{digits}f}x"
 
 
-def marching_summary(rows):
-    """novotni-klein against the fastest fast marching peer of each mesh, and against MeshLib end to end."""
+def marching_summary(rows, cell):
+    """The marching methods beside those of other programs: a line for each mesh, `cell` of each program's result."""
+    names = [n for n in [*MARCHING, *MARCHING_PEERS] if any(ran(row, [n]) for row in rows)]
     lines = [
-        "| mesh | vertices | solve ns/v | fastest peer | its ns/v | ratio | mean error / its | mean error / VCG's |"
-        " arrays to field, ratio to MeshLib |",
-        "|---|--:|--:|---|--:|--:|--:|--:|--:|",
+        "| mesh | vertices | " + " | ".join(label(n) for n in names) + " |",
+        "|---|--:|" + "--:|" * len(names),
     ]
     for row in rows:
-        peers, ours = ran(row, MARCHING_PEERS), ran(row, ["novotni-klein"]).get("novotni-klein")
-        if not ours or not peers:
-            continue
-        name, fastest = min(peers.items(), key=lambda item: item[1]["solve_s"])
-        vcg = peers.get("vcg") or peers.get("pymeshlab")
-        error = ours.get("mean_error")
-        share = ratio(error / fastest["mean_error"], 2) if error is not None and fastest.get("mean_error") else ""
-        share_vcg = ratio(error / vcg["mean_error"], 2) if vcg and error and vcg.get("mean_error", 0) > 1e-9 else ""
-        total = ratio(first(peers["meshlib"]) / first(ours)) if "meshlib" in peers else ""
-        lines.append(
-            f"| {row['mesh']} | {row['vertices']} | {1e9 * ours['solve_s'] / row['vertices']:.0f} | {NAMES[name]} |"
-            f" {1e9 * fastest['solve_s'] / row['vertices']:.0f} | {ratio(fastest['solve_s'] / ours['solve_s'])} |"
-            f" {share} | {share_vcg} | {total} |"
-        )
+        results = ran(row, names)
+        cells = [cell(row, results[n]) if n in results else "" for n in names]
+        lines.append(f"| {row['mesh']} | {row['vertices']} | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
+
+
+def solve_time(row, result):
+    return f"{1e9 * result['solve_s'] / row['vertices']:.0f}"
+
+
+def both_errors(_, result):
+    if "mean_error" not in result:
+        return ""
+    return " / ".join("0" if e < EXACT else f"{100 * e:.2g}" for e in (result["mean_error"], result["max_error"]))
 
 
 def exact_summary(rows):
@@ -123,71 +127,18 @@ def exact_summary(rows):
     return "\n".join(lines) + "\n"
 
 
-def annotate(axes, points):
-    """Writes (x, y, text, colour) beside their points, each where it covers nothing; farther ones with a line."""
-    frame = axes.get_window_extent()
-    near = 7  # pixels around a point that stay free
-    centres = [axes.transData.transform((x, y)) for x, y, _, _ in points]
-    taken = [(x - near, y - near, x + near, y + near) for x, y in centres] + [axes.get_legend().get_window_extent().extents]
-    places = [(10, -4, "left"), (-10, -4, "right")]
-    places += [(0, sign * dy, side) for dy in range(12, 200, 12) for sign in (1, -1) for side in ("left", "right")]
-    for x, y, text, colour in sorted(points):
-        beside = {"xy": (x, y), "textcoords": "offset points", "color": colour, "fontsize": 8}
-        for dx, dy, side in places:
-            note = axes.annotate(text, xytext=(dx, dy), ha=side, **beside)
-            left, low, right, top = note.get_window_extent().extents
-            inside = frame.x0 < left and right < frame.x1 and frame.y0 < low and top < frame.y1
-            if inside and all(right < l or r < left or top < b or t < low for l, b, r, t in taken):
-                taken.append((left - 3, low, right + 3, top))
-                if abs(dy) > 20:
-                    axes.annotate("", xytext=(0, dy), arrowprops={"arrowstyle": "-", "color": colour, "lw": 0.5}, **beside)
-                break
-            note.remove()
-
-
-def pareto(rows, file):
-    """Error against time, one point a program: geometric means over the meshes that all of them solved."""
-    import matplotlib
-
-    matplotlib.use("agg")  # measures text, for annotate(); the file is SVG by its name
-    import matplotlib.pyplot as plt
-
-    matplotlib.rcParams["svg.hashsalt"] = "brushfire"
-    matplotlib.rcParams["svg.fonttype"] = "none"
+def programs_of(rows):
+    """For pareto.draw(), what all meshes were solved by: geometric means of times, means of errors."""
     rows = [row for row in rows if row["truth"] and len(ran(row, MARCHING_PEERS)) >= 3]
-    if not rows:
-        return []
-    names = [n for n in rows[0]["results"] if all(n in ran(row, [n]) for row in rows)]
-    mean = lambda values: math.exp(sum(map(math.log, values)) / len(values))  # noqa: E731
-    figure, axes = plt.subplots(figsize=(8.5, 6), dpi=72)  # a pixel is a point, as in the SVG
-    points = []
-    for name in names:
-        results = [row["results"][name] for row in rows]
-        x = mean([1e9 * first(r) / row["vertices"] for r, row in zip(results, rows)])
-        errors = [r.get("mean_error", 1) for r in results]
-        y = mean(errors) if min(errors) > EXACT else None
-        colour = "#c0392b" if is_ours(name) else "#34495e"
-        points.append((x, y, NAMES.get(name, name), colour))
-    # What is exact stands on a line of its own, a decade below the least error that is one.
-    line = min([y for _, y, _, _ in points if y] or [1e-6]) / 10
-    points = [(x, y or line, text, colour) for x, y, text, colour in points]
-    for x, y, text, colour in points:
-        axes.plot(x, y, "s" if text in NAMES.values() else "o", color=colour)
-    axes.axhline(line, color="#999999", lw=0.8, ls=":")
-    axes.text(0.005, line, "exact", transform=axes.get_yaxis_transform(), va="bottom", fontsize=8, color="#666666")
-    axes.set(xscale="log", yscale="log", xlabel="arrays to field: ns per vertex, one thread")
-    axes.set(ylabel="mean relative error", title="Error against time; lower left is better")
-    axes.grid(True, which="major", alpha=0.3)
-    axes.set_xmargin(0.12)
-    axes.set_ymargin(0.1)
-    axes.plot([], [], "o", color="#c0392b", label="brushfire")
-    axes.plot([], [], "s", color="#34495e", label="other programs")
-    axes.legend(loc="upper right")
-    figure.tight_layout()
-    figure.canvas.draw()
-    annotate(axes, points)
-    figure.savefig(file, metadata={"Date": None}, bbox_inches="tight")
-    return [row["mesh"] for row in rows]
+    programs = []
+    for name in rows[0]["results"] if rows else []:
+        results = [ran(row, [name]).get(name) for row in rows]
+        if not all(results):
+            continue
+        times = [1e9 * first(r) / row["vertices"] for r, row in zip(results, rows)]
+        error = statistics.mean(r.get("mean_error", 1) for r in results)
+        programs.append((NAMES.get(name, name), statistics.geometric_mean(times), error if error > EXACT else None, is_ours(name)))
+    return programs, [row["mesh"] for row in rows]
 
 
 def processor():
@@ -201,7 +152,21 @@ def versions():
     pins = (HERE / "requirements.txt").read_text().splitlines()
     names = [line.split("==")[0] for line in pins if line and not line.startswith("#")]
     compiler = subprocess.run(["c++", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
-    return compiler + "; " + ", ".join(f"{n} {importlib.metadata.version(n)}" for n in names)
+    installed = {d.metadata["Name"].lower(): d.version for d in importlib.metadata.distributions()}
+    return compiler + "; " + ", ".join(f"{n} {installed[n]}" for n in names if n in installed)
+
+
+def when(rows):
+    """The days and the load of the machine, as peers.py noted them."""
+    days = sorted({row["date"] for row in rows if "date" in row})
+    loads = [row["load"] for row in rows if "load" in row]
+    if not days:
+        return "at a time that was not noted"
+    span = f"on {days[0]}" if len(days) == 1 else f"from {days[0]} to {days[-1]}"
+    counts = sorted({r["rounds"] for row in rows for r in row["results"].values() if "rounds" in r})
+    rounds = f"{counts[0]} to {counts[-1]}"
+    busy = f"{min(loads):.1f} to {max(loads):.1f} programs ran or waited at a time, these included"
+    return f"{span}, on {os.cpu_count()} processors of a machine on which\n  {busy} (load averages), {rounds} rounds"
 
 
 def main():
@@ -209,11 +174,15 @@ def main():
     rows = sorted(json.loads(Path(sys.argv[1]).read_text()), key=lambda row: row["vertices"])
     scans = [r for r in rows if not r["mesh"].endswith(("-x10", "-shear")) and not r["mesh"].startswith("grid")]
     stretched = [r for r in rows if r not in scans]
-    drawn = pareto([r for r in scans if "-s" not in r["mesh"]], folder / "pareto.svg")
+    programs, drawn = programs_of([r for r in scans if "-s" not in r["mesh"]])
+    if programs:
+        pareto.draw(programs, folder / "pareto.svg", "Error against time")
     places = {
         "processor": processor(),
+        "when": when(rows),
         "versions": versions(),
-        "marching": marching_summary(scans),
+        "marching times": marching_summary(rows, solve_time),
+        "marching errors": marching_summary(rows, both_errors),
         "exact": exact_summary(rows),
         "pareto meshes": ", ".join(drawn),
         "scans": "\n".join(mesh_table(r) for r in scans),

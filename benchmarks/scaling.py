@@ -13,8 +13,8 @@ import math
 import tempfile
 from pathlib import Path
 
+import meshes
 import peers
-import suite
 
 SERIES = {"rocker-arm": 4, "stanford-bunny": 3, "fertility": 5}  # the most rounds of refinement
 METHODS = ["novotni-klein", "windows:1e-3", "exact"]
@@ -29,9 +29,9 @@ def name_of(mesh, refine):
 def measure(mesh, refine, vertices, results, passed_on):
     """Adds one row to the results."""
     with tempfile.TemporaryDirectory() as folder:
-        file = suite.find(mesh, folder)
+        file = meshes.find(mesh, folder)
         if file is None:
-            print(f"{mesh}: left out, its file is neither in the shared data nor in libcgal-demo")
+            print(f"{mesh}: left out, it is not in libcgal-demo")
             return
         rounds = 1 if vertices >= LARGE else 3
         options = {"refine": refine, "rounds": rounds, "methods": ",".join(METHODS), "patience": 600, "json": results}

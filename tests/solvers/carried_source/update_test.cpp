@@ -135,6 +135,9 @@ OfferBatch<T> any_batch(Random& random) {
   };
   for (int i = 0; i < Batch::kLanes; ++i) {
     batch.facts[i] = static_cast<std::uint32_t>(random.below(2 * Batch::kBendsThere));
+    for (auto* sets : {batch.sectors, batch.turned, batch.dark}) {
+      sets[i] = static_cast<std::uint32_t>(random.below(std::uint64_t{1} << 32));
+    }
     batch.here[i] = four(-2, 4), batch.there[i] = four(-2, 4);
     batch.by[i] = four(T(0.1), 1), batch.to[i] = four(T(0.1), 1);
     batch.ends[i] = four(-1, 1), batch.around[i] = four(-1, 1);
@@ -148,6 +151,9 @@ Offer<T> offer_of(const OfferBatch<T>& batch, int i) {
   using Batch = OfferBatch<T>;
   const Update u{batch.facts[i]};
   const auto is = [&](std::uint32_t fact) { return (batch.facts[i] & fact) != 0; };
+  const auto sees = [&](const std::uint32_t* sets, std::uint32_t end) {
+    return (batch.sectors[i] & sets[i] & end) != 0;
+  };
   const Four<T>&here = batch.here[i], &there = batch.there[i], &around = batch.around[i];
   Side<T> by, to;
   by.length = batch.by[i].a, by.c = batch.by[i].b, by.s = batch.by[i].c, by.end_c = batch.by[i].d;
@@ -156,10 +162,10 @@ Offer<T> offer_of(const OfferBatch<T>& batch, int i) {
   const auto see = [&](const Four<T>& from, const SideTurn<T>& t, bool turned, bool dark) {
     return source_below<T>(from.a, from.b, from.c, from.d, turned, dark, t.c, t.s, t.tc, t.ts, t.side, by.length);
   };
-  const SourceAt<T> a =
-      see(here, side_turn(by.c, by.s, u.hand(), {around.a, around.b}), is(Batch::kTurnedHere), is(Batch::kDarkHere));
+  const SourceAt<T> a = see(here, side_turn(by.c, by.s, u.hand(), {around.a, around.b}),
+                            sees(batch.turned, Batch::kHere), sees(batch.dark, Batch::kHere));
   SourceAt<T> b = see(there, side_turn(by.end_c, by.end_s, u.hand_there(), {around.c, around.d}),
-                      is(Batch::kTurnedThere), is(Batch::kDarkThere));
+                      sees(batch.turned, Batch::kThere), sees(batch.dark, Batch::kThere));
   b.x = by.length - b.x;
   const OfferFrame<T> f = offer_frame(by, to, u, {around.a, around.b}, {batch.ends[i].c, batch.ends[i].d});
   const Offer<T> o = offer_over<T>(by.length, f.x, f.y, to.length, here.a, there.a, a, b,

@@ -1,6 +1,7 @@
 // Turns of vertices in buckets of their values.
 #include <brushfire/solvers/carried_source/detail/march.h>
 
+#include <brushfire/core/detail/prefault.h>
 #include <brushfire/core/detail/prefetch.h>
 #include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/carried_source/detail/march_constants.h>
@@ -32,10 +33,16 @@ struct March<T>::Turn {
 
 template <class T>
 March<T>::March(const Records<T>& records) : records_(records), fronts_(records.vertex_count) {
-  for (Index v = 0; v < records.vertex_count; ++v) fronts_[v].around = records.around[v];
+  // Looked up in no order that a TLB could hold.
+  PagesAhead pages(fronts_.data(), fronts_.size() * sizeof(Front));
+  for (Index v = 0; v < records.vertex_count; ++v) {
+    pages.reach(&fronts_[v]);
+    fronts_[v] = {};
+    fronts_[v].around = records.around[v];
+  }
   // One more than there can be: the last one is written and not counted.
   lists_.ahead.resize(records.most_sides + 1), lists_.alongs.resize(records.most_sides + 1);
-  lists_.closed.resize(records.most_sides), lists_.offers.resize(records.most_updates + 1);
+  lists_.offers.resize(records.most_updates + 1);
   per_unit_ = static_cast<T>(1 / (kBucketWidth * records.mean_edge));
   slack_ = static_cast<T>(kSlack * records.mean_edge);
   settling_ = static_cast<T>(kSettling * records.mean_edge);
@@ -95,9 +102,14 @@ BRUSHFIRE_INLINE void March<T>::accept(Index v, const Offer<T>& o, Index sector,
   const BucketQueue::Bucket bucket = bucket_of(f.value);
   const bool waits = (f.state == kWaiting) & (bucket == bucket_of(old));
   touched_.push_if(f.state == kAway, v);
+  wait_for_turn(f, v, waits, bucket);
+}
+
+template <class T>
+BRUSHFIRE_INLINE void March<T>::wait_for_turn(Front& f, Index v, bool is_in_bucket, BucketQueue::Bucket bucket) {
   if (f.turns >= kMostTurns) return;
   f.state = kWaiting;
-  queue_.push_if(!waits, v, bucket);
+  queue_.push_if(!is_in_bucket, v, bucket);
 }
 
 // A vertex's source in the frame of a side, from the vertex (or the side's end) on.
@@ -158,16 +170,10 @@ BRUSHFIRE_INLINE void March<T>::add_offer(const Turn& at, Index target, Update u
   using Batch = OfferBatch<T>;
   Batch& batch = batch_;
   const int i = batch.count;
-  std::uint32_t facts = u.bits & (2 * Update::kAcross - 1);
-  const auto add_if = [&facts](bool is, std::uint32_t fact) { facts |= is ? fact : 0; };
-  add_if((at.front.sector & by.turned[hand]) != 0, Batch::kTurnedHere);
-  add_if((other.sector & by.end_turned[there]) != 0, Batch::kTurnedThere);
-  if (at.dark) {
-    add_if((at.front.sector & at.dark[support].here[hand]) != 0, Batch::kDarkHere);
-    add_if((other.sector & at.dark[support].end[there]) != 0, Batch::kDarkThere);
-  }
-  facts |= at.bends | by.end_bends * std::uint32_t{Batch::kBendsThere};
-  batch.facts[i] = facts;
+  batch.facts[i] = (u.bits & (2 * Update::kAcross - 1)) | at.bends | by.end_bends * std::uint32_t{Batch::kBendsThere};
+  batch.sectors[i] = at.front.sector | std::uint32_t{other.sector} << 16;
+  batch.turned[i] = by.turned[hand] | std::uint32_t{by.end_turned[there]} << 16;
+  batch.dark[i] = at.dark ? at.dark[support].here[hand] | std::uint32_t{at.dark[support].end[there]} << 16 : 0;
   batch.target[i] = target;
   batch.label[i] = at.front.label;
   batch.sector[i] = static_cast<std::uint8_t>(u.sector());
@@ -197,6 +203,27 @@ template <bool kLabelled>
 
 template <class T>
 template <bool kLabelled>
+BRUSHFIRE_INLINE void March<T>::offer_along(const Turn& at, Index k) {
+  const Side<T>& side = at.sides[k];
+  const Index end = at.ends[k].end;
+  Front& f = at.fronts[end];
+  const T x = side.length * side.end_c, y = side.length * side.end_s, value = at.front.value + side.length;
+  const bool conduit = (side.end_c == 0) & (side.end_s == 0);
+  const T sigma = conduit ? value : at.front.value;
+  if (f.state != kAway) {
+    accept<kLabelled>(end, {value, sigma, x, y}, side.sector, at.front.label);
+    return;
+  }
+  // The first one that comes there, as most of these are.
+  f.value = value, f.sigma = sigma, f.x = x, f.y = y;
+  f.sector = static_cast<SectorSet>(1u << side.sector);
+  f.label = at.front.label;
+  touched_.push(end);
+  wait_for_turn(f, end, false, bucket_of(value));
+}
+
+template <class T>
+template <bool kLabelled>
 BRUSHFIRE_INLINE void March<T>::turn(Index v) {
   Front* const fronts = fronts_.data();
   Front& f = fronts[v];
@@ -222,38 +249,29 @@ BRUSHFIRE_INLINE void March<T>::turn(Index v) {
   const Index sides = head.sides;
   Index* const ahead_of = lists_.ahead.data();
   Index* const alongs_of = lists_.alongs.data();
-  std::uint8_t* const closed = lists_.closed.data();
   PlannedOffer* const planned = lists_.offers.data();
   for (Index k = 0; k < sides; ++k) {
     const SideEnd<T>& e = at.ends[k];
-    const Front& end = fronts[e.end];
     ahead_of[ahead] = k;
-    ahead += end.value > now + e.need - e.bulge * later ? 1u : 0u;
-    closed[k] = end.state == kClosed ? 1 : 0;
+    ahead += fronts[e.end].value > now + e.need - e.bulge * later ? 1u : 0u;
   }
   for (Index i = 0; i < ahead; ++i) {
     const Index k = ahead_of[i], before = offers, end = at.ends[k + 1].first_update;
     for (Index u = at.ends[k].first_update; u < end; ++u) {
       planned[offers] = {k, updates[u]};
-      offers += closed[updates[u].support()];
+      offers += fronts[at.ends[updates[u].support()].end].state == kClosed ? 1u : 0u;
     }
     alongs_of[alongs] = k;
     alongs += offers == before ? 1u : 0u;
   }
   updates_ += offers;
-  const auto offer_along = [&](Index k) {
-    const Side<T>& side = at.sides[k];
-    const T x = side.length * side.end_c, y = side.length * side.end_s, value = front.value + side.length;
-    const bool conduit = (side.end_c == 0) & (side.end_s == 0);
-    accept<kLabelled>(at.ends[k].end, {value, conduit ? value : front.value, x, y}, side.sector, front.label);
-  };
   for (Index i = 0; i < offers; ++i) {
     const auto [k, update] = planned[i];
     const Front& support = fronts[at.ends[update.support()].end];
     if (support.has_offer) [[unlikely]] {
       take_offers<kLabelled>();
       if (support.state != kClosed) {  // it fell: the offer is for its own turn
-        offer_along(k);
+        offer_along<kLabelled>(at, k);
         continue;
       }
     }
@@ -265,7 +283,7 @@ BRUSHFIRE_INLINE void March<T>::turn(Index v) {
       add_offer<kLabelled>(at, at.ends[k].end, update, at.sides[k]);
     }
   }
-  for (Index i = 0; i < alongs; ++i) offer_along(alongs_of[i]);
+  for (Index i = 0; i < alongs; ++i) offer_along<kLabelled>(at, alongs_of[i]);
 }
 
 // In passes: what falls into the bucket while it is worked on has its turn afterwards, by its value. Where edges are
@@ -291,9 +309,10 @@ void March<T>::work_labelled() {
         for (std::size_t k = 0; k < kRecordLines; ++k) prefetch(at + k * kCacheLine);
       }
       if (i + kEndsAhead < pass_.size()) {
+        // Where there are fewer, the end behind them again and again: how many there are cannot be foreseen.
         const Record<T> record = records_[pass_[i + kEndsAhead]];
-        const Index sides = std::min(kUsualSides, record.head().sides);
-        for (Index k = 0; k < sides; ++k) prefetch(&fronts_[record.ends()[k].end]);
+        const Index sides = record.head().sides;
+        for (Index k = 0; k < kUsualSides; ++k) prefetch(&fronts_[record.ends()[std::min(k, sides)].end]);
       }
       if (fronts_[pass_[i]].state == kWaiting) turn<kLabelled>(pass_[i]);
     }

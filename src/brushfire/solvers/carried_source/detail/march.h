@@ -2,6 +2,7 @@
 #pragma once
 
 #include <brushfire/core/detail/bucket_queue.h>
+#include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/solvers/carried_source/detail/offer_batch.h>
 #include <brushfire/solvers/carried_source/detail/records.h>
 #include <brushfire/solvers/carried_source/detail/update.h>
@@ -82,10 +83,14 @@ class March {
   void offer_alone(const Turn& at, Index target, Update u, const Side<T>& to);
   template <bool kLabelled>
   void take_offers();
+  // Along a side, where no edge beside it is closed.
+  template <bool kLabelled>
+  void offer_along(const Turn& at, Index k);
   SourceAt<T> see(const Front& f, const Side<T>& side, bool at_end, Index hand, Index lenses, SectorSet dark) const;
   template <bool kLabelled>
   void accept(Index v, const Offer<T>& offer, Index sector, Index label);
 
+  void wait_for_turn(Front& f, Index v, bool is_in_bucket, BucketQueue::Bucket bucket);
   BucketQueue::Bucket bucket_of(T value) const;
 
   // Of the turn at hand.
@@ -95,12 +100,11 @@ class March {
   };
   struct Lists {
     std::vector<Index> ahead, alongs;  // sides
-    std::vector<std::uint8_t> closed;  // by side
     std::vector<PlannedOffer> offers;
   };
 
   const Records<T>& records_;
-  std::vector<Front> fronts_;
+  UninitializedArray<Front> fronts_;
   Lists lists_;
   OfferBatch<T> batch_;
   BucketQueue queue_;

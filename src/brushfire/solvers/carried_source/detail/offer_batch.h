@@ -18,15 +18,17 @@ struct alignas(4 * sizeof(T)) Four {
 template <class T>
 struct OfferBatch {
   static constexpr int kLanes = 8;
-  // Beside the bits of the Update below kAcross: what is true of the sources, seen from either end of the edge.
-  enum Fact : std::uint32_t { kTurnedHere = 32, kTurnedThere = 64, kDarkHere = 128, kDarkThere = 256 };
-  enum BendFact : std::uint32_t { kBendsHere = 512, kBendsThere = 1024 };
+  // Beside the bits of the Update up to kAcross: the ends of the edge that bend light.
+  enum Fact : std::uint32_t { kBendsHere = 32, kBendsThere = 64 };
+  // In words: of the vertex in the lower half, of the support's end in the upper one.
+  static constexpr std::uint32_t kHere = 0xffff, kThere = 0xffff0000;
 
   int count = 0;
   Index target[kLanes];
   Index label[kLanes];
   std::uint8_t sector[kLanes];  // of the target
   std::uint32_t facts[kLanes] = {};
+  std::uint32_t sectors[kLanes] = {}, turned[kLanes] = {}, dark[kLanes] = {};  // and SightSets of the edge
   Four<T> here[kLanes], there[kLanes];  // value, sigma, x, y of the vertex and of the support's end
   Four<T> by[kLanes], to[kLanes];       // length, c, s, end_c of the sides to the support's end and to the target
   Four<T> ends[kLanes];                 // end_s of both sides, Around of the target

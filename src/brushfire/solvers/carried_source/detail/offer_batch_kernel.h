@@ -7,7 +7,9 @@ inline void work_out(OfferBatch<T>& batch) {
   using Batch = OfferBatch<T>;
   using V = Lanes<T, Batch::kLanes>;
   using Facts = Lanes<std::uint32_t, Batch::kLanes>;
-  const Facts facts = load<Facts>(batch.facts);
+  const Facts facts = load<Facts>(batch.facts), sectors = load<Facts>(batch.sectors);
+  const Facts turned = load<Facts>(batch.turned) & sectors, dark = load<Facts>(batch.dark) & sectors;
+  const Facts here(std::uint32_t{Batch::kHere}), there(std::uint32_t{Batch::kThere});
   const V one(T(1)), minus(T(-1)), never(BendingEnds<V>::kNever), grazing(kGrazing<T>);
   V at_v, sigma_v, px_v, py_v, at_b, sigma_b, px_b, py_b;
   load_fours(&batch.here[0].a, at_v, sigma_v, px_v, py_v);
@@ -21,15 +23,12 @@ inline void work_out(OfferBatch<T>& batch) {
 
   const V side = select(mask_cast<T>(share_bits(facts, Facts(Update::kHere))), minus, one);
   turn_round(by_c, by_s, side, around_c, around_s, tc, ts);
-  const SourceAt<V> a = source_below<V>(
-      at_v, sigma_v, px_v, py_v, mask_cast<T>(share_bits(facts, Facts(std::uint32_t{Batch::kTurnedHere}))),
-      mask_cast<T>(share_bits(facts, Facts(std::uint32_t{Batch::kDarkHere}))), by_c, by_s, tc, ts, side, length);
+  const SourceAt<V> a = source_below<V>(at_v, sigma_v, px_v, py_v, mask_cast<T>(share_bits(turned, here)),
+                                        mask_cast<T>(share_bits(dark, here)), by_c, by_s, tc, ts, side, length);
   const V side_b = select(mask_cast<T>(share_bits(facts, Facts(Update::kThere))), minus, one);
   turn_round(by_end_c, by_end_s, side_b, around_bc, around_bs, tc, ts);
-  SourceAt<V> b = source_below<V>(at_b, sigma_b, px_b, py_b,
-                                  mask_cast<T>(share_bits(facts, Facts(std::uint32_t{Batch::kTurnedThere}))),
-                                  mask_cast<T>(share_bits(facts, Facts(std::uint32_t{Batch::kDarkThere}))), by_end_c,
-                                  by_end_s, tc, ts, side_b, length);
+  SourceAt<V> b = source_below<V>(at_b, sigma_b, px_b, py_b, mask_cast<T>(share_bits(turned, there)),
+                                  mask_cast<T>(share_bits(dark, there)), by_end_c, by_end_s, tc, ts, side_b, length);
   b.x = length - b.x;
 
   turn_round(to_c, to_s, side, around_c, around_s, tc, ts);
