@@ -24,7 +24,7 @@ struct March<T>::Turn {
   const Record<T>& record;
   const SideEnd<T>* ends;
   const Side<T>* sides;
-  const DarkSets* dark;       // null: none
+  const DarkSets* dark;
   const LensNumbers* lenses;  // null: none
   Front* fronts;
   std::uint32_t bends;  // OfferBatch::kBendsHere, or 0
@@ -123,8 +123,7 @@ template <bool kLabelled>
   const Index support = u.support(), hand = u.hand(), there = u.hand_there();
   const Side<T>& by = at.sides[support];
   const Front& other = fronts_[at.ends[support].end];
-  const auto dark_here = at.dark ? at.dark[support].here[hand] : SectorSet{0};
-  const auto dark_there = at.dark ? at.dark[support].end[there] : SectorSet{0};
+  const SectorSet dark_here = at.dark[support].here[hand], dark_there = at.dark[support].end[there];
   const SourceAt<T> a = see(at.front, by, false, hand, at.lenses ? at.lenses[support].here[hand] : kNoIndex, dark_here);
   SourceAt<T> b = see(other, by, true, there, at.lenses ? at.lenses[support].end[there] : kNoIndex, dark_there);
   b.x = by.length - b.x;
@@ -162,10 +161,8 @@ BRUSHFIRE_INLINE void March<T>::add_offer(const Turn& at, Index target, Update u
   const auto add_if = [&facts](bool is, std::uint32_t fact) { facts |= is ? fact : 0; };
   add_if((at.front.sector & by.turned[hand]) != 0, Batch::kTurnedHere);
   add_if((other.sector & by.end_turned[there]) != 0, Batch::kTurnedThere);
-  if (at.dark) {
-    add_if((at.front.sector & at.dark[support].here[hand]) != 0, Batch::kDarkHere);
-    add_if((other.sector & at.dark[support].end[there]) != 0, Batch::kDarkThere);
-  }
+  add_if((at.front.sector & at.dark[support].here[hand]) != 0, Batch::kDarkHere);
+  add_if((other.sector & at.dark[support].end[there]) != 0, Batch::kDarkThere);
   facts |= at.bends | by.end_bends * std::uint32_t{Batch::kBendsThere};
   batch.facts[i] = facts;
   batch.target[i] = target;
@@ -210,7 +207,7 @@ BRUSHFIRE_INLINE void March<T>::turn(Index v) {
                 record,
                 record.ends(),
                 record.sides(),
-                head.has_dark ? record.dark() : nullptr,
+                record.dark(),
                 head.has_lenses ? record.lenses() : nullptr,
                 fronts,
                 head.bends * std::uint32_t{OfferBatch<T>::kBendsHere}};
