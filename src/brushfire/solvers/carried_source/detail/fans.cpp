@@ -24,14 +24,13 @@ double angle_at(const Mesh& mesh, Index corner) {
 
 }  // namespace
 
-Direction within(std::span<const Sector> sectors, Index fan, double angle, double seam) {
+Direction within(std::span<const Sector> sectors, Index fan, double angle) {
   Direction at{angle, fan, kSharedSector};
   for (Index k = 0; k < sectors.size(); ++k) {
     const Sector& s = sectors[k];
     if (s.fan != fan) continue;
     if (s.around < kInfinity && at.sector == kSharedSector) {
       at.angle = std::max(0.0, angle - s.around * std::floor(angle / s.around));
-      if (at.angle > s.around - seam) at.angle = 0;
     }
     if (at.sector == kSharedSector || s.low <= at.angle) at.sector = k;
   }

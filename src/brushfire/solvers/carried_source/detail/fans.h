@@ -31,9 +31,8 @@ struct Direction {
   Index sector = 0;  // that holds it, or one of two
 };
 
-// A direction of any angle by the angle below the sum of all, in a closed fan, and with its sector. An angle that is
-// less than the sum by no more than `seam` is 0.
-Direction within(std::span<const Sector> sectors, Index fan, double angle, double seam = 0);
+// A direction of any angle by the angle below the sum of all, in a closed fan, and with its sector.
+Direction within(std::span<const Sector> sectors, Index fan, double angle);
 
 // A corner of a usable face in a fan of its vertex, counter-clockwise there; `mirrored`: it is clockwise in its face.
 struct FanCorner {

@@ -203,14 +203,10 @@ BRUSHFIRE_INLINE void March<T>::turn(Index v) {
   const Record<T> record = records_[v];
   const RecordHead<T>& head = record.head();
   const Front front = f;
-  const Turn at{front,
-                record,
-                record.ends(),
-                record.sides(),
-                record.dark(),
-                head.has_lenses ? record.lenses() : nullptr,
-                fronts,
-                head.bends * std::uint32_t{OfferBatch<T>::kBendsHere}};
+  const Turn at{front,         record,
+                record.ends(), record.sides(),
+                record.dark(), head.has_lenses ? record.lenses() : nullptr,
+                fronts,        head.bends * std::uint32_t{OfferBatch<T>::kBendsHere}};
   const Update* const updates = record.updates();
   const T r = front.value - front.sigma, later = r > head.reach ? 1 / (r - head.reach) : kAnywhere<T>;
   const T now = front.value - slack_;

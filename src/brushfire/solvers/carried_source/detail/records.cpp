@@ -10,10 +10,11 @@
 #include <brushfire/solvers/carried_source/detail/unrolled.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
-#include <tuple>
+#include <span>
+#include <vector>
 
 namespace brushfire::carried_source {
 namespace {
@@ -23,28 +24,67 @@ constexpr Index kMostSupports = Index{1} << (32 - Update::kSupportShift);
 
 template <class T>
 struct DraftSide {
-  Index end = kNoIndex;
-  float angle = 0;
-  Side<T> side;
+  Index end;
   DarkSets dark;
+  Side<T> side;
 };
 
 template <class T>
 struct DraftUpdate {
-  Index support = 0, target = 0;
-  std::uint32_t bits = 0;  // of an Update, but for the support
-  T length = 0;            // of the edge
+  std::uint64_t order;  // by target, then support, then sector
+  std::uint32_t bits;   // of an Update, but for the support
+  T length;             // of the edge
   Need<T> need;
-};
 
+  Index target() const { return static_cast<Index>(order >> 32); }
+  Index support() const { return static_cast<Index>(order) >> 4; }
+};
+template <class T>
+BRUSHFIRE_INLINE DraftUpdate<T> update_of(Index support, Index target, std::uint32_t bits, T length, Need<T> need) {
+  const std::uint32_t sector = bits >> Update::kSectorShift & 15u;
+  return {std::uint64_t{target} << 32 | support << 4 | sector, bits, length, need};
+}
 template <class T>
 bool comes_before(const DraftUpdate<T>& a, const DraftUpdate<T>& b) {
-  constexpr std::uint32_t kSector = 15u << Update::kSectorShift;
-  const auto order = [](const DraftUpdate<T>& u) {
-    return std::tuple(u.target, u.support, u.bits & kSector, u.length);
-  };
-  return order(a) < order(b);
+  return a.order < b.order || (a.order == b.order && a.length < b.length);
 }
+// Few, most of them in order.
+template <class T>
+void sort_updates(UninitializedArray<DraftUpdate<T>>& updates) {
+  constexpr std::size_t kFew = 64;
+  if (updates.size() > kFew) return detail::sort(updates.begin(), updates.end(), comes_before<T>);
+  for (std::size_t i = 1; i < updates.size(); ++i) {
+    const DraftUpdate<T> u = updates[i];
+    std::size_t at = i;
+    for (; at > 0 && comes_before(u, updates[at - 1]); --at) updates[at] = updates[at - 1];
+    updates[at] = u;
+  }
+}
+
+// What the end of a ring's side knows of the way back, and of the two updates whose target it is: over the edge before
+// the side, and over the one behind it.
+template <class T>
+struct RingEnd {
+  T c, s;
+  SightSets sets;
+  std::uint8_t sector, bends;
+  bool takes_ahead, takes_behind;
+  std::uint32_t ahead, behind;                    // what it says of these, as bits of an Update
+  std::uint32_t supports_ahead, supports_behind;  // and of the updates that it supports, of the sides around it
+};
+
+// A ring's sides, and its corners.
+template <class T>
+struct DraftRing {
+  Index count;
+  const RingSide<T>* side[kLanes];
+  Index end_vertex[kLanes];
+  RingEnd<T> end[kLanes];
+  // Of corners: both sides, and across; 1 where there is no more corner.
+  alignas(32) T first[kLanes], second[kLanes], across[kLanes];
+  // Of its two updates.
+  alignas(32) T need_ahead[kLanes], bulge_ahead[kLanes], need_behind[kLanes], bulge_behind[kLanes];
+};
 
 // How much memory a record takes at most, and where its parts lie.
 template <class T>
@@ -62,7 +102,12 @@ template <class T>
 class RecordBuilder {
  public:
   explicit RecordBuilder(const Mesh& mesh)
-      : mesh_(mesh), vertices_(reinterpret_cast<const Index*>(mesh.faces().data())), of_fans_(mesh), unroller_(mesh, of_fans_) {}
+      : mesh_(mesh),
+        offsets_(mesh.corner_offsets()),
+        corners_(mesh.all_corners()),
+        vertices_(reinterpret_cast<const Index*>(mesh.faces().data())),
+        of_fans_(mesh),
+        unroller_(mesh, of_fans_) {}
 
   Records<T> build() {
     out_.vertex_count = mesh_.vertex_count();
@@ -78,8 +123,7 @@ class RecordBuilder {
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       poll_();
       pages.reach(base + out_.offset[v + 1]);
-      draft(v);
-      put_record(base + out_.offset[v]);
+      write(v, base + out_.offset[v]);
     }
     out_.around = of_fans_.take_around();
     out_.lenses = of_fans_.take_lenses();
@@ -94,7 +138,7 @@ class RecordBuilder {
     std::size_t at = 0;
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       out_.offset[v] = at;
-      auto sides = static_cast<Index>(mesh_.corners(v).size()), updates = 2 * sides;
+      auto sides = offsets_[v + 1] - offsets_[v], updates = 2 * sides;
       if (of_fans_.is_alone(v)) {
         sides = of_fans_.alone(v).fans().side_count();
         for (const Index h : mesh_.corners(v)) sides += mesh_.is_face_usable(Mesh::face_of(h)) ? 0 : 2;
@@ -123,80 +167,213 @@ class RecordBuilder {
     }
   }
 
-  void draft(Index v) {
+  void write(Index v, std::byte* at) {
     sides_.clear(), updates_.clear(), lenses_.clear();
     head_ = {};
     if (of_fans_.is_alone(v)) {
       draft_alone(v);
+      if (unroller_.first_update(v) != kNoIndex) add_unrolled(v, 0);
+      add_conduits(v);
+      sort_updates(updates_);
+      put_record(at);
     } else {
-      draft_ring(v);
+      write_ring(v, at);
     }
-    const bool any_unrolled = unroller_.first_update(v) != kNoIndex;
-    if (any_unrolled) add_unrolled(v);
-    if (of_fans_.is_alone(v)) add_conduits(v);
-    if (any_unrolled || of_fans_.is_alone(v)) detail::sort(updates_.begin(), updates_.end(), comes_before<T>);
   }
 
-  // All that is not alone is plain: every corner as it is in its face, every side between two of them.
-  void draft_ring(Index v) {
-    const std::span<const Index> corners = mesh_.corners(v);
-    const auto count = static_cast<Index>(corners.size());
-    Index ring[kLanes];
-    for (const Index h : corners) ring[of_fans_[h].number] = h;
-    sides_.resize(count);
-    for (Index i = 0, before = count - 1; i < count; before = i++) {
-      DraftSide<T>& d = sides_[i];
-      const Index h = ring[i], back = Mesh::previous(ring[before]);
+  void write_ring(Index v, std::byte* at) {
+    DraftRing<T> ring;
+    look_around(v, ring);
+    find_needs(ring);
+    if (unroller_.first_update(v) != kNoIndex) {
+      angles_.resize(ring.count);
+      for (Index i = 0; i < ring.count; ++i) angles_[i] = ring.side[i]->angle;
+      add_unrolled(v, ring.count);
+      sort_updates(updates_);
+    }
+    put_ring(ring, at);
+  }
+
+  // Every corner of a ring is as it is in its face, every side between two of them.
+  BRUSHFIRE_INLINE void look_around(Index v, DraftRing<T>& ring) {
+    const Index begin = offsets_[v];
+    ring.count = offsets_[v + 1] - begin;
+    Index corner[kLanes];
+    for (Index i = 0; i < ring.count; ++i) corner[of_fans_[corners_[begin + i]].number] = corners_[begin + i];
+    for (Index i = ring.count; i < kLanes; ++i) ring.first[i] = ring.second[i] = ring.across[i] = 1;
+    for (Index i = 0, before = ring.count - 1; i < ring.count; before = i++) {
+      const Index h = corner[i], back = Mesh::previous(corner[before]), next = Mesh::next(h);
       const RingSide<T>&here = of_fans_[h], &there = of_fans_[back];
-      d.end = vertices_[back];
-      d.angle = here.angle;
+      ring.side[i] = &here;
+      ring.end_vertex[i] = vertices_[back];
+      ring.first[i] = ring.second[before] = here.length;
       if (there.is_alone) {
-        set_draft(i, here.length, of_fans_.optic(h, true), of_fans_.optic(back, true));
-        continue;
-      }
-      Side<T>& s = d.side;
-      s.length = here.length;
-      s.c = here.c, s.s = here.s, s.end_c = there.c, s.end_s = there.s;
-      s.sector = there.number, s.end_bends = there.bends ? 1 : 0;
-      for (int hand = 0; hand < 2; ++hand) {
-        s.turned[hand] = here.turned[hand], s.end_turned[hand] = there.turned[hand];
-        d.dark.here[hand] = here.dark[hand], d.dark.end[hand] = there.dark[hand];
+        look_from_alone(i, back, next, ring.end[i], ring.across[i]);
+      } else {
+        look_from_ring(there, of_fans_[next], ring.end[i], ring.across[i]);
       }
     }
-    head_.bends = of_fans_[ring[0]].bends ? 1 : 0;
-    draft_ring_updates(ring, count);
+    head_.bends = ring.side[0]->bends ? 1 : 0;
   }
 
-  // In their order: by target, then by support.
-  void draft_ring_updates(const Index* ring, Index count) {
-    DraftUpdate<T> ahead[kLanes], behind[kLanes];  // of each corner: to the end of its second side, of its first one
-    for (Index i = 0; i < count; ++i) add_corner(ring[i], i, i + 1 < count ? i + 1 : 0, ahead[i], behind[i]);
-    const auto add = [&](const DraftUpdate<T>& u) {
-      if (u.length > 0) updates_.push_back(u);
-    };
-    for (Index i = 0, before = count - 1; i < count; before = i++) {
-      const bool is_end = i == 0 || i + 1 == count;
-      add(is_end ? behind[i] : ahead[before]);
-      add(is_end ? ahead[before] : behind[i]);
+  BRUSHFIRE_INLINE static void look_from_ring(const RingSide<T>& there, const RingSide<T>& next, RingEnd<T>& e,
+                                              T& across) {
+    e.c = there.c, e.s = there.s, across = next.length;
+    e.sets = there.sets;
+    e.sector = there.number, e.bends = there.bends ? 1 : 0;
+    e.takes_ahead = !there.is_split, e.takes_behind = !next.is_split;
+    e.ahead = std::uint32_t{there.number} << Update::kSectorShift | Update::kSameTurn;
+    e.behind = std::uint32_t{next.number} << Update::kSectorShift | (next.next() == 0 ? Update::kSeam : 0);
+    e.supports_ahead = Update::kThere, e.supports_behind = 0;
+  }
+
+  // The same of an end that is no ring's; its corners beside the side are `back` and `next`.
+  [[gnu::noinline]] void look_from_alone(Index side, Index back, Index next, RingEnd<T>& e, T& across) {
+    const Optic there = of_fans_.optic(back, true);
+    e.c = static_cast<T>(there.c), e.s = static_cast<T>(there.s), across = static_cast<T>(mesh_.length(next));
+    e.sets = there.sets;
+    e.sector = static_cast<std::uint8_t>(there.sector), e.bends = of_fans_[back].bends ? 1 : 0;
+    e.takes_ahead = !of_fans_[back].is_split, e.takes_behind = !of_fans_[next].is_split;
+    const bool back_mirrored = of_fans_.is_mirrored(back), next_mirrored = of_fans_.is_mirrored(next);
+    e.ahead = back_at(back, true) | (back_mirrored ? 0 : Update::kSameTurn);
+    e.behind = back_at(next, false) | (next_mirrored ? Update::kSameTurn : 0);
+    e.supports_ahead = next_mirrored ? 0 : Update::kThere, e.supports_behind = back_mirrored ? Update::kThere : 0;
+    LensNumbers lenses;
+    std::copy_n(there.lenses, 2, lenses.end);
+    if (lenses.any()) keep_lenses(side, lenses);
+  }
+
+  BRUSHFIRE_INLINE static void find_needs(DraftRing<T>& ring) {
+    using V = lanes::portable::Lanes<T, kLanes>;
+    using lanes::portable::load, lanes::portable::store;
+    const V first = load<V>(ring.first), second = load<V>(ring.second), across = load<V>(ring.across);
+    const Need<V> ahead = need_of(second, across, first), behind = need_of(first, across, second);
+    store(ring.need_ahead, ahead.need), store(ring.bulge_ahead, ahead.bulge);
+    store(ring.need_behind, behind.need), store(ring.bulge_behind, behind.bulge);
+  }
+
+  // Over the edge before the side, and over the one behind it.
+  BRUSHFIRE_INLINE static DraftUpdate<T> ahead(const DraftRing<T>& ring, Index i) {
+    const Index before = i > 0 ? i - 1 : ring.count - 1;
+    const std::uint32_t bits = ring.end[i].ahead | ring.end[before].supports_ahead | (i == 0 ? Update::kAcross : 0);
+    return update_of<T>(before, i, bits, ring.first[before], {ring.need_ahead[before], ring.bulge_ahead[before]});
+  }
+  BRUSHFIRE_INLINE static DraftUpdate<T> behind(const DraftRing<T>& ring, Index i) {
+    const Index next = i + 1 < ring.count ? i + 1 : 0;
+    const std::uint32_t bits =
+        ring.end[i].behind | ring.end[next].supports_behind | Update::kHere | (next == 0 ? Update::kAcross : 0);
+    return update_of<T>(next, i, bits, ring.first[next], {ring.need_behind[i], ring.bulge_behind[i]});
+  }
+
+  // What is written of a vertex: the ends of its sides one by one, with the updates of each.
+  struct Pen {
+    SideEnd<T>* end;
+    Update *update, *first;
+    T reach = 0;
+
+    BRUSHFIRE_INLINE void begin_side(Index vertex, T length) {
+      *end = {vertex, length, 0, static_cast<Index>(update - first)};
+    }
+    BRUSHFIRE_INLINE void put(const DraftUpdate<T>& u) {
+      *update++ = {u.bits | u.support() << Update::kSupportShift};
+      end->need = std::min(end->need, u.need.need), end->bulge = std::max(end->bulge, u.need.bulge);
+      reach = std::max(reach, u.length);
+    }
+  };
+  static Pen pen_at(std::byte* at, Index sides) {
+    auto* const ends = reinterpret_cast<SideEnd<T>*>(at + sizeof(RecordHead<T>));
+    auto* const updates = reinterpret_cast<Update*>(ends + sides + 1);
+    return {ends, updates, updates};
+  }
+
+  BRUSHFIRE_INLINE void put_ring(const DraftRing<T>& ring, std::byte* at) {
+    Pen pen = pen_at(at, ring.count + static_cast<Index>(sides_.size()));
+    const DraftUpdate<T>*more = updates_.data(), *const end = more + updates_.size();
+    for (Index i = 0; i < ring.count; ++i) {
+      pen.begin_side(ring.end_vertex[i], ring.first[i]);
+      const RingEnd<T>& e = ring.end[i];
+      const DraftUpdate<T> before = ahead(ring, i), after = behind(ring, i);
+      if (more < end && more->target() == i) {
+        more = put_merged(before, e.takes_ahead, after, e.takes_behind, more, end, pen);
+      } else if (i == 0 || i + 1 == ring.count) {
+        if (e.takes_behind) pen.put(after);
+        if (e.takes_ahead) pen.put(before);
+      } else {
+        if (e.takes_ahead) pen.put(before);
+        if (e.takes_behind) pen.put(after);
+      }
+      ++pen.end;
+    }
+    put_drafted_ends(more, end, ring.count, pen);
+    Side<T>* side = put_head(at, pen, ring.count + static_cast<Index>(sides_.size()));
+    for (Index i = 0; i < ring.count; ++i) {
+      const RingSide<T>& here = *ring.side[i];
+      const RingEnd<T>& e = ring.end[i];
+      side[i] = {here.length,
+                 here.c,
+                 here.s,
+                 e.c,
+                 e.s,
+                 {here.sets.turned[0], here.sets.turned[1]},
+                 {e.sets.turned[0], e.sets.turned[1]},
+                 e.sector,
+                 e.bends};
+    }
+    auto* const dark = reinterpret_cast<DarkSets*>(side + head_.sides);
+    for (Index i = 0; i < ring.count; ++i) {
+      const SightSets &here = ring.side[i]->sets, &there = ring.end[i].sets;
+      dark[i] = {{here.dark[0], here.dark[1]}, {there.dark[0], there.dark[1]}};
+    }
+    put_drafts(side, dark, ring.count);
+  }
+
+  // A ring's two updates for a side and those over unrolled faces, in order. Returns the next side's.
+  const DraftUpdate<T>* put_merged(const DraftUpdate<T>& before, bool has_before, const DraftUpdate<T>& after,
+                                   bool has_after, const DraftUpdate<T>* more, const DraftUpdate<T>* end, Pen& pen) {
+    const Index target = more->target();
+    merged_.clear();
+    if (has_before) merged_.push_back(before);
+    if (has_after) merged_.push_back(after);
+    for (; more < end && more->target() == target; ++more) merged_.push_back(*more);
+    sort_updates(merged_);
+    for (const DraftUpdate<T>& u : merged_) pen.put(u);
+    return more;
+  }
+
+  // The sides that have been drafted, from number `first` on.
+  void put_drafted_ends(const DraftUpdate<T>* more, const DraftUpdate<T>* end, Index first, Pen& pen) {
+    for (const DraftSide<T>& d : sides_) {
+      pen.begin_side(d.end, d.side.length);
+      for (; more < end && more->target() == first; ++more) pen.put(*more);
+      ++first, ++pen.end;
     }
   }
 
-  // Of the corner between two sides of a regular ring. No length: there is no update.
-  void add_corner(Index h, Index first, Index second, DraftUpdate<T>& ahead, DraftUpdate<T>& behind) {
-    const Index next = Mesh::next(h), previous = Mesh::previous(h);
-    const RingSide<T>&at_p = of_fans_[next], &at_q = of_fans_[previous];
-    const T l = sides_[first].side.length, k = sides_[second].side.length;
-    const T across = at_p.is_alone ? static_cast<T>(mesh_.length(next)) : at_p.length;
-    const bool p_mirrored = of_fans_.is_mirrored(next), q_mirrored = of_fans_.is_mirrored(previous);
-    const std::uint32_t around = second == 0 ? Update::kAcross : 0;
-    if (!at_q.is_split) {
-      ahead = {first, second, around, l, need_of(k, across, l)};
-      ahead.bits |= back_at(previous, true) | (p_mirrored ? 0 : Update::kThere) | (q_mirrored ? 0 : Update::kSameTurn);
-    }
-    if (!at_p.is_split) {
-      behind = {second, first, around | Update::kHere, k, need_of(l, across, k)};
-      behind.bits |= back_at(next, false) | (q_mirrored ? Update::kThere : 0) | (p_mirrored ? Update::kSameTurn : 0);
-    }
+  // Returns where sides are to be written.
+  BRUSHFIRE_INLINE Side<T>* put_head(std::byte* at, const Pen& pen, Index sides) {
+    const auto updates = static_cast<Index>(pen.update - pen.first);
+    *pen.end = {0, std::numeric_limits<T>::max(), 0, updates};
+    head_.sides = sides, head_.reach = pen.reach;
+    std::memcpy(at, &head_, sizeof head_);
+    out_.most_sides = std::max(out_.most_sides, sides), out_.most_updates = std::max(out_.most_updates, updates);
+    const auto front = static_cast<std::size_t>(reinterpret_cast<std::byte*>(pen.update) - at);
+    return reinterpret_cast<Side<T>*>(at + aligned<T>(front));
+  }
+
+  // What has been drafted of the sides from number `first` on, and the lenses of all.
+  BRUSHFIRE_INLINE void put_drafts(Side<T>* side, DarkSets* dark, Index first) {
+    for (const DraftSide<T>& d : sides_) side[first] = d.side, dark[first] = d.dark, ++first;
+    if (head_.has_lenses == 0) return;
+    lenses_.resize(head_.sides);
+    std::copy(lenses_.begin(), lenses_.end(), reinterpret_cast<LensNumbers*>(dark + head_.sides));
+  }
+
+  void put_record(std::byte* at) {
+    const auto sides = static_cast<Index>(sides_.size());
+    Pen pen = pen_at(at, sides);
+    put_drafted_ends(updates_.data(), updates_.data() + updates_.size(), 0, pen);
+    Side<T>* const side = put_head(at, pen, sides);
+    put_drafts(side, reinterpret_cast<DarkSets*>(side + sides), 0);
   }
 
   // Of a target's corner, and the side of it back to v.
@@ -208,7 +385,9 @@ class RecordBuilder {
   void draft_alone(Index v) {
     const Fans& fans = of_fans_.alone(v).fans();
     head_.bends = fans.bends_light() ? 1 : 0;
-    sides_.assign(fans.side_count(), {});
+    sides_.resize(fans.side_count());
+    angles_.resize(fans.side_count());
+    for (DraftSide<T>& d : sides_) d = {kNoIndex, {}, {}};
     for (const Index h : mesh_.corners(v)) {
       if (mesh_.is_face_usable(Mesh::face_of(h))) add_face(h);
     }
@@ -230,31 +409,33 @@ class RecordBuilder {
     const bool mirrored = of_fans_.is_mirrored(h);
     const bool p_mirrored = of_fans_.is_mirrored(next), q_mirrored = of_fans_.is_mirrored(previous);
     if (!of_fans_[previous].is_split) {
-      DraftUpdate<T> u{own, other, back_at(previous, true), l, need_of(k, across, l)};
-      u.bits |= (mirrored ? Update::kHere : 0) | (p_mirrored ? 0 : Update::kThere) | (q_mirrored ? 0 : Update::kSameTurn);
-      add_update(u);
+      add_update(own, other,
+                 back_at(previous, true) | (mirrored ? Update::kHere : 0) | (p_mirrored ? 0 : Update::kThere) |
+                     (q_mirrored ? 0 : Update::kSameTurn),
+                 l, need_of(k, across, l));
     }
     if (!of_fans_[next].is_split) {
-      DraftUpdate<T> u{other, own, back_at(next, false), k, need_of(l, across, k)};
-      u.bits |= (mirrored ? 0 : Update::kHere) | (q_mirrored ? Update::kThere : 0) | (p_mirrored ? Update::kSameTurn : 0);
-      add_update(u);
+      add_update(other, own,
+                 back_at(next, false) | (mirrored ? 0 : Update::kHere) | (q_mirrored ? Update::kThere : 0) |
+                     (p_mirrored ? Update::kSameTurn : 0),
+                 k, need_of(l, across, k));
     }
   }
 
   // The target is less than half a turn away: if it seems to lie on the other hand, the angles began anew.
-  void add_update(DraftUpdate<T> u) {
-    if (u.support >= kMostSupports) return;
-    const float turn = sides_[u.target].angle - sides_[u.support].angle;
-    const bool right = (u.bits & Update::kHere) != 0;
-    u.bits |= (right ? turn > kTurnRounding : turn < -kTurnRounding) ? Update::kAcross : 0;
-    updates_.push_back(u);
+  void add_update(Index support, Index target, std::uint32_t bits, T length, Need<T> need) {
+    if (support >= kMostSupports) return;
+    const float turn = angles_[target] - angles_[support];
+    const bool right = (bits & Update::kHere) != 0;
+    bits |= (right ? turn > kTurnRounding : turn < -kTurnRounding) ? Update::kAcross : 0;
+    updates_.push_back(update_of(support, target, bits, length, need));
   }
 
   void set_draft(Index side, T length, const Optic& here, const Optic& there) {
     DraftSide<T>& d = sides_[side];
     LensNumbers lenses;
     set_side(length, here, there, of_fans_.bends_light(d.end), d.side, d.dark, lenses);
-    d.angle = static_cast<float>(here.angle);
+    angles_[side] = static_cast<float>(here.angle);
     if (lenses.any()) keep_lenses(side, lenses);
   }
   void keep_lenses(Index side, const LensNumbers& lenses) {
@@ -263,14 +444,15 @@ class RecordBuilder {
     head_.has_lenses = 1;
   }
 
-  // The last ones first.
-  void add_unrolled(Index v) {
-    const auto before = static_cast<Index>(sides_.size());
+  // The last ones first; behind those that have been drafted, and `written` others.
+  void add_unrolled(Index v, Index written) {
+    const auto before = written + static_cast<Index>(sides_.size());
     numbers_.clear();
     for (Index i = unroller_.first_side(v); i != kNoIndex; i = unroller_.side(i).next) {
       const UnrolledSide<T>& u = unroller_.side(i);
-      if (u.lenses != kNoIndex) keep_lenses(static_cast<Index>(sides_.size()), unroller_.lenses(u));
-      sides_.push_back({u.end, u.angle, u.side, u.dark});
+      if (u.lenses != kNoIndex) keep_lenses(written + static_cast<Index>(sides_.size()), unroller_.lenses(u));
+      sides_.push_back({u.end, u.dark, u.side});
+      angles_.push_back(u.angle);
       numbers_.push_back(i);
     }
     const auto number = [&](SideName name) {
@@ -280,7 +462,7 @@ class RecordBuilder {
     };
     for (Index i = unroller_.first_update(v); i != kNoIndex; i = unroller_.update(i).next) {
       const UnrolledUpdate<T>& u = unroller_.update(i);
-      add_update({number(u.support), number(u.target), u.update.bits, u.length, u.need});
+      add_update(number(u.support), number(u.target), u.update.bits, u.length, u.need);
     }
   }
 
@@ -291,49 +473,17 @@ class RecordBuilder {
       for (const Index g : {h, Mesh::previous(h)}) {
         const Index end = mesh_.from(g) == v ? mesh_.to(g) : mesh_.from(g);
         if (end == v) continue;
-        DraftSide<T>& d = sides_.emplace_back();
-        d.end = end;
-        d.side.length = static_cast<T>(mesh_.length(g));
-        d.side.c = d.side.end_c = 0;
-        d.side.end_bends = of_fans_.bends_light(end) ? 1 : 0;
+        Side<T> side{};
+        side.length = static_cast<T>(mesh_.length(g));
+        side.c = side.end_c = 0;
+        side.end_bends = of_fans_.bends_light(end) ? 1 : 0;
+        sides_.push_back({end, {}, side});
       }
     }
-  }
-
-  void put_record(std::byte* at) {
-    const auto sides = static_cast<Index>(sides_.size()), updates = static_cast<Index>(updates_.size());
-    head_.sides = sides;
-    for (const DraftUpdate<T>& u : updates_) head_.reach = std::max(head_.reach, u.length);
-    out_.most_sides = std::max(out_.most_sides, sides);
-    out_.most_updates = std::max(out_.most_updates, updates);
-    std::byte* const begin = at;
-    put(head_, at);
-    Index u = 0;
-    for (const DraftSide<T>& d : sides_) {
-      SideEnd<T> e{d.end, d.side.length, 0, u};
-      const auto target = static_cast<Index>(&d - sides_.data());
-      for (; u < updates && updates_[u].target == target; ++u) {
-        e.need = std::min(e.need, updates_[u].need.need), e.bulge = std::max(e.bulge, updates_[u].need.bulge);
-      }
-      put(e, at);
-    }
-    put(SideEnd<T>{0, std::numeric_limits<T>::max(), 0, u}, at);
-    for (const DraftUpdate<T>& d : updates_) put(Update{d.bits | d.support << Update::kSupportShift}, at);
-    at = begin + aligned<T>(static_cast<std::size_t>(at - begin));
-    for (const DraftSide<T>& d : sides_) put(d.side, at);
-    for (const DraftSide<T>& d : sides_) put(d.dark, at);
-    if (head_.has_lenses == 0) return;
-    lenses_.resize(sides);
-    for (const LensNumbers& l : lenses_) put(l, at);
-  }
-  template <class U>
-  static void put(const U& what, std::byte*& at) {
-    static_assert(std::is_trivially_copyable_v<U>);
-    std::memcpy(at, &what, sizeof(U));
-    at += sizeof(U);
   }
 
   const Mesh& mesh_;
+  std::span<const Index> offsets_, corners_;
   const Index* vertices_;  // of the faces: the beginning of each halfedge
   Sides<T> of_fans_;
   Unroller<T> unroller_;
@@ -342,10 +492,11 @@ class RecordBuilder {
   std::vector<bool> may_have_lenses_;  // [vertex_count]; empty: none has
   // Of the vertex at hand.
   RecordHead<T> head_;
-  std::vector<DraftSide<T>> sides_;
-  std::vector<DraftUpdate<T>> updates_;
-  std::vector<LensNumbers> lenses_;  // of the first sides; the others have none
-  std::vector<Index> numbers_;       // of its unrolled sides, descending
+  UninitializedArray<DraftSide<T>> sides_;
+  UninitializedArray<DraftUpdate<T>> updates_, merged_;
+  UninitializedArray<float> angles_;  // of sides
+  std::vector<LensNumbers> lenses_;   // of the first sides; the others have none
+  std::vector<Index> numbers_;        // of its unrolled sides, descending
 };
 
 }  // namespace

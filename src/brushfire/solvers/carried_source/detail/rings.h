@@ -1,6 +1,6 @@
-// The one-rings of most vertices, measured some at a time: inner vertices of three to eight faces in the plainest order.
-// Directions are products of the unit vectors of corners; their angles, which only say in which sectors light is dark,
-// are those of single numbers.
+// The one-rings of most vertices, measured some at a time: inner vertices of three to eight faces in the plainest
+// order. Directions are products of the unit vectors of corners; their angles, which only say in which sectors light is
+// dark, are those of single numbers.
 #pragma once
 
 #include <brushfire/solvers/carried_source/detail/sight.h>
@@ -16,10 +16,10 @@ struct Ring {
   Index count = 0;
   alignas(32) Index corner[kLanes];  // as halfedges: along side i
   alignas(64) double length[kLanes];
-  double c[kLanes + 1], s[kLanes + 1];     // directions; the last one: turned by the sum of all angles
-  alignas(32) float angle[2 * kLanes];     // of sides, and the sum of all; +inf behind
-  SectorSet turned[2][kLanes], dark[2][kLanes];  // SightSets of the sides
-  std::uint32_t obtuse = 0;                // bit i: the face of corner i is obtuse at the end of side i + 1
+  double c[kLanes + 1], s[kLanes + 1];  // directions; the last one: turned by the sum of all angles
+  alignas(32) float angle[2 * kLanes];  // of sides, and the sum of all; +inf behind
+  SightSets sets[kLanes];               // of the sides
+  std::uint32_t obtuse = 0;             // bit i: the face of corner i is obtuse at the end of side i + 1
 };
 
 // As fast_marching::kRightAngle: rounding of coordinates tilts right angles by less.

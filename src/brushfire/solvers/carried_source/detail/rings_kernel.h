@@ -4,7 +4,8 @@ using namespace lanes::BRUSHFIRE_TARGET;
 using fast_marching::BRUSHFIRE_TARGET::RegularRing;
 
 // Unit vectors of the corners, and their angles; lanes that are not used are void.
-BRUSHFIRE_INLINE void measure_corners(const RegularRing<double>& lanes, Ring& ring, double* c, double* s, float* angle) {
+BRUSHFIRE_INLINE void measure_corners(const RegularRing<double>& lanes, Ring& ring, double* c, double* s,
+                                      float* angle) {
   using Wide = Lanes<double, kLanes>;
   const auto m = lanes.measures();
   ring.count = m.count;
@@ -32,24 +33,48 @@ BRUSHFIRE_INLINE void add_up(Ring& ring, const double* c, const double* s, const
   for (Index i = ring.count + 1; i < 2 * kLanes; ++i) ring.angle[i] = std::numeric_limits<float>::infinity();
 }
 
-// As sight_of() has it, of all sectors at once: sector k reaches from side k to side k + 1.
-BRUSHFIRE_INLINE void find_sets(Ring& ring) {
+// As sight_of() has it, of all sectors at once: sector k reaches from angle k to angle k + 1; `before` and `behind` the
+// direction. kSaddle: all of them together are more than a full turn.
+template <bool kSaddle>
+BRUSHFIRE_INLINE SightSets sets_at(float at, const float* angle, Index count, std::uint32_t before,
+                                   std::uint32_t behind) {
   using V = Lanes<float, kLanes>;
   constexpr float kHalf = static_cast<float>(kPi), kTurn = static_cast<float>(2 * kPi);
-  const V low = load<V>(ring.angle), high = load<V>(ring.angle + 1);
-  const float rest = ring.angle[ring.count] - kHalf;
+  const V low = load<V>(angle), high = load<V>(angle + 1);
+  const float rest = angle[count] - kHalf;
+  const std::uint32_t left = behind & bits(V(at + rest) < high), right = before & bits(low < V(at - rest));
+  // What begins more than half a turn before, and what ends more than that behind.
+  const std::uint32_t far_before = bits(low < V(at - kHalf)), far_behind = bits(V(at + kHalf) < high);
+  std::uint32_t left_dark = before & far_before >> 1, right_dark = behind & far_behind << 1;
+  if constexpr (kSaddle) {
+    left_dark |= before & bits(low < V(at - kTurn));
+    right_dark |= behind & bits(V(at + kTurn) < high);
+  }
+  left_dark |= behind & ~left & far_behind, right_dark |= before & ~right & far_before;
+  return {{static_cast<SectorSet>(left), static_cast<SectorSet>(right)},
+          {static_cast<SectorSet>(left_dark), static_cast<SectorSet>(right_dark)}};
+}
+
+template <bool kSaddle>
+BRUSHFIRE_INLINE void find_sets(Ring& ring) {
   const std::uint32_t all = (1u << ring.count) - 1;
   for (Index i = 0; i < ring.count; ++i) {
-    const float at = ring.angle[i];
-    const std::uint32_t before = (1u << i) - 1, behind = all & ~before;
-    const std::uint32_t left = behind & bits(V(at + rest) < high), right = before & bits(low < V(at - rest));
-    const std::uint32_t left_dark = (before & (bits(high < V(at - kHalf)) | bits(low < V(at - kTurn)))) |
-                                    (behind & ~left & bits(V(at + kHalf) < high));
-    const std::uint32_t right_dark = (behind & (bits(V(at + kHalf) < low) | bits(V(at + kTurn) < high))) |
-                                     (before & ~right & bits(low < V(at - kHalf)));
-    ring.turned[0][i] = static_cast<SectorSet>(left), ring.turned[1][i] = static_cast<SectorSet>(right);
-    ring.dark[0][i] = static_cast<SectorSet>(left_dark), ring.dark[1][i] = static_cast<SectorSet>(right_dark);
+    const std::uint32_t before = (1u << i) - 1;
+    ring.sets[i] = sets_at<kSaddle>(ring.angle[i], ring.angle, ring.count, before, all & ~before);
   }
+}
+
+// The same of a direction inside of a sector.
+inline SightSets sets_inside(Index sector, float at, const float* angle, Index count) {
+  const std::uint32_t all = (1u << count) - 1, before = (1u << sector) - 1;
+  return sets_at<true>(at, angle, count, before, all & ~(2 * before + 1));
+}
+
+// The sector that holds an angle.
+inline Index sector_at(float at, const float* angle, Index count) {
+  using V = Lanes<float, kLanes>;
+  const std::uint32_t begun = bits(load<V>(angle) <= V(at)) & ((1u << count) - 1);
+  return begun == 0 ? 0 : static_cast<Index>(std::bit_width(begun)) - 1;
 }
 
 // Of vertices first .. first + count - 1; count <= kRingsAtOnce. Stage by stage, for all vertices each.
@@ -78,7 +103,12 @@ inline void measure_rings(const RingMesh& mesh, Index first, Index count, Ring* 
     if (rings[i].is_regular) add_up(rings[i], c[i], s[i], angle[i]);
   }
   for (Index i = 0; i < count; ++i) {
-    if (rings[i].is_regular) find_sets(rings[i]);
+    if (!rings[i].is_regular) continue;
+    if (rings[i].angle[rings[i].count] > static_cast<float>(2 * kPi)) {
+      find_sets<true>(rings[i]);
+    } else {
+      find_sets<false>(rings[i]);
+    }
   }
 }
 

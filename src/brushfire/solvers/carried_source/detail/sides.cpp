@@ -3,16 +3,17 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/detail/prefault.h>
-#include <brushfire/solvers/fast_marching/detail/angle.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <span>
 
 namespace brushfire::carried_source {
 namespace {
 
-constexpr double kTurnRounding = 1e-9;  // of angles, by far
+constexpr double kTurnRounding = 1e-9;   // of angles, by far
 constexpr double kQuickRounding = 1e-6;  // of quick ones
 
 // Whether the angles of a ring sum to more than a full turn: where they seem to sum to one, their vector tells.
@@ -29,12 +30,12 @@ Sides<T>::Sides(const Mesh& mesh)
     : mesh_(mesh),
       sides_(mesh.halfedge_count()),
       around_(mesh.vertex_count()),
+      sums_(mesh.vertex_count()),
       alone_of_(mesh.vertex_count(), kNoIndex),
       fans_(mesh) {
   prefault(sides_);
-  const RingMesh shape{mesh.positions(),     mesh.faces(),    mesh.corner_offsets(),
-                       mesh.all_corners(),   1 / mesh.unit(), mesh.vertex_count(),
-                       mesh.has_positions()};
+  const RingMesh shape{mesh.positions(), mesh.faces(),        mesh.corner_offsets(), mesh.all_corners(),
+                       1 / mesh.unit(),  mesh.vertex_count(), mesh.has_positions()};
   Ring rings[kRingsAtOnce];
   Poll poll{256};
   for (Index first = 0; first < shape.none; first += kRingsAtOnce) {
@@ -72,11 +73,12 @@ void Sides<T>::take(Index v, const Ring& ring) {
     side.length = static_cast<T>(ring.length[i]);
     sum_of_lengths_ += ring.length[i];
     side.angle = ring.angle[i];
-    for (int hand = 0; hand < 2; ++hand) side.turned[hand] = ring.turned[hand][i], side.dark[hand] = ring.dark[hand][i];
+    side.sets = ring.sets[i];
     side.number = static_cast<std::uint8_t>(i), side.count = static_cast<std::uint8_t>(ring.count);
     side.bends = is_bending, side.is_alone = false, side.is_split = false;
   }
   around_[v] = {static_cast<T>(ring.c[ring.count]), static_cast<T>(ring.s[ring.count])};
+  sums_[v] = ring.angle[ring.count];
   for (std::uint32_t set = ring.obtuse; set != 0; set &= set - 1) {
     const auto i = static_cast<Index>(std::countr_zero(set));
     const Index behind = Mesh::previous(ring.corner[i == 0 ? ring.count - 1 : i - 1]);
@@ -117,24 +119,6 @@ bool Sides<T>::bends_light(Index v) const {
 }
 
 template <class T>
-Index Sides<T>::number(Index corner, bool own) const {
-  const RingSide<T>& side = sides_[corner];
-  if (side.is_alone) return alone(mesh_.from(corner)).fans().side(corner, own);
-  return own ? side.number : side.next();
-}
-
-template <class T>
-Index Sides<T>::sector(Index corner) const {
-  const RingSide<T>& side = sides_[corner];
-  return side.is_alone ? alone(mesh_.from(corner)).fans().corner(corner).sector : side.number;
-}
-
-template <class T>
-bool Sides<T>::is_mirrored(Index corner) const {
-  return sides_[corner].is_alone && alone(mesh_.from(corner)).fans().corner(corner).mirrored;
-}
-
-template <class T>
 bool Sides<T>::is_seam(Index corner, bool own) const {
   const RingSide<T>& side = sides_[corner];
   if (!side.is_alone) return !own && side.next() == 0;
@@ -153,7 +137,7 @@ Optic Sides<T>::optic(Index corner, bool own) const {
   Optic o;
   o.angle = static_cast<double>(side.angle), o.c = static_cast<double>(side.c), o.s = static_cast<double>(side.s);
   o.sector = side.number;
-  std::copy_n(side.turned, 2, o.sets.turned), std::copy_n(side.dark, 2, o.sets.dark);
+  o.sets = side.sets;
   return o;
 }
 
@@ -167,43 +151,27 @@ Heading Sides<T>::first_side(Index corner) const {
   return {{std::cos(c.low), std::sin(c.low)}, c.low, c.fan};
 }
 
-// Of a regular ring.
-template <class T>
-std::span<const Sector> Sides<T>::sectors(Index v, std::array<Sector, kSectors>& ring) const {
-  const std::span<const Index> corners = mesh_.corners(v);
-  const std::size_t count = corners.size();
-  const RingSide<T>* last = nullptr;
-  for (const Index h : corners) {
-    const RingSide<T>& side = sides_[h];
-    const auto low = static_cast<double>(side.angle);
-    ring[side.number].low = low;
-    ring[side.number == 0 ? count - 1 : side.number - 1u].high = low;
-    if (side.number + 1u == count) last = &side;
-  }
-  const Vec2 from{static_cast<double>(last->c), static_cast<double>(last->s)};
-  const Vec2 to{static_cast<double>(around_[v].c), static_cast<double>(around_[v].s)};
-  const double around = static_cast<double>(last->angle) +
-                        fast_marching::portable::quick_angle(dot(from, to), std::abs(cross(from, to)));
-  ring[count - 1].high = around;
-  for (std::size_t k = 0; k < count; ++k) ring[k].around = around;
-  return std::span(ring).first(count);
-}
-
 template <class T>
 Optic Sides<T>::optic(Index v, const Heading& heading) {
   if (is_alone(v)) {
     const VertexOptics& optics = alone(v);
     return optics.in_direction(within(optics.fans().sectors(), heading.fan, heading.angle), lenses_);
   }
-  std::array<Sector, kSectors> ring;
-  const std::span<const Sector> all = sectors(v, ring);
-  const Direction at = within(all, 0, heading.angle, kQuickRounding);
+  alignas(32) float angle[2 * kLanes];
+  const std::span<const Index> corners = mesh_.corners(v);
+  const auto count = static_cast<Index>(corners.size());
+  for (const Index h : corners) angle[sides_[h].number] = sides_[h].angle;
+  const float sum = sums_[v];
+  for (Index i = count; i < 2 * kLanes; ++i) angle[i] = i == count ? sum : std::numeric_limits<float>::infinity();
+  // As within(), with the vector, too.
+  const double turns = std::floor((heading.angle + kQuickRounding) / static_cast<double>(sum));
+  const float at = static_cast<float>(std::max(0.0, heading.angle - turns * static_cast<double>(sum)));
   Optic o;
-  o.angle = at.angle, o.sector = at.sector;
-  o.sets = sight_of(all, at.angle);
+  o.angle = static_cast<double>(at);
+  o.sector = portable::sector_at(at, angle, count);
+  o.sets = portable::sets_inside(o.sector, at, angle, count);
   o.c = heading.unit.x, o.s = heading.unit.y;
   const double c = static_cast<double>(around_[v].c), s = static_cast<double>(around_[v].s);
-  const double sum = all.front().around, turns = std::round((heading.angle - at.angle) / sum);
   for (double k = 0; k < std::abs(turns); ++k) {
     const double sine = turns > 0 ? -s : s, x = o.c;
     o.c = x * c - o.s * sine, o.s = x * sine + o.s * c;

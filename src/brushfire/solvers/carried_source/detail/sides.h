@@ -2,14 +2,12 @@
 // it.
 #pragma once
 
-#include <brushfire/core/detail/targets.h>
+#include <brushfire/core/detail/inline.h>
 #include <brushfire/core/detail/uninitialized.h>
 #include <brushfire/solvers/carried_source/detail/optics.h>
 #include <brushfire/solvers/carried_source/detail/records.h>
 #include <brushfire/solvers/carried_source/detail/rings.h>
 
-#include <array>
-#include <span>
 #include <vector>
 
 namespace brushfire::carried_source {
@@ -19,13 +17,13 @@ template <class T>
 struct RingSide {
   T c = 1, s = 0, length = 0;
   float angle = 0;
-  SectorSet turned[2] = {0, 0}, dark[2] = {0, 0};
+  SightSets sets;
   std::uint8_t number = 0, count = 0;  // the side's, and the corner's, of so many at the vertex
   bool bends = false;                  // Fans::bends_light()
   bool is_alone = false;               // the vertex has no regular ring: all else is void, but for is_split
   bool is_split = false;               // the corner is obtuse, and unrolled into acute ones
 
-  Index next() const { return number + 1u == count ? 0 : number + Index{1}; }
+  BRUSHFIRE_INLINE Index next() const { return number + 1u == count ? 0 : number + Index{1}; }
 };
 
 // A side of a record, as both ends see it.
@@ -70,9 +68,18 @@ class Sides {
   bool is_odd(Index v) const { return is_alone(v) && alone(v).fans().is_odd(); }
 
   // Of a corner and its two sides, as Fans has them.
-  Index number(Index corner, bool own) const;
-  Index sector(Index corner) const;
-  bool is_mirrored(Index corner) const;
+  Index number(Index corner, bool own) const {
+    const RingSide<T>& side = sides_[corner];
+    if (side.is_alone) return alone(mesh_.from(corner)).fans().side(corner, own);
+    return own ? side.number : side.next();
+  }
+  Index sector(Index corner) const {
+    const RingSide<T>& side = sides_[corner];
+    return side.is_alone ? alone(mesh_.from(corner)).fans().corner(corner).sector : side.number;
+  }
+  bool is_mirrored(Index corner) const {
+    return sides_[corner].is_alone && alone(mesh_.from(corner)).fans().corner(corner).mirrored;
+  }
   bool is_seam(Index corner, bool own) const;
   Optic optic(Index corner, bool own) const;
 
@@ -90,11 +97,11 @@ class Sides {
   void take(Index v, const Ring& ring);
   bool is_slit(const Ring& ring) const;
   void lay_out_alone(Index v);
-  std::span<const Sector> sectors(Index v, std::array<Sector, kSectors>& ring) const;
 
   const Mesh& mesh_;
   UninitializedArray<RingSide<T>> sides_;  // by halfedge
   std::vector<Around<T>> around_;          // [vertex_count]
+  std::vector<float> sums_;                // [vertex_count] of the angles of regular rings
   std::vector<Index> alone_of_;            // [vertex_count] the number in alone_; kNoIndex: a regular ring
   std::vector<VertexOptics> alone_;
   FanBuilder fans_;

@@ -65,11 +65,10 @@ typename Unroller<T>::Anchor Unroller<T>::anchor(Index corner, bool mirrored, Ve
 }
 
 template <class T>
-Heading Unroller<T>::heading(const Anchor& from, Vec2 towards) const {
-  const Vec2 turn = turned_back(from.in_plane, unit(towards - from.at));
-  const double size = of_fans_.is_alone(from.vertex)
-                          ? std::atan2(std::abs(turn.y), turn.x)
-                          : fast_marching::portable::quick_angle(turn.x, std::abs(turn.y));
+Heading Unroller<T>::heading(const Anchor& from, Vec2 way) const {
+  const Vec2 turn = turned_back(from.in_plane, way);
+  const double size = of_fans_.is_alone(from.vertex) ? std::atan2(std::abs(turn.y), turn.x)
+                                                     : fast_marching::portable::quick_angle(turn.x, std::abs(turn.y));
   Heading h = from.heading;
   h.unit = from.same_turn ? turned(turn, h.unit) : turned_back(turn, h.unit);
   h.angle += (turn.y < 0) == from.same_turn ? -size : size;
@@ -78,8 +77,9 @@ Heading Unroller<T>::heading(const Anchor& from, Vec2 towards) const {
 
 template <class T>
 typename Unroller<T>::Made Unroller<T>::make_side(const Anchor& from, const Anchor& to, double length) {
-  const Optic here = of_fans_.optic(from.vertex, heading(from, to.at));
-  const Heading back = heading(to, from.at);
+  const Vec2 way = unit(to.at - from.at);
+  const Optic here = of_fans_.optic(from.vertex, heading(from, way));
+  const Heading back = heading(to, {-way.x, -way.y});
   const Optic there = of_fans_.optic(to.vertex, back);
   UnrolledSide<T>& s = sides_.emplace_back();
   const auto number = static_cast<Index>(sides_.size() - 1);
@@ -131,7 +131,8 @@ bool Unroller<T>::unroll(const ObtuseCorner& obtuse, int most, int& crossed) {
   const Vec2 at_left = apex_over_edge(own.length, own.previous, own.next, own.double_area);
   const Anchor corner = anchor(h, false, {0, 0}, at_right, at_left);
   // What is left of the angle lies between right and left; the edge between right_end and left_end is crossed next.
-  Anchor right = anchor(across, false, at_right, at_left, {0, 0}), left = anchor(third, false, at_left, {0, 0}, at_right);
+  Anchor right = anchor(across, false, at_right, at_left, {0, 0}),
+         left = anchor(third, false, at_left, {0, 0}, at_right);
   right.to_corner = SideName::of_fan(of_fans_.number(across, false)), right.ends_at_seam = of_fans_.is_seam(h, true);
   left.to_corner = SideName::of_fan(of_fans_.number(third, true)), left.ends_at_seam = of_fans_.is_seam(h, false);
   Anchor right_end = right, left_end = left;

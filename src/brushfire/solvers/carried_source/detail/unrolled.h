@@ -77,7 +77,7 @@ class Unroller {
     bool ends_at_seam = false;  // as its update says it
   };
   Anchor anchor(Index corner, bool mirrored, Vec2 at, Vec2 next, Vec2 previous) const;
-  Heading heading(const Anchor& from, Vec2 towards) const;
+  Heading heading(const Anchor& from, Vec2 way) const;
   bool unroll(const ObtuseCorner& obtuse, int most, int& crossed);
   void add_triangle(const Anchor& corner, Anchor& right, Anchor& left, Index right_edge, Index left_edge);
   void add_update(const Anchor& corner, Anchor& own, Anchor& other, bool is_right, Index edge);
