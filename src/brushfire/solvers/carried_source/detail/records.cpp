@@ -48,6 +48,15 @@ template <class T>
 bool comes_before(const DraftUpdate<T>& a, const DraftUpdate<T>& b) {
   return a.order < b.order || (a.order == b.order && a.length < b.length);
 }
+// What a ring's side is offered over one of the edges beside it.
+template <class T>
+struct RingUpdate {
+  Index support;
+  std::uint32_t bits;
+  T length;
+  Need<T> need;
+};
+
 // Few, most of them in order.
 template <class T>
 void sort_updates(UninitializedArray<DraftUpdate<T>>& updates) {
@@ -253,16 +262,14 @@ class RecordBuilder {
   }
 
   // Over the edge before the side, and over the one behind it.
-  BRUSHFIRE_INLINE static DraftUpdate<T> ahead(const DraftRing<T>& ring, Index i) {
-    const Index before = i > 0 ? i - 1 : ring.count - 1;
+  BRUSHFIRE_INLINE static RingUpdate<T> ahead(const DraftRing<T>& ring, Index i, Index before) {
     const std::uint32_t bits = ring.end[i].ahead | ring.end[before].supports_ahead | (i == 0 ? Update::kAcross : 0);
-    return update_of<T>(before, i, bits, ring.first[before], {ring.need_ahead[before], ring.bulge_ahead[before]});
+    return {before, bits, ring.first[before], {ring.need_ahead[before], ring.bulge_ahead[before]}};
   }
-  BRUSHFIRE_INLINE static DraftUpdate<T> behind(const DraftRing<T>& ring, Index i) {
-    const Index next = i + 1 < ring.count ? i + 1 : 0;
+  BRUSHFIRE_INLINE static RingUpdate<T> behind(const DraftRing<T>& ring, Index i, Index next) {
     const std::uint32_t bits =
         ring.end[i].behind | ring.end[next].supports_behind | Update::kHere | (next == 0 ? Update::kAcross : 0);
-    return update_of<T>(next, i, bits, ring.first[next], {ring.need_behind[i], ring.bulge_behind[i]});
+    return {next, bits, ring.first[next], {ring.need_behind[i], ring.bulge_behind[i]}};
   }
 
   // What is written of a vertex: the ends of its sides one by one, with the updates of each.
@@ -274,11 +281,12 @@ class RecordBuilder {
     BRUSHFIRE_INLINE void begin_side(Index vertex, T length) {
       *end = {vertex, length, 0, static_cast<Index>(update - first)};
     }
-    BRUSHFIRE_INLINE void put(const DraftUpdate<T>& u) {
-      *update++ = {u.bits | u.support() << Update::kSupportShift};
+    BRUSHFIRE_INLINE void put(const RingUpdate<T>& u) {
+      *update++ = {u.bits | u.support << Update::kSupportShift};
       end->need = std::min(end->need, u.need.need), end->bulge = std::max(end->bulge, u.need.bulge);
       reach = std::max(reach, u.length);
     }
+    void put(const DraftUpdate<T>& u) { put(RingUpdate<T>{u.support(), u.bits, u.length, u.need}); }
   };
   static Pen pen_at(std::byte* at, Index sides) {
     auto* const ends = reinterpret_cast<SideEnd<T>*>(at + sizeof(RecordHead<T>));
@@ -289,18 +297,22 @@ class RecordBuilder {
   BRUSHFIRE_INLINE void put_ring(const DraftRing<T>& ring, std::byte* at) {
     Pen pen = pen_at(at, ring.count + static_cast<Index>(sides_.size()));
     const DraftUpdate<T>*more = updates_.data(), *const end = more + updates_.size();
-    for (Index i = 0; i < ring.count; ++i) {
+    for (Index i = 0, before = ring.count - 1; i < ring.count; before = i++) {
       pen.begin_side(ring.end_vertex[i], ring.first[i]);
-      const RingEnd<T>& e = ring.end[i];
-      const DraftUpdate<T> before = ahead(ring, i), after = behind(ring, i);
+      const Index next = i + 1 < ring.count ? i + 1 : 0;
+      const RingUpdate<T> over_before = ahead(ring, i, before), over_next = behind(ring, i, next);
+      const bool takes_before = ring.end[i].takes_ahead, takes_next = ring.end[i].takes_behind;
       if (more < end && more->target() == i) {
-        more = put_merged(before, e.takes_ahead, after, e.takes_behind, more, end, pen);
-      } else if (i == 0 || i + 1 == ring.count) {
-        if (e.takes_behind) pen.put(after);
-        if (e.takes_ahead) pen.put(before);
+        merged_.clear();
+        if (takes_before) merged_.push_back(as_draft(over_before, i));
+        if (takes_next) merged_.push_back(as_draft(over_next, i));
+        more = put_merged(i, more, end, pen);
+      } else if (before < next) {
+        if (takes_before) pen.put(over_before);
+        if (takes_next) pen.put(over_next);
       } else {
-        if (e.takes_ahead) pen.put(before);
-        if (e.takes_behind) pen.put(after);
+        if (takes_next) pen.put(over_next);
+        if (takes_before) pen.put(over_before);
       }
       ++pen.end;
     }
@@ -309,31 +321,28 @@ class RecordBuilder {
     for (Index i = 0; i < ring.count; ++i) {
       const RingSide<T>& here = *ring.side[i];
       const RingEnd<T>& e = ring.end[i];
-      side[i] = {here.length,
-                 here.c,
-                 here.s,
-                 e.c,
-                 e.s,
-                 {here.sets.turned[0], here.sets.turned[1]},
-                 {e.sets.turned[0], e.sets.turned[1]},
-                 e.sector,
-                 e.bends};
+      Side<T>& to = side[i];
+      to.length = here.length;
+      to.c = here.c, to.s = here.s, to.end_c = e.c, to.end_s = e.s;
+      std::memcpy(to.turned, here.sets.turned, sizeof to.turned);
+      std::memcpy(to.end_turned, e.sets.turned, sizeof to.end_turned);
+      to.sector = e.sector, to.end_bends = e.bends;
     }
     auto* const dark = reinterpret_cast<DarkSets*>(side + head_.sides);
     for (Index i = 0; i < ring.count; ++i) {
       const SightSets &here = ring.side[i]->sets, &there = ring.end[i].sets;
-      dark[i] = {{here.dark[0], here.dark[1]}, {there.dark[0], there.dark[1]}};
+      std::memcpy(dark[i].here, here.dark, sizeof here.dark);
+      std::memcpy(dark[i].end, there.dark, sizeof there.dark);
     }
     put_drafts(side, dark, ring.count);
   }
 
-  // A ring's two updates for a side and those over unrolled faces, in order. Returns the next side's.
-  const DraftUpdate<T>* put_merged(const DraftUpdate<T>& before, bool has_before, const DraftUpdate<T>& after,
-                                   bool has_after, const DraftUpdate<T>* more, const DraftUpdate<T>* end, Pen& pen) {
-    const Index target = more->target();
-    merged_.clear();
-    if (has_before) merged_.push_back(before);
-    if (has_after) merged_.push_back(after);
+  static DraftUpdate<T> as_draft(const RingUpdate<T>& u, Index target) {
+    return update_of<T>(u.support, target, u.bits, u.length, u.need);
+  }
+
+  // A ring's updates for a side and those over unrolled faces, in order. Returns the next side's.
+  const DraftUpdate<T>* put_merged(Index target, const DraftUpdate<T>* more, const DraftUpdate<T>* end, Pen& pen) {
     for (; more < end && more->target() == target; ++more) merged_.push_back(*more);
     sort_updates(merged_);
     for (const DraftUpdate<T>& u : merged_) pen.put(u);

@@ -45,6 +45,7 @@ Unroller<T>::Unroller(const Mesh& mesh, Sides<T>& sides)
 template <class T>
 void Unroller<T>::unroll_all() {
   detail::UnfoldingLimit limit(mesh_.face_count());
+  sides_.reserve(of_fans_.obtuse().size()), updates_.reserve(4 * of_fans_.obtuse().size());
   Poll poll{256};
   for (const ObtuseCorner& obtuse : of_fans_.obtuse()) {
     poll();
@@ -60,16 +61,15 @@ void Unroller<T>::unroll_all() {
 template <class T>
 typename Unroller<T>::Anchor Unroller<T>::anchor(Index corner, bool mirrored, Vec2 at, Vec2 next, Vec2 previous) const {
   const bool same_turn = of_fans_.is_mirrored(corner) == mirrored;
-  const Vec2 along = (same_turn ? next : previous) - at;
-  return {mesh_.from(corner), corner, at, same_turn, of_fans_.first_side(corner), unit(along), {}, false};
+  return {{mesh_.from(corner), at}, corner, same_turn, (same_turn ? next : previous) - at, {}, false};
 }
 
 template <class T>
 Heading Unroller<T>::heading(const Anchor& from, Vec2 way) const {
-  const Vec2 turn = turned_back(from.in_plane, way);
+  const Vec2 turn = turned_back(unit(from.along), way);
   const double size = of_fans_.is_alone(from.vertex) ? std::atan2(std::abs(turn.y), turn.x)
                                                      : fast_marching::portable::quick_angle(turn.x, std::abs(turn.y));
-  Heading h = from.heading;
+  Heading h = of_fans_.first_side(from.corner);
   h.unit = from.same_turn ? turned(turn, h.unit) : turned_back(turn, h.unit);
   h.angle += (turn.y < 0) == from.same_turn ? -size : size;
   return h;
@@ -87,7 +87,7 @@ typename Unroller<T>::Made Unroller<T>::make_side(const Anchor& from, const Anch
   s.end = to.vertex;
   s.angle = static_cast<float>(here.angle);
   LensNumbers lenses;
-  set_side(static_cast<T>(length), here, there, of_fans_.bends_light(to.vertex), s.side, s.dark, lenses);
+  set_side(static_cast<T>(length), here, there, of_fans_[to.corner].bends, s.side, s.dark, lenses);
   if (lenses.any()) s.lenses = static_cast<Index>(lenses_.size()), lenses_.push_back(lenses);
   constexpr double kWholeTurn = 1e-3;  // or less than nothing
   return {SideName::unrolled(number), back.angle - there.angle > kWholeTurn};
@@ -135,7 +135,7 @@ bool Unroller<T>::unroll(const ObtuseCorner& obtuse, int most, int& crossed) {
          left = anchor(third, false, at_left, {0, 0}, at_right);
   right.to_corner = SideName::of_fan(of_fans_.number(across, false)), right.ends_at_seam = of_fans_.is_seam(h, true);
   left.to_corner = SideName::of_fan(of_fans_.number(third, true)), left.ends_at_seam = of_fans_.is_seam(h, false);
-  Anchor right_end = right, left_end = left;
+  Place right_end = right, left_end = left;
   Index over = across;
   double over_length = own.next;
   for (crossed = 0; crossed < most && over_length > 0;) {

@@ -66,13 +66,15 @@ class Unroller {
   int most_crossed() const { return most_crossed_; }  // faces behind one corner
 
  private:
-  // A vertex of the unrolled faces, and how its fan lies in the plane.
-  struct Anchor {
-    Index vertex = kNoIndex, corner = kNoIndex;
+  struct Place {
+    Index vertex = kNoIndex;
     Vec2 at;
-    bool same_turn = true;  // whether its angles run counter-clockwise in the plane
-    Heading heading;        // of the side that lies along `in_plane`
-    Vec2 in_plane;
+  };
+  // A vertex of the unrolled faces, and how its fan lies in the plane.
+  struct Anchor : Place {
+    Index corner = kNoIndex;
+    bool same_turn = true;      // whether its angles run counter-clockwise in the plane
+    Vec2 along;                 // the first side of the corner
     SideName to_corner;         // its side to the obtuse corner
     bool ends_at_seam = false;  // as its update says it
   };
