@@ -4,9 +4,9 @@
 //
 // VERTICES holds float64 x y z, FACES int32 triples (raw, little endian), as make_arrays writes them. METHOD is as for
 // time_solver. The source moves to 41 places inside faces, spread over the mesh; each time the whole field is updated,
-// on one thread and on THREADS, in turns; and then a disc is read that holds some DISC vertices. Medians: processor
-// time in milliseconds, and by the wall clock where several threads are compared with one. Allocations are those of the
-// second round of places.
+// on one thread and on THREADS (0: not at all); and then a disc is read that holds some DISC vertices. Medians:
+// processor time in milliseconds, and by the wall clock where several threads are compared with one. Allocations are
+// those of the second round of places.
 #include <brushfire/core/error.h>
 #include <brushfire/core/types.h>
 #include <brushfire/solvers/distance.h>
@@ -108,7 +108,8 @@ int run(int count, char** arguments) {
     const double began = cpu_seconds();
     solver.set_up(options_named(method));
     std::printf("%-22s set-up %7.1f ms\n", method.c_str(), 1e3 * (cpu_seconds() - began));
-    measure_fields(solver, method, static_cast<unsigned>(std::stoul(arguments[3])));
+    const auto threads = static_cast<unsigned>(std::stoul(arguments[3]));
+    if (threads > 0) measure_fields(solver, method, threads);
     measure_discs(solver, method, std::stod(arguments[4]));
   }
   return 0;
