@@ -23,7 +23,7 @@
 
 namespace brushfire {
 
-using detail::checked_copy, detail::power_of_two_below, detail::unit_from_positions, detail::geometry_from_positions;
+using detail::checked_copy, detail::unit_from_positions, detail::geometry_from_positions;
 using detail::kMostCoordinate, detail::KeptArray, detail::Geometry, detail::length_of, detail::scaled_difference;
 
 // What the caller gave, and what follows from the faces alone; shared by meshes that differ in slits only.
@@ -37,8 +37,6 @@ struct Mesh::Arrays {
 
   Lazy<detail::VertexCorners> corners;
   mutable std::atomic<bool> searched = false;  // first_corner() has been called
-
-  double unit_from_lengths() const;
 };
 
 struct Mesh::Data {
@@ -73,7 +71,7 @@ struct Mesh::Data {
   double get_unit() const {
     return unit.get([this] {
       return arrays->has_positions ? unit_from_positions(arrays->positions, arrays->faces, arrays->bounds)
-                                   : arrays->unit_from_lengths();
+                                   : detail::unit_from_lengths(arrays->input_lengths);
     });
   }
 
@@ -131,14 +129,6 @@ void Mesh::Data::check_lengths() const {
       throw_length_error(f, "lengths break the triangle inequality");
     }
   }
-}
-
-double Mesh::Arrays::unit_from_lengths() const {
-  double sum = 0, largest = 0;
-  for (const double l : input_lengths) largest = std::max(largest, l);
-  const double scale = 1 / power_of_two_below(largest);
-  for (const double l : input_lengths) sum += l * scale;
-  return input_lengths.empty() ? 1 : power_of_two_below(sum / static_cast<double>(input_lengths.size()) / scale);
 }
 
 Geometry Mesh::Data::geometry_from_lengths(const std::vector<double>& input_lengths) const {

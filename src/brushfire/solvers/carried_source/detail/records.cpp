@@ -4,8 +4,9 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/detail/prefault.h>
-#include <brushfire/core/detail/sort.h>
 #include <brushfire/solvers/carried_source/detail/need.h>
+#include <brushfire/solvers/carried_source/detail/record_draft.h>
+#include <brushfire/solvers/carried_source/detail/ring_draft.h>
 #include <brushfire/solvers/carried_source/detail/sides.h>
 #include <brushfire/solvers/carried_source/detail/unrolled.h>
 
@@ -21,91 +22,6 @@ namespace {
 
 constexpr float kTurnRounding = 1e-6f;  // of quick angles
 constexpr Index kMostSupports = Index{1} << (32 - Update::kSupportShift);
-
-template <class T>
-struct DraftSide {
-  Index end;
-  DarkSets dark;
-  Side<T> side;
-};
-
-template <class T>
-struct DraftUpdate {
-  std::uint64_t order;  // by target, then support, then sector
-  std::uint32_t bits;   // of an Update, but for the support
-  T length;             // of the edge
-  Need<T> need;
-
-  Index target() const { return static_cast<Index>(order >> 32); }
-  Index support() const { return static_cast<Index>(order) >> 4; }
-};
-template <class T>
-BRUSHFIRE_INLINE DraftUpdate<T> update_of(Index support, Index target, std::uint32_t bits, T length, Need<T> need) {
-  const std::uint32_t sector = bits >> Update::kSectorShift & 15u;
-  return {std::uint64_t{target} << 32 | support << 4 | sector, bits, length, need};
-}
-template <class T>
-bool comes_before(const DraftUpdate<T>& a, const DraftUpdate<T>& b) {
-  return a.order < b.order || (a.order == b.order && a.length < b.length);
-}
-// What a ring's side is offered over one of the edges beside it.
-template <class T>
-struct RingUpdate {
-  Index support;
-  std::uint32_t bits;
-  T length;
-  Need<T> need;
-};
-
-// Few, most of them in order.
-template <class T>
-void sort_updates(UninitializedArray<DraftUpdate<T>>& updates) {
-  constexpr std::size_t kFew = 64;
-  if (updates.size() > kFew) return detail::sort(updates.begin(), updates.end(), comes_before<T>);
-  for (std::size_t i = 1; i < updates.size(); ++i) {
-    const DraftUpdate<T> u = updates[i];
-    std::size_t at = i;
-    for (; at > 0 && comes_before(u, updates[at - 1]); --at) updates[at] = updates[at - 1];
-    updates[at] = u;
-  }
-}
-
-// What the end of a ring's side knows of the way back, and of the two updates whose target it is: over the edge before
-// the side, and over the one behind it.
-template <class T>
-struct RingEnd {
-  T c, s;
-  SightSets sets;
-  std::uint8_t sector, bends;
-  bool takes_ahead, takes_behind;
-  std::uint32_t ahead, behind;                    // what it says of these, as bits of an Update
-  std::uint32_t supports_ahead, supports_behind;  // and of the updates that it supports, of the sides around it
-};
-
-// A ring's sides, and its corners.
-template <class T>
-struct DraftRing {
-  Index count;
-  const RingSide<T>* side[kLanes];
-  Index end_vertex[kLanes];
-  RingEnd<T> end[kLanes];
-  // Of corners: both sides, and across; 1 where there is no more corner.
-  alignas(32) T first[kLanes], second[kLanes], across[kLanes];
-  // Of its two updates.
-  alignas(32) T need_ahead[kLanes], bulge_ahead[kLanes], need_behind[kLanes], bulge_behind[kLanes];
-};
-
-// How much memory a record takes at most, and where its parts lie.
-template <class T>
-std::size_t aligned(std::size_t bytes) {
-  return (bytes + alignof(Side<T>) - 1) / alignof(Side<T>) * alignof(Side<T>);
-}
-template <class T>
-std::size_t most_bytes(Index sides, Index updates, bool has_lenses) {
-  const std::size_t front = sizeof(RecordHead<T>) + (sides + 1) * sizeof(SideEnd<T>) + updates * sizeof(Update);
-  const std::size_t back = sizeof(Side<T>) + sizeof(DarkSets) + (has_lenses ? sizeof(LensNumbers) : 0);
-  return aligned<T>(aligned<T>(front) + sides * back);
-}
 
 template <class T>
 class RecordBuilder {
@@ -225,17 +141,6 @@ class RecordBuilder {
     head_.bends = ring.side[0]->bends ? 1 : 0;
   }
 
-  BRUSHFIRE_INLINE static void look_from_ring(const RingSide<T>& there, const RingSide<T>& next, RingEnd<T>& e,
-                                              T& across) {
-    e.c = there.c, e.s = there.s, across = next.length;
-    e.sets = there.sets;
-    e.sector = there.number, e.bends = there.bends ? 1 : 0;
-    e.takes_ahead = !there.is_split, e.takes_behind = !next.is_split;
-    e.ahead = std::uint32_t{there.number} << Update::kSectorShift | Update::kSameTurn;
-    e.behind = std::uint32_t{next.number} << Update::kSectorShift | (next.next() == 0 ? Update::kSeam : 0);
-    e.supports_ahead = Update::kThere, e.supports_behind = 0;
-  }
-
   // The same of an end that is no ring's; its corners beside the side are `back` and `next`.
   [[gnu::noinline]] void look_from_alone(Index side, Index back, Index next, RingEnd<T>& e, T& across) {
     const Optic there = of_fans_.optic(back, true);
@@ -252,50 +157,8 @@ class RecordBuilder {
     if (lenses.any()) keep_lenses(side, lenses);
   }
 
-  BRUSHFIRE_INLINE static void find_needs(DraftRing<T>& ring) {
-    using V = lanes::portable::Lanes<T, kLanes>;
-    using lanes::portable::load, lanes::portable::store;
-    const V first = load<V>(ring.first), second = load<V>(ring.second), across = load<V>(ring.across);
-    const Need<V> ahead = need_of(second, across, first), behind = need_of(first, across, second);
-    store(ring.need_ahead, ahead.need), store(ring.bulge_ahead, ahead.bulge);
-    store(ring.need_behind, behind.need), store(ring.bulge_behind, behind.bulge);
-  }
-
-  // Over the edge before the side, and over the one behind it.
-  BRUSHFIRE_INLINE static RingUpdate<T> ahead(const DraftRing<T>& ring, Index i, Index before) {
-    const std::uint32_t bits = ring.end[i].ahead | ring.end[before].supports_ahead | (i == 0 ? Update::kAcross : 0);
-    return {before, bits, ring.first[before], {ring.need_ahead[before], ring.bulge_ahead[before]}};
-  }
-  BRUSHFIRE_INLINE static RingUpdate<T> behind(const DraftRing<T>& ring, Index i, Index next) {
-    const std::uint32_t bits =
-        ring.end[i].behind | ring.end[next].supports_behind | Update::kHere | (next == 0 ? Update::kAcross : 0);
-    return {next, bits, ring.first[next], {ring.need_behind[i], ring.bulge_behind[i]}};
-  }
-
-  // What is written of a vertex: the ends of its sides one by one, with the updates of each.
-  struct Pen {
-    SideEnd<T>* end;
-    Update *update, *first;
-    T reach = 0;
-
-    BRUSHFIRE_INLINE void begin_side(Index vertex, T length) {
-      *end = {vertex, length, 0, static_cast<Index>(update - first)};
-    }
-    BRUSHFIRE_INLINE void put(const RingUpdate<T>& u) {
-      *update++ = {u.bits | u.support << Update::kSupportShift};
-      end->need = std::min(end->need, u.need.need), end->bulge = std::max(end->bulge, u.need.bulge);
-      reach = std::max(reach, u.length);
-    }
-    void put(const DraftUpdate<T>& u) { put(RingUpdate<T>{u.support(), u.bits, u.length, u.need}); }
-  };
-  static Pen pen_at(std::byte* at, Index sides) {
-    auto* const ends = reinterpret_cast<SideEnd<T>*>(at + sizeof(RecordHead<T>));
-    auto* const updates = reinterpret_cast<Update*>(ends + sides + 1);
-    return {ends, updates, updates};
-  }
-
   BRUSHFIRE_INLINE void put_ring(const DraftRing<T>& ring, std::byte* at) {
-    Pen pen = pen_at(at, ring.count + static_cast<Index>(sides_.size()));
+    RecordPen<T> pen = pen_at<T>(at, ring.count + static_cast<Index>(sides_.size()));
     const DraftUpdate<T>*more = updates_.data(), *const end = more + updates_.size();
     for (Index i = 0, before = ring.count - 1; i < ring.count; before = i++) {
       pen.begin_side(ring.end_vertex[i], ring.first[i]);
@@ -306,7 +169,8 @@ class RecordBuilder {
         merged_.clear();
         if (takes_before) merged_.push_back(as_draft(over_before, i));
         if (takes_next) merged_.push_back(as_draft(over_next, i));
-        more = put_merged(i, more, end, pen);
+        for (; more < end && more->target() == i; ++more) merged_.push_back(*more);
+        pen = put_merged(pen);
       } else if (before < next) {
         if (takes_before) pen.put(over_before);
         if (takes_next) pen.put(over_next);
@@ -314,9 +178,9 @@ class RecordBuilder {
         if (takes_next) pen.put(over_next);
         if (takes_before) pen.put(over_before);
       }
-      ++pen.end;
+      pen.end_side();
     }
-    put_drafted_ends(more, end, ring.count, pen);
+    if (!sides_.empty()) pen = put_drafted_ends(more, end, ring.count, pen);
     Side<T>* side = put_head(at, pen, ring.count + static_cast<Index>(sides_.size()));
     for (Index i = 0; i < ring.count; ++i) {
       const RingSide<T>& here = *ring.side[i];
@@ -337,29 +201,26 @@ class RecordBuilder {
     put_drafts(side, dark, ring.count);
   }
 
-  static DraftUpdate<T> as_draft(const RingUpdate<T>& u, Index target) {
-    return update_of<T>(u.support, target, u.bits, u.length, u.need);
-  }
-
-  // A ring's updates for a side and those over unrolled faces, in order. Returns the next side's.
-  const DraftUpdate<T>* put_merged(Index target, const DraftUpdate<T>* more, const DraftUpdate<T>* end, Pen& pen) {
-    for (; more < end && more->target() == target; ++more) merged_.push_back(*more);
+  // A ring's updates for a side and those over unrolled faces, in order.
+  RecordPen<T> put_merged(RecordPen<T> pen) {
     sort_updates(merged_);
     for (const DraftUpdate<T>& u : merged_) pen.put(u);
-    return more;
+    return pen;
   }
 
   // The sides that have been drafted, from number `first` on.
-  void put_drafted_ends(const DraftUpdate<T>* more, const DraftUpdate<T>* end, Index first, Pen& pen) {
+  RecordPen<T> put_drafted_ends(const DraftUpdate<T>* more, const DraftUpdate<T>* end, Index first, RecordPen<T> pen) {
     for (const DraftSide<T>& d : sides_) {
       pen.begin_side(d.end, d.side.length);
       for (; more < end && more->target() == first; ++more) pen.put(*more);
-      ++first, ++pen.end;
+      ++first;
+      pen.end_side();
     }
+    return pen;
   }
 
   // Returns where sides are to be written.
-  BRUSHFIRE_INLINE Side<T>* put_head(std::byte* at, const Pen& pen, Index sides) {
+  BRUSHFIRE_INLINE Side<T>* put_head(std::byte* at, RecordPen<T> pen, Index sides) {
     const auto updates = static_cast<Index>(pen.update - pen.first);
     *pen.end = {0, std::numeric_limits<T>::max(), 0, updates};
     head_.sides = sides, head_.reach = pen.reach;
@@ -379,8 +240,8 @@ class RecordBuilder {
 
   void put_record(std::byte* at) {
     const auto sides = static_cast<Index>(sides_.size());
-    Pen pen = pen_at(at, sides);
-    put_drafted_ends(updates_.data(), updates_.data() + updates_.size(), 0, pen);
+    const RecordPen<T> pen =
+        put_drafted_ends(updates_.data(), updates_.data() + updates_.size(), 0, pen_at<T>(at, sides));
     Side<T>* const side = put_head(at, pen, sides);
     put_drafts(side, reinterpret_cast<DarkSets*>(side + sides), 0);
   }

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kTurnRounding = 1e-9;   // of angles, by far
 constexpr double kQuickRounding = 1e-6;  // of quick ones
+constexpr float kLeastSum = 1e-2f;       // of a ring's angles: directions are turned by it until they lie within
 
 // Whether the angles of a ring sum to more than a full turn: where they seem to sum to one, their vector tells.
 bool bends(const Ring& ring) {
@@ -43,7 +44,7 @@ Sides<T>::Sides(const Mesh& mesh)
     const Index count = std::min(kRingsAtOnce, shape.none - first);
     BRUSHFIRE_ON_TARGET(Variant::Best, measure_rings(shape, first, count, rings));
     for (Index i = 0; i < count; ++i) {
-      if (rings[i].is_regular && !is_slit(rings[i])) {
+      if (rings[i].is_regular && rings[i].angle[rings[i].count] > kLeastSum && !is_slit(rings[i])) {
         take(first + i, rings[i]);
       } else {
         lay_out_alone(first + i);
@@ -132,8 +133,8 @@ Optic Sides<T>::optic(Index corner, bool own) const {
     const VertexOptics& optics = alone(mesh_.from(corner));
     return optics.side(optics.fans().side(corner, own));
   }
-  // The edges of a regular ring have two faces, both the same way round.
-  const RingSide<T>& side = sides_[own ? corner : mesh_.neighbour(Mesh::previous(corner))];
+  const RingSide<T>& named = sides_[corner];
+  const RingSide<T>& side = own ? named : sides_[ring_corner(mesh_.from(corner), named.next())];
   Optic o;
   o.angle = static_cast<double>(side.angle), o.c = static_cast<double>(side.c), o.s = static_cast<double>(side.s);
   o.sector = side.number;
@@ -158,14 +159,17 @@ Optic Sides<T>::optic(Index v, const Heading& heading) {
     return optics.in_direction(within(optics.fans().sectors(), heading.fan, heading.angle), lenses_);
   }
   alignas(32) float angle[2 * kLanes];
+  std::fill_n(angle, 2 * kLanes, std::numeric_limits<float>::infinity());
   const std::span<const Index> corners = mesh_.corners(v);
   const auto count = static_cast<Index>(corners.size());
   for (const Index h : corners) angle[sides_[h].number] = sides_[h].angle;
   const float sum = sums_[v];
-  for (Index i = count; i < 2 * kLanes; ++i) angle[i] = i == count ? sum : std::numeric_limits<float>::infinity();
+  angle[count] = sum;
   // As within(), with the vector, too.
-  const double turns = std::floor((heading.angle + kQuickRounding) / static_cast<double>(sum));
-  const float at = static_cast<float>(std::max(0.0, heading.angle - turns * static_cast<double>(sum)));
+  double turns = 0, rest = heading.angle;
+  for (; rest < -kQuickRounding; --turns) rest += static_cast<double>(sum);
+  for (; rest > static_cast<double>(sum) - kQuickRounding; ++turns) rest -= static_cast<double>(sum);
+  const auto at = static_cast<float>(std::max(0.0, rest));
   Optic o;
   o.angle = static_cast<double>(at);
   o.sector = portable::sector_at(at, angle, count);

@@ -139,7 +139,7 @@ bool Unroller<T>::unroll(const ObtuseCorner& obtuse, int most, int& crossed) {
   Index over = across;
   double over_length = own.next;
   for (crossed = 0; crossed < most && over_length > 0;) {
-    const Index g = crossed == 0 ? obtuse.behind : mesh_.neighbour(over);
+    const Index g = crossed == 0 ? obtuse.behind : of_fans_.neighbour(over);
     if (g == kNoIndex || g == over) return false;
     ++crossed;
     // The face behind, counter-clockwise in the plane: left end, right end, apex; `g` runs that way unless mirrored.
