@@ -8,6 +8,8 @@
 #include <brushfire/solvers/carried_source/detail/records.h>
 #include <brushfire/solvers/carried_source/detail/rings.h>
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace brushfire::carried_source {
