@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -314,20 +313,21 @@ class RecordBuilder {
     head_.has_lenses = 1;
   }
 
-  // The last ones first; behind those that have been drafted, and `written` others.
+  // Behind those that have been drafted, and `written` others.
   void add_unrolled(Index v, Index written) {
     const auto before = written + static_cast<Index>(sides_.size());
     numbers_.clear();
-    for (Index i = unroller_.first_side(v); i != kNoIndex; i = unroller_.side(i).next) {
+    for (Index i = unroller_.first_side(v); i != kNoIndex; i = unroller_.side(i).next) numbers_.push_back(i);
+    std::reverse(numbers_.begin(), numbers_.end());
+    for (const Index i : numbers_) {
       const UnrolledSide<T>& u = unroller_.side(i);
       if (u.lenses != kNoIndex) keep_lenses(written + static_cast<Index>(sides_.size()), unroller_.lenses(u));
       sides_.push_back({u.end, u.dark, u.side});
       angles_.push_back(u.angle);
-      numbers_.push_back(i);
     }
     const auto number = [&](SideName name) {
       if (!name.is_unrolled()) return name.number();
-      const auto at = std::lower_bound(numbers_.begin(), numbers_.end(), name.number(), std::greater<>());
+      const auto at = std::lower_bound(numbers_.begin(), numbers_.end(), name.number());
       return before + static_cast<Index>(at - numbers_.begin());
     };
     for (Index i = unroller_.first_update(v); i != kNoIndex; i = unroller_.update(i).next) {
@@ -366,7 +366,7 @@ class RecordBuilder {
   UninitializedArray<DraftUpdate<T>> updates_, merged_;
   UninitializedArray<float> angles_;  // of sides
   std::vector<LensNumbers> lenses_;   // of the first sides; the others have none
-  std::vector<Index> numbers_;        // of its unrolled sides, descending
+  std::vector<Index> numbers_;        // of its unrolled sides
 };
 
 }  // namespace

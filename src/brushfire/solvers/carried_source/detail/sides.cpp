@@ -3,6 +3,7 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/detail/prefault.h>
+#include <brushfire/core/detail/sort.h>
 
 #include <algorithm>
 #include <bit>
@@ -51,6 +52,9 @@ Sides<T>::Sides(const Mesh& mesh)
       }
     }
   }
+  // Their order is that of unrolled sides, which decides ties.
+  detail::sort(obtuse_.begin(), obtuse_.end(),
+               [](const ObtuseCorner& a, const ObtuseCorner& b) { return a.corner < b.corner; });
 }
 
 // Whether one of the ring's edges is a slit.

@@ -99,12 +99,12 @@ template <class T>
 void Unroller<T>::add_update(const Anchor& corner, Anchor& own, Anchor& other, bool is_right, Index edge) {
   const double length = norm(other.at - own.at), along = norm(own.at);
   if (!(length > 0) || !(along > 0)) return;
+  UnrolledUpdate<T> u;
+  u.support = edge != kNoIndex ? SideName::of_fan(edge) : make_side(own, other, length).side;
   if (own.to_corner.is_none()) {
     const Made made = make_side(own, corner, along);
     own.to_corner = made.side, own.ends_at_seam = made.ends_at_seam;
   }
-  UnrolledUpdate<T> u;
-  u.support = edge != kNoIndex ? SideName::of_fan(edge) : make_side(own, other, length).side;
   u.target = own.to_corner;
   u.length = static_cast<T>(length);
   u.need = need_of(static_cast<T>(along), static_cast<T>(norm(other.at)), u.length);
