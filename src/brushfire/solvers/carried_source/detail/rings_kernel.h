@@ -9,7 +9,8 @@ BRUSHFIRE_INLINE void measure_corners(const RegularRing<double>& lanes, Ring& ri
   using Wide = Lanes<double, kLanes>;
   const auto m = lanes.measures();
   ring.count = m.count;
-  const Wide inverse = Wide(1) / (m.length * m.next_length), cosine = m.dot * inverse, sine = m.cross * inverse;
+  const Wide inverse = Wide(1) / square_root(m.dot * m.dot + m.cross * m.cross);
+  const Wide cosine = m.dot * inverse, sine = m.cross * inverse;
   const Wide here = m.length * m.length, there = m.next_length * m.next_length;
   ring.obtuse = bits(2 * (there - m.dot) < Wide(-kRightAngle) * here) & bits(first_lanes<kLanes>(m.count));
   store(ring.corner, m.corners);
@@ -25,8 +26,9 @@ BRUSHFIRE_INLINE void add_up(Ring& ring, const double* c, const double* s, const
   float sum = 0;
   for (Index i = 0; i < ring.count; ++i) {
     ring.c[i] = at_c, ring.s[i] = at_s, ring.angle[i] = sum;
-    const double next_c = at_c * c[i] - at_s * s[i];
-    at_s = at_c * s[i] + at_s * c[i], at_c = next_c;
+    const double next_c = at_c * c[i] - at_s * s[i], next_s = at_c * s[i] + at_s * c[i];
+    const double shorter = 1.5 - 0.5 * (next_c * next_c + next_s * next_s);  // of unit length again
+    at_c = shorter * next_c, at_s = shorter * next_s;
     sum += angle[i];
   }
   ring.c[ring.count] = at_c, ring.s[ring.count] = at_s, ring.angle[ring.count] = sum;

@@ -70,7 +70,7 @@ Heading Unroller<T>::heading(const Anchor& from, Vec2 way) const {
   const double size = of_fans_.is_alone(from.vertex) ? std::atan2(std::abs(turn.y), turn.x)
                                                      : fast_marching::portable::quick_angle(turn.x, std::abs(turn.y));
   Heading h = of_fans_.first_side(from.corner);
-  h.unit = from.same_turn ? turned(turn, h.unit) : turned_back(turn, h.unit);
+  h.unit = unit(from.same_turn ? turned(turn, h.unit) : turned_back(turn, h.unit));
   h.angle += (turn.y < 0) == from.same_turn ? -size : size;
   return h;
 }
