@@ -12,6 +12,7 @@
 #include <ctime>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace brushfire {
@@ -49,6 +50,31 @@ TEST(Mesh, CoordinateThatIsNotFiniteIsAnErrorThatNamesTheVertex) {
     EXPECT_EQ(e.code(), ErrorCode::InvalidMesh);
     EXPECT_NE(std::string(e.what()).find("vertex 2"), std::string::npos);
   }
+}
+
+TEST(Mesh, TakesOverArraysThatAreMovedIntoItAndCopiesOthers) {
+  std::vector<Vec3> positions = kSquare;
+  std::vector<Face> faces = kTwoTriangles;
+  const Mesh copied(positions, faces);
+  EXPECT_NE(copied.positions().data(), positions.data());
+  EXPECT_NE(copied.faces().data(), faces.data());
+  const Vec3* const at = positions.data();
+  const Face* const faces_at = faces.data();
+  const Mesh taken(std::move(positions), std::move(faces));
+  EXPECT_EQ(taken.positions().data(), at);
+  EXPECT_EQ(taken.faces().data(), faces_at);
+  EXPECT_EQ(taken.vertex_count(), 4u);
+  EXPECT_EQ(taken.bounds().high, (Vec3{1, 1, 0}));
+  EXPECT_TRUE(std::ranges::equal(taken.lengths(), copied.lengths()));
+  EXPECT_EQ(taken.with_faces(std::vector<Index>{1}).positions().back(), kSquare.back());
+}
+
+TEST(Mesh, ArraysThatItDoesNotTakeOverStayTheCallers) {
+  std::vector<Vec3> positions = kSquare;
+  std::vector<Face> faces{{0, 1, 4}};
+  EXPECT_THROW(Mesh(std::move(positions), std::move(faces)), Error);
+  EXPECT_EQ(positions, kSquare);  // NOLINT(bugprone-use-after-move): it is promised
+  EXPECT_EQ(faces.size(), 1u);    // NOLINT(bugprone-use-after-move)
 }
 
 TEST(Mesh, OppositeJoinsTheTwoFacesOfAnEdgeAndLeavesTheBoundaryAlone) {

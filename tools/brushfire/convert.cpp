@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <memory>
+#include <utility>
 
 namespace brushfire::tool {
 namespace {
@@ -100,7 +101,7 @@ Mesh mesh_of_points(const LoadedLines& loaded) {
   }
   std::vector<Face> faces;
   for (Index v = 0; v < positions.size(); ++v) faces.push_back({v, v, v});
-  return Mesh(positions, faces);
+  return Mesh(std::move(positions), std::move(faces));
 }
 
 bool is_drawing(const std::string& output) { return ends_with_any(output, {".svg", ".dxf"}); }

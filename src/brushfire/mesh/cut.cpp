@@ -178,7 +178,7 @@ CutMesh cut(const Mesh& mesh, const Barriers& barriers) {
     std::vector<Vec3> positions;
     positions.reserve(result.original_vertex.size());
     for (const Index v : result.original_vertex) positions.push_back(mesh.positions()[v]);
-    result.mesh = Mesh(positions, faces);
+    result.mesh = Mesh(std::move(positions), std::move(faces));
   } else {
     result.mesh = Mesh::from_lengths(static_cast<Index>(result.original_vertex.size()), faces, lengths);
   }

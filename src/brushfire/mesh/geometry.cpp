@@ -58,6 +58,14 @@ double unit_from_positions(std::span<const Vec3> positions, std::span<const Face
   return power_of_two_below(sample.mean);
 }
 
+double unit_from_lengths(std::span<const double> lengths) {
+  double sum = 0, largest = 0;
+  for (const double l : lengths) largest = std::max(largest, l);
+  const double scale = 1 / power_of_two_below(largest);
+  for (const double l : lengths) sum += l * scale;
+  return lengths.empty() ? 1 : power_of_two_below(sum / static_cast<double>(lengths.size()) / scale);
+}
+
 Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<const Face> faces, double unit) {
   Geometry g;
   g.lengths.resize(3 * faces.size());

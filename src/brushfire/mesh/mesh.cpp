@@ -13,6 +13,7 @@
 #include <brushfire/mesh/detail/connectivity.h>
 #include <brushfire/mesh/detail/face_geometry.h>
 #include <brushfire/mesh/detail/geometry.h>
+#include <brushfire/mesh/detail/kept_array.h>
 #include <brushfire/mesh/detail/report.h>
 
 #include <algorithm>
@@ -22,22 +23,20 @@
 
 namespace brushfire {
 
-using detail::checked_copy, detail::power_of_two_below, detail::unit_from_positions, detail::geometry_from_positions;
-using detail::kMostCoordinate, detail::Geometry, detail::length_of, detail::scaled_difference;
+using detail::checked_copy, detail::unit_from_positions, detail::geometry_from_positions;
+using detail::kMostCoordinate, detail::KeptArray, detail::Geometry, detail::length_of, detail::scaled_difference;
 
 // What the caller gave, and what follows from the faces alone; shared by meshes that differ in slits only.
 struct Mesh::Arrays {
   Index vertex_count = 0;
   bool has_positions = true;
-  UninitializedArray<Vec3> positions;
+  detail::KeptArray<Vec3> positions;
   Box bounds;  // of the positions
-  UninitializedArray<Face> faces;
+  detail::KeptArray<Face> faces;
   std::vector<double> input_lengths;  // [halfedge_count], meshes from lengths only
 
   Lazy<detail::VertexCorners> corners;
   mutable std::atomic<bool> searched = false;  // first_corner() has been called
-
-  double unit_from_lengths() const;
 };
 
 struct Mesh::Data {
@@ -72,7 +71,7 @@ struct Mesh::Data {
   double get_unit() const {
     return unit.get([this] {
       return arrays->has_positions ? unit_from_positions(arrays->positions, arrays->faces, arrays->bounds)
-                                   : arrays->unit_from_lengths();
+                                   : detail::unit_from_lengths(arrays->input_lengths);
     });
   }
 
@@ -103,7 +102,7 @@ constexpr double kLengthAgreement = 1e-9;
 
 // Every face's own lengths; agreement across an edge is checked against the first face of its ring.
 void Mesh::Data::check_lengths() const {
-  const UninitializedArray<Face>& faces = arrays->faces;
+  const std::span<const Face> faces = arrays->faces;
   const std::vector<double>& input_lengths = arrays->input_lengths;
   const UninitializedArray<Index>& ring = get_opposite();
   for (Index f = 0; f < faces.size(); ++f) {
@@ -130,14 +129,6 @@ void Mesh::Data::check_lengths() const {
       throw_length_error(f, "lengths break the triangle inequality");
     }
   }
-}
-
-double Mesh::Arrays::unit_from_lengths() const {
-  double sum = 0, largest = 0;
-  for (const double l : input_lengths) largest = std::max(largest, l);
-  const double scale = 1 / power_of_two_below(largest);
-  for (const double l : input_lengths) sum += l * scale;
-  return input_lengths.empty() ? 1 : power_of_two_below(sum / static_cast<double>(input_lengths.size()) / scale);
 }
 
 Geometry Mesh::Data::geometry_from_lengths(const std::vector<double>& input_lengths) const {
@@ -201,9 +192,21 @@ Mesh::Mesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
 Mesh::Mesh(std::span<const Vec3> positions, std::span<const Face> faces) {
   auto arrays = std::make_shared<Arrays>();
-  arrays->positions = checked_copy(positions, arrays->bounds);
+  arrays->positions = KeptArray(checked_copy(positions, arrays->bounds));
   arrays->vertex_count = static_cast<Index>(positions.size());
-  arrays->faces = checked_copy(arrays->vertex_count, faces);
+  arrays->faces = KeptArray(checked_copy(arrays->vertex_count, faces));
+  auto data = std::make_shared<Data>();
+  data->arrays = std::move(arrays);
+  data_ = std::move(data);
+}
+
+Mesh::Mesh(std::vector<Vec3>&& positions, std::vector<Face>&& faces) {
+  auto arrays = std::make_shared<Arrays>();
+  arrays->bounds = detail::check(positions);
+  arrays->vertex_count = static_cast<Index>(positions.size());
+  detail::check(arrays->vertex_count, faces);
+  arrays->positions = KeptArray(std::move(positions));
+  arrays->faces = KeptArray(std::move(faces));
   auto data = std::make_shared<Data>();
   data->arrays = std::move(arrays);
   data_ = std::move(data);
@@ -218,7 +221,7 @@ Mesh Mesh::from_lengths(Index vertex_count, std::span<const Face> faces,
   auto arrays = std::make_shared<Arrays>();
   arrays->vertex_count = vertex_count;
   arrays->has_positions = false;
-  arrays->faces = checked_copy(vertex_count, faces);
+  arrays->faces = KeptArray(checked_copy(vertex_count, faces));
   arrays->input_lengths.reserve(3 * lengths.size());
   for (const auto& l : lengths) arrays->input_lengths.insert(arrays->input_lengths.end(), l.begin(), l.end());
   auto data = std::make_shared<Data>();
@@ -248,22 +251,26 @@ Mesh Mesh::renumbered(std::span<const Index> vertices, std::span<const Index> ve
   arrays->vertex_count = old.vertex_count;
   arrays->has_positions = old.has_positions;
   arrays->bounds = old.bounds;
-  arrays->positions.resize(old.positions.size());
-  prefault(arrays->positions);
-  in_pieces(arrays->positions.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) arrays->positions[i] = old.positions[vertices[i]];
+  const std::span<const Vec3> old_positions = old.positions;
+  UninitializedArray<Vec3> positions(old_positions.size());
+  prefault(positions);
+  in_pieces(positions.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) positions[i] = old_positions[vertices[i]];
   });
-  arrays->faces.resize(old.faces.size());
-  prefault(arrays->faces);
+  arrays->positions = KeptArray(std::move(positions));
+  const std::span<const Face> old_faces = old.faces;
+  UninitializedArray<Face> faces(old_faces.size());
+  prefault(faces);
   arrays->input_lengths.resize(old.input_lengths.size());
-  in_pieces(old.faces.size(), [&](std::size_t begin, std::size_t end) {
+  in_pieces(old_faces.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      const Face& t = old.faces[f];
-      arrays->faces[face_rank[f]] = {vertex_rank[t[0]], vertex_rank[t[1]], vertex_rank[t[2]]};
+      const Face& t = old_faces[f];
+      faces[face_rank[f]] = {vertex_rank[t[0]], vertex_rank[t[1]], vertex_rank[t[2]]};
     }
   });
+  arrays->faces = KeptArray(std::move(faces));
   if (!has_positions()) {
-    for (std::size_t f = 0; f < old.faces.size(); ++f) {
+    for (std::size_t f = 0; f < old_faces.size(); ++f) {
       const std::size_t from = 3 * f, to = 3 * std::size_t{face_rank[f]};
       for (std::size_t k = 0; k < 3; ++k) arrays->input_lengths[to + k] = unit() * lengths()[from + k];
     }
@@ -282,13 +289,14 @@ Mesh Mesh::with_faces(std::span<const Index> faces) const {
   arrays->has_positions = old.has_positions;
   arrays->bounds = old.bounds;
   arrays->positions = old.positions;
-  arrays->faces.resize(faces.size());
+  UninitializedArray<Face> kept(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    arrays->faces[i] = old.faces[faces[i]];
+    kept[i] = old.faces[faces[i]];
     for (std::size_t k = 0; k < 3 && !has_positions(); ++k) {
       arrays->input_lengths.push_back(unit() * lengths()[3 * std::size_t{faces[i]} + k]);
     }
   }
+  arrays->faces = KeptArray(std::move(kept));
   auto data = std::make_shared<Data>();
   data->arrays = std::move(arrays);
   data->unit.set(unit());

@@ -57,6 +57,9 @@ class Mesh {
   // Error(TooLarge) beyond 2^32/3 faces. O(vertices + faces).
   Mesh(std::span<const Vec3> positions, std::span<const Face> faces);
 
+  // The same of arrays that the mesh takes over: nothing is copied. Where it throws, they are still the caller's.
+  Mesh(std::vector<Vec3>&& positions, std::vector<Face>&& faces);
+
   // A mesh that has lengths and no coordinates: lengths[f][k] is the length of the edge from corner k to corner k+1 of
   // face f, finite and >= 0 (0 where the two corners are the same vertex). Throws Error(InvalidMesh) where faces
   // disagree on a shared edge by more than 1e-9 of it or break the triangle inequality by more than that. Areas come

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace brushfire {
 namespace {
@@ -73,7 +74,7 @@ Terrain::Terrain(std::span<const double> heights, Index columns, Index rows, con
   if (!turns_left) {
     for (Face& f : faces) std::swap(f[1], f[2]);
   }
-  mesh_ = Mesh(positions, faces);
+  mesh_ = Mesh(std::move(positions), std::move(faces));
 }
 
 SurfacePoint Terrain::below(double x, double y) const {

@@ -5,6 +5,7 @@
 #include <brushfire/mesh/detail/point_grid.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace brushfire {
 
@@ -34,7 +35,7 @@ Welded weld(const Mesh& mesh, double tolerance) {
   for (Face& f : faces) {
     for (Index& v : f) v = welded.vertex_map[v];
   }
-  welded.mesh = Mesh(kept, faces);
+  welded.mesh = Mesh(std::move(kept), std::move(faces));
   return welded;
 }
 

@@ -4,6 +4,7 @@
 #include <brushfire/mesh/polygons.h>
 
 #include <numeric>
+#include <utility>
 
 namespace brushfire::detail {
 
@@ -77,7 +78,7 @@ LoadedMesh finish(const Input& input, MeshParts&& parts, const char* format) {
   parts.faces.finish(input, parts.places_are_lines, parts.counts_from, parts.positions, faces, loaded.face_origin,
                      parts.remarks);
   try {
-    loaded.mesh = Mesh(parts.positions, faces);
+    loaded.mesh = Mesh(std::move(parts.positions), std::move(faces));
   } catch (const Error& e) {
     throw Error(e.code() == ErrorCode::InvalidMesh ? ErrorCode::FileMalformed : e.code(),
                 printable(input.name()) + ": " + e.what());

@@ -1,4 +1,4 @@
-// Arrays that a caller gives, checked and copied in one pass.
+// Arrays that a caller gives, checked, and copied in the same pass where that is wanted.
 #pragma once
 
 #include <brushfire/core/detail/uninitialized.h>
@@ -12,10 +12,12 @@ namespace brushfire::detail {
 // 2^990: a shortest path has 2^32 legs at most and each is shorter than four times this, so distances are finite.
 constexpr double kMostCoordinate = 0x1p990;
 
-// A copy of the faces; throws as the constructor of Mesh does.
-UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> faces);
+// Throw as the constructors of Mesh do. The second one returns the bounds.
+void check(Index vertex_count, std::span<const Face> faces);
+Box check(std::span<const Vec3> positions);
 
-// A copy of the positions, and their bounds; throws as the constructor of Mesh does.
+// The same, and a copy of what was checked.
+UninitializedArray<Face> checked_copy(Index vertex_count, std::span<const Face> faces);
 UninitializedArray<Vec3> checked_copy(std::span<const Vec3> positions, Box& bounds);
 
 }  // namespace brushfire::detail

@@ -20,6 +20,9 @@ double power_of_two_below(double x);
 // The power of two below the mean length of a sample of the edges.
 double unit_from_positions(std::span<const Vec3> positions, std::span<const Face> faces, const Box& bounds);
 
+// The same of all edges of a mesh from lengths.
+double unit_from_lengths(std::span<const double> lengths);
+
 Geometry geometry_from_positions(std::span<const Vec3> positions, std::span<const Face> faces, double unit);
 
 }  // namespace brushfire::detail

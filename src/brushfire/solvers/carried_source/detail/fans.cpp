@@ -1,7 +1,5 @@
-// Strings faces together around vertices, and adds up their angles.
+// Strings the faces around a vertex together, and adds up their angles.
 #include <brushfire/solvers/carried_source/detail/fans.h>
-
-#include <brushfire/core/cancel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +7,6 @@
 namespace brushfire::carried_source {
 namespace {
 
-constexpr double kNotYet = -1;          // of a corner that is in no fan
 constexpr double kTurnRounding = 1e-9;  // of angles, by far
 
 // At the corner between sides a and b, c opposite.
@@ -19,62 +16,88 @@ double angle_between(double a, double b, double c, double double_area) {
   return std::atan2(double_area, dot);
 }
 
-}  // namespace
-
-Fans::Fans(const Mesh& mesh)
-    : mesh_(mesh), opposite_(mesh.opposite()), lengths_(mesh.lengths()), areas_(mesh.double_areas()) {
-  corners_.resize(mesh.halfedge_count());
-  for (FanCorner& c : corners_) c.high = kNotYet;
-  side_count_.resize(mesh.vertex_count());
-  odd_.resize(mesh.vertex_count());
-  sector_begin_.reserve(mesh.vertex_count() + std::size_t{1});
-  sectors_.reserve(mesh.halfedge_count());
-  Poll poll;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    poll();
-    sector_begin_.push_back(static_cast<Index>(sectors_.size()));
-    build(v);
-  }
-  sector_begin_.push_back(static_cast<Index>(sectors_.size()));
-  if (std::find(odd_.begin(), odd_.end(), true) != odd_.end()) name_edges();
+double angle_at(const Mesh& mesh, Index corner) {
+  const Mesh::FaceGeometry face = mesh.face_geometry(Mesh::face_of(corner));
+  const Index k = corner % 3;
+  return angle_between(face.lengths[k], face.lengths[(k + 2) % 3], face.lengths[(k + 1) % 3], face.double_area);
 }
 
-void Fans::build(Index v) {
+}  // namespace
+
+Direction within(std::span<const Sector> sectors, Index fan, double angle) {
+  Direction at{angle, fan, kSharedSector};
+  for (Index k = 0; k < sectors.size(); ++k) {
+    const Sector& s = sectors[k];
+    if (s.fan != fan) continue;
+    if (s.around < kInfinity && at.sector == kSharedSector) {
+      at.angle = std::max(0.0, angle - s.around * std::floor(angle / s.around));
+    }
+    if (at.sector == kSharedSector || s.low <= at.angle) at.sector = k;
+  }
+  return at;
+}
+
+std::size_t Fans::place(Index halfedge) const {
+  const auto at = std::lower_bound(halfedges_.begin(), halfedges_.end(), halfedge);
+  return static_cast<std::size_t>(at - halfedges_.begin());
+}
+
+bool Fans::is_seam(const Direction& at) const {
+  if (at.sector >= sectors_.size() || odd_) return false;
+  return at.angle > sectors_[at.sector].around - kTurnRounding;
+}
+
+bool Fans::bends_light() const {
+  if (sectors_.empty() || odd_) return false;
+  const bool closed = sectors_.back().around < kInfinity;
+  return sectors_.back().high > (closed ? 2 * kPi : kPi) + kTurnRounding;
+}
+
+Fans FanBuilder::at(Index v) {
+  Fans fans;
+  fans.halfedges_ = mesh_.corners(v);
+  fans.corners_.resize(fans.halfedges_.size());
+  vertex_ = v;
+  done_.assign(fans.halfedges_.size(), false);
   all_.clear(), ranges_.clear(), around_.clear();
-  bool odd = false;
-  for (const Index h : mesh_.corners(v)) {
-    if (corners_[h].high != kNotYet || !mesh_.is_face_usable(Mesh::face_of(h))) continue;
+  for (std::size_t i = 0; i < fans.halfedges_.size(); ++i) {
+    const Index h = fans.halfedges_[i];
+    if (done_[i] || !mesh_.is_face_usable(Mesh::face_of(h))) continue;
     const bool closed = string_together({h, false});
     ranges_.push_back({static_cast<Index>(all_.size()), static_cast<Index>(all_.size() + fan_.size()), closed});
     all_.insert(all_.end(), fan_.begin(), fan_.end());
-    for (const Loose& at : fan_) corners_[at.corner].high = 0;
-    const Loose first = fan_.front(), last = fan_.back();
-    const auto meets_more = [&](Index side) { return opposite_[side] != side; };
-    odd |= !closed && (meets_more(first.mirrored ? Mesh::previous(first.corner) : first.corner) ||
-                       meets_more(last.mirrored ? last.corner : Mesh::previous(last.corner)));
+    for (const Loose& at : fan_) done_[fans.place(at.corner)] = true;
+    fans.odd_ |= !closed && ends_with_more();
   }
-  odd_[v] = odd || ranges_.size() > 1;
-  Index sides = 0;
+  fans.odd_ |= ranges_.size() > 1;
   for (const Range& range : ranges_) {
-    sides = lay_out(range, static_cast<Index>(around_.size()), sides, range.closed && !odd_[v]);
-    around_.push_back(range.closed ? corners_[all_[range.end - 1].corner].high : kInfinity);
+    const auto fan = static_cast<Index>(around_.size());
+    fans.side_count_ = lay_out(range, fan, fans.side_count_, range.closed && !fans.odd_, fans);
+    around_.push_back(range.closed ? fans.corner(all_[range.end - 1].corner).high : kInfinity);
   }
-  side_count_[v] = sides;
-  share_sectors();
+  share_sectors(fans);
+  return fans;
+}
+
+// Whether more than two faces meet at one of the ends of an open fan.
+bool FanBuilder::ends_with_more() const {
+  const Loose first = fan_.front(), last = fan_.back();
+  const auto meets_more = [&](Index side) { return mesh_.opposite(side) != side; };
+  return meets_more(first.mirrored ? Mesh::previous(first.corner) : first.corner) ||
+         meets_more(last.mirrored ? last.corner : Mesh::previous(last.corner));
 }
 
 // The corner beyond one side of a corner; none where the edge has not exactly two faces.
-Fans::Loose Fans::beside(Loose at, bool forward) const {
-  const Index v = mesh_.from(at.corner);
+FanBuilder::Loose FanBuilder::beside(Loose at, bool forward) const {
   const Index side = forward == at.mirrored ? at.corner : Mesh::previous(at.corner);
-  const Index other = opposite_[side];
-  if (other == side || opposite_[other] != side) return {};
-  const bool own = mesh_.from(other) == v;
+  const Index other = mesh_.neighbour(side);
+  if (other == side) return {};
+  const bool own = mesh_.from(other) == vertex_;
   return {own ? other : Mesh::next(other), forward ? !own : own};
 }
 
 // Into fan_: all from its beginning on. Whether it is closed.
-bool Fans::string_together(Loose from) {
+bool FanBuilder::string_together(Loose from) {
   Loose first = from;
   bool closed = false;
   for (Loose back = beside(first, false); back.corner != kNoIndex; back = beside(first, false)) {
@@ -92,69 +115,40 @@ bool Fans::string_together(Loose from) {
 }
 
 // Returns the number of the next side.
-Index Fans::lay_out(const Range& range, Index fan, Index side, bool ends_meet) {
+Index FanBuilder::lay_out(const Range& range, Index fan, Index side, bool ends_meet, Fans& fans) const {
   const Index first_side = side;
   double angle = 0;
   for (Index k = range.begin; k < range.end; ++k) {
-    FanCorner& c = corners_[all_[k].corner];
+    FanCorner& c = fans.corners_[fans.place(all_[k].corner)];
     c.mirrored = all_[k].mirrored;
     c.fan = fan;
     c.first_side = side++;
     c.last_side = side;
     c.low = angle;
-    const Index h = all_[k].corner;
-    angle += angle_between(lengths_[h], lengths_[Mesh::previous(h)], lengths_[Mesh::next(h)], areas_[Mesh::face_of(h)]);
+    angle += angle_at(mesh_, all_[k].corner);
     c.high = angle;
   }
-  if (ends_meet) corners_[all_[range.end - 1].corner].last_side = first_side;
+  if (ends_meet) fans.corners_[fans.place(all_[range.end - 1].corner)].last_side = first_side;
   return ends_meet ? side : side + 1;
 }
 
 // One fan may have all sectors; several have equal numbers of them, without the shared one.
-void Fans::share_sectors() {
-  const auto fans = static_cast<Index>(ranges_.size());
-  const Index each = fans <= 1 ? kSectors : std::max<Index>(1, kSharedSector / fans);
-  const std::size_t first = sectors_.size();
-  for (Index fan = 0; fan < fans; ++fan) {
+void FanBuilder::share_sectors(Fans& fans) const {
+  const auto count_of_fans = static_cast<Index>(ranges_.size());
+  const Index each = count_of_fans <= 1 ? kSectors : std::max<Index>(1, kSharedSector / count_of_fans);
+  for (Index fan = 0; fan < count_of_fans; ++fan) {
     const Range& range = ranges_[fan];
     const Index count = range.end - range.begin, used = std::min(each, count);
-    const bool is_beyond = fans > 1 && fan >= kSharedSector;
+    const bool is_beyond = count_of_fans > 1 && fan >= kSharedSector;
     for (Index k = 0; k < count; ++k) {
-      FanCorner& c = corners_[all_[range.begin + k].corner];
+      FanCorner& c = fans.corners_[fans.place(all_[range.begin + k].corner)];
       c.sector = kSharedSector;
       if (is_beyond) continue;
       const auto part = [&](Index i) { return std::uint64_t{i} * used / count; };
-      if (k == 0 || part(k) != part(k - 1)) sectors_.push_back({c.low, c.low, around_[fan], fan});
-      sectors_.back().high = c.high;
-      c.sector = static_cast<std::uint8_t>(sectors_.size() - 1 - first);
+      if (k == 0 || part(k) != part(k - 1)) fans.sectors_.push_back({c.low, c.low, around_[fan], fan});
+      fans.sectors_.back().high = c.high;
+      c.sector = static_cast<std::uint8_t>(fans.sectors_.size() - 1);
     }
-  }
-}
-
-Direction Fans::within(Index v, Index fan, double angle) const {
-  const std::span<const Sector> all = sectors(v);
-  Direction at{angle, fan, kSharedSector};
-  for (Index k = 0; k < all.size(); ++k) {
-    if (all[k].fan != fan) continue;
-    if (all[k].around < kInfinity && at.sector == kSharedSector) {
-      at.angle = std::max(0.0, angle - all[k].around * std::floor(angle / all[k].around));
-    }
-    if (at.sector == kSharedSector || all[k].low <= at.angle) at.sector = k;
-  }
-  return at;
-}
-
-bool Fans::bends_light(Index v) const {
-  const std::span<const Sector> all = sectors(v);
-  if (all.empty() || is_odd(v)) return false;
-  const bool closed = all.back().around < kInfinity;
-  return all.back().high > (closed ? 2 * kPi : kPi) + kTurnRounding;
-}
-
-void Fans::name_edges() {
-  edge_.assign(mesh_.halfedge_count(), kNoIndex);
-  for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
-    for (Index g = h; edge_[g] == kNoIndex; g = opposite_[g]) edge_[g] = h;
   }
 }
 

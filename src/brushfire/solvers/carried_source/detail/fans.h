@@ -1,4 +1,4 @@
-// The faces around every vertex as fans, in which directions are true angles.
+// The faces around a vertex as fans, in which directions are true angles.
 #pragma once
 
 #include <brushfire/mesh/mesh.h>
@@ -31,6 +31,9 @@ struct Direction {
   Index sector = 0;  // that holds it, or one of two
 };
 
+// A direction of any angle by the angle below the sum of all, in a closed fan, and with its sector.
+Direction within(std::span<const Sector> sectors, Index fan, double angle);
+
 // A corner of a usable face in a fan of its vertex, counter-clockwise there; `mirrored`: it is clockwise in its face.
 struct FanCorner {
   double low = 0, high = 0;
@@ -40,68 +43,74 @@ struct FanCorner {
   bool mirrored = false;
 };
 
-// Faces that meet over edges of two faces follow each other in a fan; a boundary or an edge of more faces ends it.
-// Faces that name a vertex twice are in no fan. At an odd vertex every fan has sides of its own, a first and a last one
-// also where it is closed.
+// The fans of one vertex. Faces that meet over edges of two faces follow each other in a fan; a boundary or an edge of
+// more faces ends it. Faces that name a vertex twice are in no fan. At an odd vertex every fan has sides of its own, a
+// first and a last one also where it is closed.
 class Fans {
  public:
-  explicit Fans(const Mesh& mesh);
-
-  const FanCorner& corner(Index halfedge) const { return corners_[halfedge]; }
-  std::span<const Sector> sectors(Index v) const {
-    return {sectors_.data() + sector_begin_[v], sector_begin_[v + 1] - sector_begin_[v]};
-  }
-  Index side_count(Index v) const { return side_count_[v]; }  // of the sides of fans
-  // Whether the faces around a vertex are several fans, or one that ends with edges of three faces and more.
-  bool is_odd(Index v) const { return odd_[v]; }
+  const FanCorner& corner(Index halfedge) const { return corners_[place(halfedge)]; }
+  std::span<const Sector> sectors() const { return sectors_; }
+  Index side_count() const { return side_count_; }
+  // Whether the faces are several fans, or one that ends with edges of three faces and more.
+  bool is_odd() const { return odd_; }
   // Whether there is a shadow behind the vertex, whatever the light: it has one fan, whose angles sum to more than a
   // full turn, or to more than half of one where it is open.
-  bool bends_light(Index v) const;
+  bool bends_light() const;
+  // A closed fan's first side may be named as its last, with the sum of all angles. (Odd vertices have two.)
+  bool is_seam(const Direction& at) const;
 
   // A corner's two sides: along the halfedge that names it, or along the one before.
   Index side(Index corner, bool own) const {
-    const FanCorner& c = corners_[corner];
+    const FanCorner& c = this->corner(corner);
     return own != c.mirrored ? c.first_side : c.last_side;
   }
   Direction direction(Index corner, bool own) const {
-    const FanCorner& c = corners_[corner];
+    const FanCorner& c = this->corner(corner);
     return {own != c.mirrored ? c.low : c.high, c.fan, c.sector};
   }
-  // A direction of any angle by the angle below the sum of all, in a closed fan, and with its sector.
-  Direction within(Index v, Index fan, double angle) const;
 
-  // The edge of a halfedge by the same number for all its faces. Of odd vertices only.
-  Index edge(Index halfedge) const { return edge_[halfedge]; }
+ private:
+  friend class FanBuilder;
+  std::size_t place(Index halfedge) const;
+
+  std::span<const Index> halfedges_;  // of the mesh: all corners at the vertex
+  std::vector<FanCorner> corners_;    // as these
+  std::vector<Sector> sectors_;
+  Index side_count_ = 0;
+  bool odd_ = false;
+};
+
+// Lays out vertices, one after the other. O(faces at the vertex), but for a logarithm.
+class FanBuilder {
+ public:
+  explicit FanBuilder(const Mesh& mesh) : mesh_(mesh) {}
+
+  // Not to be used for longer than the mesh.
+  Fans at(Index v);
 
  private:
   struct Loose {
     Index corner = kNoIndex;
     bool mirrored = false;
   };
-
-  void build(Index v);
-  Loose beside(Loose at, bool forward) const;
-  bool string_together(Loose from);
   struct Range {
     Index begin = 0, end = 0;  // in all_
     bool closed = false;
   };
-  Index lay_out(const Range& range, Index fan, Index side, bool ends_meet);
-  void share_sectors();
-  void name_edges();
+
+  Loose beside(Loose at, bool forward) const;
+  bool string_together(Loose from);
+  bool ends_with_more() const;
+  Index lay_out(const Range& range, Index fan, Index side, bool ends_meet, Fans& fans) const;
+  void share_sectors(Fans& fans) const;
 
   const Mesh& mesh_;
-  std::span<const Index> opposite_;
-  std::span<const double> lengths_, areas_;
-  std::vector<FanCorner> corners_;  // by halfedge
-  std::vector<Sector> sectors_;
-  std::vector<Index> sector_begin_, side_count_;
-  std::vector<bool> odd_;
-  std::vector<Index> edge_;  // by halfedge; empty where no vertex is odd
   // Of the vertex at hand: one fan, and all of them one after the other.
+  Index vertex_ = 0;
   std::vector<Loose> fan_, all_;
   std::vector<Range> ranges_;
   std::vector<double> around_;
+  std::vector<bool> done_;  // as Fans::corners_
 };
 
 }  // namespace brushfire::carried_source

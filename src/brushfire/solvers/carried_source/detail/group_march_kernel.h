@@ -59,7 +59,7 @@ struct GroupTurn {
   std::uint8_t bends;
   const SideEnd<float>* ends;
   const Side<float>* sides;
-  const DarkSets* dark;       // null: none
+  const DarkSets* dark;
   const LensNumbers* lenses;  // null: none
 };
 
@@ -68,8 +68,7 @@ BRUSHFIRE_INLINE void offer(GroupState& s, const Records<float>& records, const 
   const Index support = u.support(), hand = u.hand(), there = u.hand_there(), end = at.ends[support].end;
   const Side<float>& by = at.sides[support];
   const FrontLanes other = front_lanes(s.fronts[end]);
-  const SectorSet dark_here = at.dark ? at.dark[support].here[hand] : SectorSet{0};
-  const SectorSet dark_there = at.dark ? at.dark[support].end[there] : SectorSet{0};
+  const SectorSet dark_here = at.dark[support].here[hand], dark_there = at.dark[support].end[there];
   SourceAt<Values> a = see(at.front, side_turn(by.c, by.s, hand, at.around), by.turned[hand], dark_here, by.length);
   SourceAt<Values> b = see(other, side_turn(by.end_c, by.end_s, there, s.fronts[end].own.around), by.end_turned[there],
                            dark_there, by.length);
@@ -110,7 +109,7 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
                      head.bends,
                      record.ends(),
                      record.sides(),
-                     head.has_dark ? record.dark() : nullptr,
+                     record.dark(),
                      head.has_lenses ? record.lenses() : nullptr};
   const Update* const updates = record.updates();
   const Values r = at.front.value - at.front.sigma, reach(head.reach), now = at.front.value - Values(s.slack);

@@ -25,7 +25,7 @@ struct March<T>::Turn {
   const Record<T>& record;
   const SideEnd<T>* ends;
   const Side<T>* sides;
-  const DarkSets* dark;       // null: none
+  const DarkSets* dark;
   const LensNumbers* lenses;  // null: none
   Front* fronts;
   std::uint32_t bends;  // OfferBatch::kBendsHere, or 0
@@ -135,8 +135,7 @@ template <bool kLabelled>
   const Index support = u.support(), hand = u.hand(), there = u.hand_there();
   const Side<T>& by = at.sides[support];
   const Front& other = fronts_[at.ends[support].end];
-  const auto dark_here = at.dark ? at.dark[support].here[hand] : SectorSet{0};
-  const auto dark_there = at.dark ? at.dark[support].end[there] : SectorSet{0};
+  const SectorSet dark_here = at.dark[support].here[hand], dark_there = at.dark[support].end[there];
   const SourceAt<T> a = see(at.front, by, false, hand, at.lenses ? at.lenses[support].here[hand] : kNoIndex, dark_here);
   SourceAt<T> b = see(other, by, true, there, at.lenses ? at.lenses[support].end[there] : kNoIndex, dark_there);
   b.x = by.length - b.x;
@@ -173,7 +172,7 @@ BRUSHFIRE_INLINE void March<T>::add_offer(const Turn& at, Index target, Update u
   batch.facts[i] = (u.bits & (2 * Update::kAcross - 1)) | at.bends | by.end_bends * std::uint32_t{Batch::kBendsThere};
   batch.sectors[i] = at.front.sector | std::uint32_t{other.sector} << 16;
   batch.turned[i] = by.turned[hand] | std::uint32_t{by.end_turned[there]} << 16;
-  batch.dark[i] = at.dark ? at.dark[support].here[hand] | std::uint32_t{at.dark[support].end[there]} << 16 : 0;
+  batch.dark[i] = at.dark[support].here[hand] | std::uint32_t{at.dark[support].end[there]} << 16;
   batch.target[i] = target;
   batch.label[i] = at.front.label;
   batch.sector[i] = static_cast<std::uint8_t>(u.sector());
@@ -233,14 +232,10 @@ BRUSHFIRE_INLINE void March<T>::turn(Index v) {
   const Record<T> record = records_[v];
   const RecordHead<T>& head = record.head();
   const Front front = f;
-  const Turn at{front,
-                record,
-                record.ends(),
-                record.sides(),
-                head.has_dark ? record.dark() : nullptr,
-                head.has_lenses ? record.lenses() : nullptr,
-                fronts,
-                head.bends * std::uint32_t{OfferBatch<T>::kBendsHere}};
+  const Turn at{front,         record,
+                record.ends(), record.sides(),
+                record.dark(), head.has_lenses ? record.lenses() : nullptr,
+                fronts,        head.bends * std::uint32_t{OfferBatch<T>::kBendsHere}};
   const Update* const updates = record.updates();
   const T r = front.value - front.sigma, later = r > head.reach ? 1 / (r - head.reach) : kAnywhere<T>;
   const T now = front.value - slack_;

@@ -1,9 +1,9 @@
-// What light does at the sides of every vertex: computed once for each, and used by the records of both ends.
+// What light does at the sides of a vertex that is laid out by itself: at a boundary, where faces are mirrored, where
+// more than two meet, ...
 #pragma once
 
 #include <brushfire/solvers/carried_source/detail/sight.h>
 
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -17,28 +17,30 @@ struct Optic {
   Index lenses[2] = {kNoIndex, kNoIndex};  // at odd vertices, by Hand; 0: no light
 };
 
-class Optics {
+// The lenses of all odd vertices.
+class LensStore {
  public:
-  Optics(const Mesh& mesh, const Fans& fans);
-
-  const Optic& side(Index v, Index number) const { return sides_[begin_[v] + number]; }
-  Optic of(Index v, const Direction& named);
-
-  // A closed fan's first side may be named as its last, with the sum of all angles. (Odd vertices have two.)
-  bool is_seam(Index v, const Direction& at) const;
-
-  std::vector<Lenses> take_lenses() { return std::move(lenses_); }
+  LensStore() : lenses_(1) {}  // number 0: nothing comes through
+  Index keep(const Lenses& lenses);
+  std::vector<Lenses> take() { return std::move(lenses_); }
 
  private:
-  Direction shared(Index v, const Direction& at) const { return is_seam(v, at) ? fans_.within(v, at.fan, 0) : at; }
-  Index keep(const Lenses& lenses);
-
-  const Mesh& mesh_;
-  const Fans& fans_;
-  std::vector<std::size_t> begin_;  // [vertex_count + 1]
-  std::vector<Optic> sides_;
   std::vector<Lenses> lenses_;
-  std::unordered_map<Index, std::vector<FanEnd>> fan_ends_;  // of odd vertices
+};
+
+class VertexOptics {
+ public:
+  VertexOptics(const Mesh& mesh, Index v, Fans fans, LensStore& lenses);
+
+  const Fans& fans() const { return fans_; }
+  const Optic& side(Index number) const { return sides_[number]; }
+  // In any direction. A seam's is that of the first side.
+  Optic in_direction(const Direction& named, LensStore& lenses) const;
+
+ private:
+  Fans fans_;
+  std::vector<FanEnd> ends_;  // of an odd vertex
+  std::vector<Optic> sides_;
 };
 
 }  // namespace brushfire::carried_source

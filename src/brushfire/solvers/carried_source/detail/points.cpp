@@ -8,9 +8,10 @@
 
 namespace brushfire::carried_source {
 
-const Fans& Points::fans() {
-  if (!fans_) fans_.emplace(mesh_);
-  return *fans_;
+const Fans& Points::fans(Index v) {
+  const auto [at, is_new] = fans_.try_emplace(v);
+  if (is_new) at->second = builder_.at(v);
+  return at->second;
 }
 
 void Points::add_face(Index f, const std::array<double, 3>& weights) {
@@ -20,7 +21,7 @@ void Points::add_face(Index f, const std::array<double, 3>& weights) {
       continue;
     }
     const Vec2 at = point_over(mesh_, h, weights);
-    const FanCorner& corner = fans().corner(h);
+    const FanCorner& corner = this->corner(h);
     const double turn = std::atan2(at.y, at.x), distance = norm(at);
     const double angle = corner.mirrored ? corner.high - turn : corner.low + turn;
     near_.push_back(
@@ -56,7 +57,7 @@ std::span<const Points::Near> Points::around(const PointLocation& named, int cro
   if (at.on == PointLocation::On::Vertex && crossings == 0) return near_;
   for (const detail::Seed& s : seeds_.in_sight(mesh_, at, crossings, limit)) {
     if (s.corner == kNoIndex) continue;
-    const FanCorner& corner = fans().corner(s.corner);
+    const FanCorner& corner = this->corner(s.corner);
     const double angle = corner.mirrored ? corner.high - s.turn : corner.low + s.turn;
     near_.push_back(
         {s.vertex, s.distance, {s.distance * std::cos(angle), s.distance * std::sin(angle)}, true, corner.sector});
@@ -65,10 +66,11 @@ std::span<const Points::Near> Points::around(const PointLocation& named, int cro
 }
 
 SourceAt<double> Points::see(Index v, const Known& known, const Direction& side, Hand hand, double length) {
-  const std::span<const Sector> sectors = fans().sectors(v);
+  const Fans& fans = this->fans(v);
+  const std::span<const Sector> sectors = fans.sectors();
   const double sign = hand == Hand::Left ? 1 : -1;
-  if (fans().is_odd(v)) {
-    const Lens lens = lenses_of(sectors, ends_of_fans(mesh_, fans(), v), side, hand)[known.sector];
+  if (fans.is_odd()) {
+    const Lens lens = lenses_of(sectors, ends_of_fans(mesh_, fans, v), side, hand)[known.sector];
     const double x = lens.xx * known.to_source.x + lens.xy * known.to_source.y;
     const double y = lens.yx * known.to_source.x + lens.yy * known.to_source.y;
     return source_below<double>(known.value, known.sigma, x, y, false, !lens.visible, 1, 0, 1, 0, 1, length);
@@ -85,12 +87,13 @@ SourceAt<double> Points::see(Index v, const Known& known, const Direction& side,
 Points::Lights Points::below_edge(Index h, const Known& from, const Known& to) {
   const Index next = Mesh::next(h);
   const double length = mesh_.length(h);
-  const Hand here = fans().corner(h).mirrored ? Hand::Right : Hand::Left;
-  const Hand there = fans().corner(next).mirrored ? Hand::Left : Hand::Right;
+  const Hand here = corner(h).mirrored ? Hand::Right : Hand::Left;
+  const Hand there = corner(next).mirrored ? Hand::Left : Hand::Right;
   // As the side that all faces at it share: sets are those of angles below the sum of all.
   const auto side = [&](Index v, Index corner, bool own) {
-    const Direction d = fans().direction(corner, own);
-    return fans().within(v, d.fan, d.angle);
+    const Fans& fans = this->fans(v);
+    const Direction d = fans.direction(corner, own);
+    return within(fans.sectors(), d.fan, d.angle);
   };
   Lights lights{see(mesh_.from(h), from, side(mesh_.from(h), h, true), here, length),
                 see(mesh_.to(h), to, side(mesh_.to(h), next, false), there, length)};

@@ -7,15 +7,15 @@
 
 #include <array>
 #include <memory>
-#include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace brushfire::carried_source {
 
-// Made once for a mesh; fans are laid out again when a point is first asked for that is no vertex: O(faces).
+// Made once for a mesh; the fans around points that are no vertices are laid out, and kept, as they are asked for.
 class Points {
  public:
-  explicit Points(const Mesh& mesh) : mesh_(mesh) {}
+  explicit Points(const Mesh& mesh) : mesh_(mesh), builder_(mesh) {}
 
   // A source's distance at a vertex of one of its faces, and the way to it.
   struct Near {
@@ -49,13 +49,15 @@ class Points {
     SourceAt<double> from, to;  // both from the first end on
   };
   Lights below_edge(Index h, const Known& from, const Known& to);
-  const Fans& fans();
+  const Fans& fans(Index v);
+  const FanCorner& corner(Index h) { return fans(mesh_.from(h)).corner(h); }
   PointLocation by_lowest_halfedge(const PointLocation& at) const;
   void add_face(Index f, const std::array<double, 3>& weights);
   SourceAt<double> see(Index v, const Known& known, const Direction& side, Hand hand, double length);
 
   const Mesh& mesh_;
-  std::optional<Fans> fans_;
+  FanBuilder builder_;
+  std::unordered_map<Index, Fans> fans_;
   detail::SeedSearch seeds_;
   std::vector<Near> near_;
 };

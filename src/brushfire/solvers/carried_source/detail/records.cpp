@@ -4,318 +4,369 @@
 
 #include <brushfire/core/cancel.h>
 #include <brushfire/core/detail/prefault.h>
-#include <brushfire/core/detail/sort.h>
-#include <brushfire/solvers/carried_source/detail/optics.h>
+#include <brushfire/solvers/carried_source/detail/need.h>
+#include <brushfire/solvers/carried_source/detail/record_draft.h>
+#include <brushfire/solvers/carried_source/detail/ring_draft.h>
+#include <brushfire/solvers/carried_source/detail/sides.h>
 #include <brushfire/solvers/carried_source/detail/unrolled.h>
-#include <brushfire/solvers/detail/unfolding_limit.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
-#include <tuple>
+#include <span>
+#include <vector>
 
 namespace brushfire::carried_source {
 namespace {
 
-constexpr double kTurnRounding = 1e-9;  // of angles, by far
+constexpr float kTurnRounding = 1e-6f;  // of quick angles
 constexpr Index kMostSupports = Index{1} << (32 - Update::kSupportShift);
-
-struct DraftSide {
-  Index end = kNoIndex;
-  double length = 0;
-  Optic here, there;  // all 0 along the edge of a face that names a vertex twice: it has no direction
-};
-
-struct DraftUpdate {
-  Index support = 0, target = 0;
-  double length = 0;  // of the edge
-  Hand hand = Hand::Left, hand_there = Hand::Right;
-  bool same_turn = true, seam = false;
-  Index sector = 0;
-  double need = 0, bulge = 0;
-};
-
-Hand hand_if(bool left) { return left ? Hand::Left : Hand::Right; }
-
-// How much later than v, at least, the front reaches the target: it lies on the line from b to the target, or farther
-// from v. Let that line have the distance h from v, and v's foot the distance m from the target: a source at distance r
-// from v, r >= |vb|, beyond the edge, reaches the target from at least m + sqrt(r^2 - h^2) away; and
-// r - sqrt(r^2 - h^2) <= h^2 / (2 (r - h)).
-void set_need(double along, double from_other, DraftUpdate& u) {
-  double foot = 0;
-  if (from_other > 0) {
-    const double shorter = std::min(along, from_other), longer = std::max(along, from_other);
-    const double product = 0.5 * (shorter * shorter + (longer - u.length) * (longer + u.length));
-    foot = std::clamp(product / from_other, -along, along);
-  }
-  u.need = foot;
-  u.bulge = 0.5 * (foot > 0 ? (along - foot) * (along + foot) : along * along);
-}
 
 template <class T>
 class RecordBuilder {
  public:
   explicit RecordBuilder(const Mesh& mesh)
-      : mesh_(mesh), fans_(mesh), lengths_(mesh.lengths()), optics_(mesh, fans_), unroller_(mesh, fans_) {}
+      : mesh_(mesh),
+        offsets_(mesh.corner_offsets()),
+        corners_(mesh.all_corners()),
+        vertices_(reinterpret_cast<const Index*>(mesh.faces().data())),
+        of_fans_(mesh),
+        unroller_(mesh, of_fans_) {}
 
   Records<T> build() {
     out_.vertex_count = mesh_.vertex_count();
-    unroll_all();
+    unroller_.unroll_all();
+    out_.most_unrolled = unroller_.most_crossed();
+    if (of_fans_.sum_of_lengths() > 0) {
+      out_.mean_edge = of_fans_.sum_of_lengths() / static_cast<double>(mesh_.halfedge_count());
+    }
+    find_places();
+    std::byte* const base = out_.data.data() + (out_.base() - out_.data.data());
+    // A march reads records in no order that a TLB could hold.
+    PagesAhead pages(base, out_.offset.back());
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       poll_();
-      write(v);
+      pages.reach(base + out_.offset[v + 1]);
+      write(v, base + out_.offset[v]);
     }
-    out_.offset.push_back(out_.data.size());
-    out_.lenses = optics_.take_lenses();
-    if (mesh_.halfedge_count() > 0 && sum_of_lengths_ > 0) {
-      out_.mean_edge = sum_of_lengths_ / static_cast<double>(mesh_.halfedge_count());
-    }
-    // To where it lies aligned, with room behind for what is asked for ahead of time.
-    UninitializedArray<std::byte> loose(out_.data.size() + 2 * Records<T>::kAlignment);
-    loose.swap(out_.data);
-    copy_in_large_pages(loose, out_.data.data() + (out_.base() - out_.data.data()));
+    out_.around = of_fans_.take_around();
+    out_.lenses = of_fans_.take_lenses();
     return std::move(out_);
   }
 
  private:
-  // A march reads records in no order that a TLB could hold.
-  static void copy_in_large_pages(const UninitializedArray<std::byte>& from, std::byte* to) {
-    constexpr std::size_t kPiece = std::size_t{1} << 18;
-    PagesAhead pages(to, from.size());
-    for (std::size_t at = 0; at < from.size(); at += kPiece) {
-      const std::size_t bytes = std::min(kPiece, from.size() - at);
-      pages.reach(to + at + bytes - 1);  // before any of it is written
-      std::memcpy(to + at, from.data() + at, bytes);
+  // As many sides and updates as there can be: an update is left out where its corner is split.
+  void find_places() {
+    mark_lenses();
+    out_.offset.resize(mesh_.vertex_count() + std::size_t{1});
+    std::size_t at = 0;
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      out_.offset[v] = at;
+      auto sides = offsets_[v + 1] - offsets_[v], updates = 2 * sides;
+      if (of_fans_.is_alone(v)) {
+        sides = of_fans_.alone(v).fans().side_count();
+        for (const Index h : mesh_.corners(v)) sides += mesh_.is_face_usable(Mesh::face_of(h)) ? 0 : 2;
+      }
+      bool has_lenses = !may_have_lenses_.empty() && may_have_lenses_[v];
+      for (Index i = unroller_.first_side(v); i != kNoIndex; i = unroller_.side(i).next) {
+        ++sides;
+        has_lenses |= unroller_.side(i).lenses != kNoIndex;
+      }
+      for (Index i = unroller_.first_update(v); i != kNoIndex; i = unroller_.update(i).next) ++updates;
+      at += most_bytes<T>(sides, updates, has_lenses);
     }
+    out_.offset.back() = at;
+    // With room for aligning it, and behind for what is asked for ahead of time.
+    out_.data.resize(at + 2 * Records<T>::kAlignment);
   }
 
-  void unroll_all() {
-    split_.resize(mesh_.halfedge_count());
-    std::vector<Index> count(mesh_.vertex_count() + std::size_t{1}, 0);
-    detail::UnfoldingLimit limit(mesh_.face_count());
-    for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
-      poll_();
-      sum_of_lengths_ += lengths_[h];
-      if (!mesh_.is_face_usable(Mesh::face_of(h)) || !unroller_.is_obtuse(h)) continue;
-      int crossed = 0;
-      const std::size_t before = triangles_.size();
-      split_[h] = unroller_.unroll(h, limit.faces(), triangles_, crossed);
-      limit.add(triangles_.size() - before);
-      out_.most_unrolled = std::max(out_.most_unrolled, crossed);
-    }
-    for (const UnrolledTriangle& t : triangles_) ++count[t.right.vertex], ++count[t.left.vertex];
-    begin_.assign(1, 0);
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) begin_.push_back(begin_.back() + count[v]);
-    std::vector<std::size_t> at(begin_.begin(), begin_.end() - 1);
-    by_vertex_.resize(begin_.back());
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      by_vertex_[at[triangles_[i].right.vertex]++] = {i, true};
-      by_vertex_[at[triangles_[i].left.vertex]++] = {i, false};
-    }
-  }
-
-  // The sides and updates of v inside one of its faces.
-  void add_face(Index v, Index h) {
-    const Index next = Mesh::next(h), previous = Mesh::previous(h);
-    const Index own = fans_.side(h, true), other = fans_.side(h, false);
-    const double l = lengths_[h], k = lengths_[previous], across = lengths_[next];
-    const Index p = mesh_.to(h), q = mesh_.from(previous);
-    const auto set = [&](Index number, Index end, double length, Index number_there) {
-      DraftSide& side = sides_[number];
-      if (side.end == kNoIndex) side = {end, length, optics_.side(v, number), optics_.side(end, number_there)};
-    };
-    set(own, p, l, fans_.side(next, false));
-    set(other, q, k, fans_.side(previous, true));
-    const bool mirrored = fans_.corner(h).mirrored;
-    const FanCorner &at_p = fans_.corner(next), &at_q = fans_.corner(previous);
-    if (l > 0 && k > 0 && !split_[previous]) {
-      DraftUpdate u{own, other, l, hand_if(!mirrored), hand_if(at_p.mirrored), !at_q.mirrored};
-      set_target(q, fans_.direction(previous, true), k, across, u);
-    }
-    if (l > 0 && k > 0 && !split_[next]) {
-      DraftUpdate u{other, own, k, hand_if(mirrored), hand_if(!at_q.mirrored), at_p.mirrored};
-      set_target(p, fans_.direction(next, false), l, across, u);
-    }
-  }
-
-  // `back`: of the target, to v.
-  void set_target(Index target, const Direction& back, double along, double from_other, DraftUpdate& u) {
-    u.seam = optics_.is_seam(target, back);
-    u.sector = back.sector;
-    set_need(along, from_other, u);
-    updates_.push_back(u);
-  }
-
-  // What v, the right or the left one of an unrolled triangle, offers to its corner.
-  void add_unrolled(const UnrolledTriangle& t, bool is_right) {
-    const UnrolledEnd &own = is_right ? t.right : t.left, &other = is_right ? t.left : t.right;
-    const Index corner = mesh_.from(t.corner);
-    const double length = norm(other.at - own.at), along = norm(own.at);
-    if (!(length > 0) || !(along > 0)) return;
-    DraftUpdate u;
-    u.support = side(own.side_to_other, other.vertex, length, own.to_other, other.to_other);
-    u.target = side(own.side_to_corner, corner, along, own.to_corner, own.from_corner);
-    u.length = length;
-    u.hand = hand_if(own.same_turn == is_right);
-    u.hand_there = hand_if(other.same_turn != is_right);
-    u.same_turn = t.corner_same_turn == is_right;
-    set_target(corner, own.from_corner, along, norm(other.at), u);
-  }
-
-  // The number of a side, of a fan or of its own; those of one unrolling follow each other.
-  Index side(Index of_fan, Index end, double length, const Direction& here, const Direction& there) {
-    if (of_fan != kNoIndex) return of_fan;
-    constexpr std::size_t kRecent = 4;
-    const std::size_t own = sides_.size() - fans_.side_count(at_);
-    for (std::size_t i = 0; i < std::min(own, kRecent); ++i) {
-      const DraftSide& s = sides_[sides_.size() - 1 - i];
-      if (s.end == end && s.length == length && s.here.angle == here.angle) {
-        return static_cast<Index>(sides_.size() - 1 - i);
+  // Of odd vertices, and of those whose sides end there.
+  void mark_lenses() {
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      if (!of_fans_.is_odd(v)) continue;
+      may_have_lenses_.resize(mesh_.vertex_count());
+      for (const Index h : mesh_.corners(v)) {
+        for (Index k = 0; k < 3; ++k) may_have_lenses_[mesh_.faces()[Mesh::face_of(h)][k]] = true;
       }
     }
-    sides_.push_back({end, length, optics_.of(at_, here), optics_.of(end, there)});
-    return static_cast<Index>(sides_.size() - 1);
   }
 
-  void add_conduits(Index v, Index h) {
-    for (const Index g : {h, Mesh::previous(h)}) {
-      const Index end = mesh_.from(g) == v ? mesh_.to(g) : mesh_.from(g);
-      if (end != v) sides_.push_back({end, lengths_[g], {}, {}});
-    }
-  }
-
-  void write(Index v) {
-    at_ = v;
-    sides_.assign(fans_.side_count(v), {});
-    updates_.clear();
-    for (const Index h : mesh_.corners(v)) {
-      if (mesh_.is_face_usable(Mesh::face_of(h))) add_face(v, h);
-    }
-    for (std::size_t i = begin_[v]; i < begin_[v + 1]; ++i)
-      add_unrolled(triangles_[by_vertex_[i].triangle], by_vertex_[i].is_right);
-    for (const Index h : mesh_.corners(v)) {
-      if (!mesh_.is_face_usable(Mesh::face_of(h))) add_conduits(v, h);
-    }
-    const auto order = [](const DraftUpdate& u) { return std::tie(u.target, u.support, u.sector, u.length); };
-    detail::sort(updates_.begin(), updates_.end(),
-                 [&](const DraftUpdate& a, const DraftUpdate& b) { return order(a) < order(b); });
-    const auto beyond = [](const DraftUpdate& u) { return u.support >= kMostSupports; };
-    updates_.erase(std::remove_if(updates_.begin(), updates_.end(), beyond), updates_.end());
-    put_record(v);
-  }
-
-  void put_record(Index v) {
-    align();
-    out_.offset.push_back(out_.data.size());
-    const std::span<const Sector> sectors = fans_.sectors(v);
-    const double around = sectors.empty() || fans_.is_odd(v) ? kInfinity : sectors.front().around;
-    out_.around.push_back(around < kInfinity
-                              ? Around<T>{static_cast<T>(std::cos(around)), static_cast<T>(std::sin(around))}
-                              : Around<T>{});
+  void write(Index v, std::byte* at) {
+    sides_.clear(), updates_.clear(), lenses_.clear();
     head_ = {};
-    head_.sides = static_cast<Index>(sides_.size());
-    head_.bends = fans_.bends_light(v) ? 1 : 0;
-    for (const DraftUpdate& u : updates_) head_.reach = std::max(head_.reach, static_cast<T>(u.length));
-    out_.most_sides = std::max(out_.most_sides, head_.sides);
-    out_.most_updates = std::max(out_.most_updates, static_cast<Index>(updates_.size()));
-    set_optics();
-    put(&head_, 1);
-    put_ends();
-    put_updates();
-    align();
-    put(full_sides_.data(), full_sides_.size());
-    if (head_.has_dark) put(dark_.data(), dark_.size());
-    if (head_.has_lenses) put(lens_numbers_.data(), lens_numbers_.size());
-  }
-
-  void put_updates() {
-    for (const DraftUpdate& u : updates_) {
-      Update packed{u.support << Update::kSupportShift};
-      packed.bits |= u.sector << Update::kSectorShift;
-      packed.bits |= u.hand == Hand::Right ? Update::kHere : 0;
-      packed.bits |= u.hand_there == Hand::Right ? Update::kThere : 0;
-      packed.bits |= u.same_turn ? Update::kSameTurn : 0;
-      packed.bits |= u.seam ? Update::kSeam : 0;
-      // The target is less than half a turn away: if it seems to lie on the other hand, the angles began anew.
-      const double turn = sides_[u.target].here.angle - sides_[u.support].here.angle;
-      packed.bits |= (u.hand == Hand::Left ? turn < -kTurnRounding : turn > kTurnRounding) ? Update::kAcross : 0;
-      put(&packed, 1);
+    if (of_fans_.is_alone(v)) {
+      draft_alone(v);
+      if (unroller_.first_update(v) != kNoIndex) add_unrolled(v, 0);
+      add_conduits(v);
+      sort_updates(updates_);
+      put_record(at);
+    } else {
+      write_ring(v, at);
     }
   }
 
-  void put_ends() {
-    constexpr T kAnywhere = std::numeric_limits<T>::max();
-    std::size_t u = 0;
-    for (Index k = 0; k < sides_.size(); ++k) {
-      SideEnd<T> e{sides_[k].end, static_cast<T>(sides_[k].length), 0, static_cast<Index>(u)};
-      for (; u < updates_.size() && updates_[u].target == k; ++u) {
-        e.need = std::min(e.need, static_cast<T>(updates_[u].need));
-        e.bulge = std::max(e.bulge, static_cast<T>(updates_[u].bulge));
-      }
-      put(&e, 1);
+  void write_ring(Index v, std::byte* at) {
+    DraftRing<T> ring;
+    look_around(v, ring);
+    find_needs(ring);
+    if (unroller_.first_update(v) != kNoIndex) {
+      angles_.resize(ring.count);
+      for (Index i = 0; i < ring.count; ++i) angles_[i] = ring.side[i]->angle;
+      add_unrolled(v, ring.count);
+      sort_updates(updates_);
     }
-    const SideEnd<T> last{0, kAnywhere, 0, static_cast<Index>(u)};
-    put(&last, 1);
+    put_ring(ring, at);
   }
 
-  void set_optics() {
-    full_sides_.assign(sides_.size(), {});
-    dark_.assign(sides_.size(), {});
-    lens_numbers_.assign(sides_.size(), {{kNoIndex, kNoIndex}, {kNoIndex, kNoIndex}});
-    for (std::size_t k = 0; k < sides_.size(); ++k) {
-      const DraftSide& d = sides_[k];
-      Side<T>& s = full_sides_[k];
-      s.length = static_cast<T>(d.length);
-      s.c = static_cast<T>(d.here.c), s.s = static_cast<T>(d.here.s);
-      s.end_c = static_cast<T>(d.there.c), s.end_s = static_cast<T>(d.there.s);
-      s.sector = static_cast<std::uint8_t>(d.there.sector);
-      s.end_bends = fans_.bends_light(d.end) ? 1 : 0;
-      for (int i = 0; i < 2; ++i) {
-        s.turned[i] = d.here.sets.turned[i], s.end_turned[i] = d.there.sets.turned[i];
-        dark_[k].here[i] = d.here.sets.dark[i], dark_[k].end[i] = d.there.sets.dark[i];
-        lens_numbers_[k].here[i] = d.here.lenses[i], lens_numbers_[k].end[i] = d.there.lenses[i];
-        head_.has_dark |= (d.here.sets.dark[i] | d.there.sets.dark[i]) != 0;
-        head_.has_lenses |= d.here.lenses[i] != kNoIndex || d.there.lenses[i] != kNoIndex;
+  // Every corner of a ring is as it is in its face, every side between two of them.
+  BRUSHFIRE_INLINE void look_around(Index v, DraftRing<T>& ring) {
+    const Index begin = offsets_[v];
+    ring.count = offsets_[v + 1] - begin;
+    Index corner[kLanes];
+    for (Index i = 0; i < ring.count; ++i) corner[of_fans_[corners_[begin + i]].number] = corners_[begin + i];
+    for (Index i = ring.count; i < kLanes; ++i) ring.first[i] = ring.second[i] = ring.across[i] = 1;
+    for (Index i = 0, before = ring.count - 1; i < ring.count; before = i++) {
+      const Index h = corner[i], back = Mesh::previous(corner[before]), next = Mesh::next(h);
+      const RingSide<T>&here = of_fans_[h], &there = of_fans_[back];
+      ring.side[i] = &here;
+      ring.end_vertex[i] = vertices_[back];
+      ring.first[i] = ring.second[before] = here.length;
+      if (there.is_alone) {
+        look_from_alone(i, back, next, ring.end[i], ring.across[i]);
+      } else {
+        look_from_ring(there, of_fans_[next], ring.end[i], ring.across[i]);
       }
     }
+    head_.bends = ring.side[0]->bends ? 1 : 0;
   }
 
-  template <class U>
-  void put(const U* from, std::size_t count) {
-    static_assert(std::is_trivially_copyable_v<U>);
-    const std::size_t size = out_.data.size();
-    out_.data.resize(size + count * sizeof(U));
-    if (count > 0) std::memcpy(out_.data.data() + size, from, count * sizeof(U));
+  // The same of an end that is no ring's; its corners beside the side are `back` and `next`.
+  [[gnu::noinline]] void look_from_alone(Index side, Index back, Index next, RingEnd<T>& e, T& across) {
+    const Optic there = of_fans_.optic(back, true);
+    e.c = static_cast<T>(there.c), e.s = static_cast<T>(there.s), across = static_cast<T>(mesh_.length(next));
+    e.sets = there.sets;
+    e.sector = static_cast<std::uint8_t>(there.sector), e.bends = of_fans_[back].bends ? 1 : 0;
+    e.takes_ahead = !of_fans_[back].is_split, e.takes_behind = !of_fans_[next].is_split;
+    const bool back_mirrored = of_fans_.is_mirrored(back), next_mirrored = of_fans_.is_mirrored(next);
+    e.ahead = back_at(back, true) | (back_mirrored ? 0 : Update::kSameTurn);
+    e.behind = back_at(next, false) | (next_mirrored ? Update::kSameTurn : 0);
+    e.supports_ahead = next_mirrored ? 0 : Update::kThere, e.supports_behind = back_mirrored ? Update::kThere : 0;
+    LensNumbers lenses;
+    std::copy_n(there.lenses, 2, lenses.end);
+    if (lenses.any()) keep_lenses(side, lenses);
   }
-  void align() {
-    while (out_.data.size() % alignof(Side<T>) != 0) out_.data.push_back(std::byte{0});
+
+  BRUSHFIRE_INLINE void put_ring(const DraftRing<T>& ring, std::byte* at) {
+    RecordPen<T> pen = pen_at<T>(at, ring.count + static_cast<Index>(sides_.size()));
+    const DraftUpdate<T>*more = updates_.data(), *const end = more + updates_.size();
+    for (Index i = 0, before = ring.count - 1; i < ring.count; before = i++) {
+      pen.begin_side(ring.end_vertex[i], ring.first[i]);
+      const Index next = i + 1 < ring.count ? i + 1 : 0;
+      const RingUpdate<T> over_before = ahead(ring, i, before), over_next = behind(ring, i, next);
+      const bool takes_before = ring.end[i].takes_ahead, takes_next = ring.end[i].takes_behind;
+      if (more < end && more->target() == i) {
+        merged_.clear();
+        if (takes_before) merged_.push_back(as_draft(over_before, i));
+        if (takes_next) merged_.push_back(as_draft(over_next, i));
+        for (; more < end && more->target() == i; ++more) merged_.push_back(*more);
+        pen = put_merged(pen);
+      } else if (before < next) {
+        if (takes_before) pen.put(over_before);
+        if (takes_next) pen.put(over_next);
+      } else {
+        if (takes_next) pen.put(over_next);
+        if (takes_before) pen.put(over_before);
+      }
+      pen.end_side();
+    }
+    if (!sides_.empty()) pen = put_drafted_ends(more, end, ring.count, pen);
+    Side<T>* side = put_head(at, pen, ring.count + static_cast<Index>(sides_.size()));
+    for (Index i = 0; i < ring.count; ++i) {
+      const RingSide<T>& here = *ring.side[i];
+      const RingEnd<T>& e = ring.end[i];
+      Side<T>& to = side[i];
+      to.length = here.length;
+      to.c = here.c, to.s = here.s, to.end_c = e.c, to.end_s = e.s;
+      std::memcpy(to.turned, here.sets.turned, sizeof to.turned);
+      std::memcpy(to.end_turned, e.sets.turned, sizeof to.end_turned);
+      to.sector = e.sector, to.end_bends = e.bends;
+    }
+    auto* const dark = reinterpret_cast<DarkSets*>(side + head_.sides);
+    for (Index i = 0; i < ring.count; ++i) {
+      const SightSets &here = ring.side[i]->sets, &there = ring.end[i].sets;
+      std::memcpy(dark[i].here, here.dark, sizeof here.dark);
+      std::memcpy(dark[i].end, there.dark, sizeof there.dark);
+    }
+    put_drafts(side, dark, ring.count);
+  }
+
+  // A ring's updates for a side and those over unrolled faces, in order.
+  RecordPen<T> put_merged(RecordPen<T> pen) {
+    sort_updates(merged_);
+    for (const DraftUpdate<T>& u : merged_) pen.put(u);
+    return pen;
+  }
+
+  // The sides that have been drafted, from number `first` on.
+  RecordPen<T> put_drafted_ends(const DraftUpdate<T>* more, const DraftUpdate<T>* end, Index first, RecordPen<T> pen) {
+    for (const DraftSide<T>& d : sides_) {
+      pen.begin_side(d.end, d.side.length);
+      for (; more < end && more->target() == first; ++more) pen.put(*more);
+      ++first;
+      pen.end_side();
+    }
+    return pen;
+  }
+
+  // Returns where sides are to be written.
+  BRUSHFIRE_INLINE Side<T>* put_head(std::byte* at, RecordPen<T> pen, Index sides) {
+    const auto updates = static_cast<Index>(pen.update - pen.first);
+    *pen.end = {0, std::numeric_limits<T>::max(), 0, updates};
+    head_.sides = sides, head_.reach = pen.reach;
+    std::memcpy(at, &head_, sizeof head_);
+    out_.most_sides = std::max(out_.most_sides, sides), out_.most_updates = std::max(out_.most_updates, updates);
+    const auto front = static_cast<std::size_t>(reinterpret_cast<std::byte*>(pen.update) - at);
+    return reinterpret_cast<Side<T>*>(at + aligned<T>(front));
+  }
+
+  // What has been drafted of the sides from number `first` on, and the lenses of all.
+  BRUSHFIRE_INLINE void put_drafts(Side<T>* side, DarkSets* dark, Index first) {
+    for (const DraftSide<T>& d : sides_) side[first] = d.side, dark[first] = d.dark, ++first;
+    if (head_.has_lenses == 0) return;
+    lenses_.resize(head_.sides);
+    std::copy(lenses_.begin(), lenses_.end(), reinterpret_cast<LensNumbers*>(dark + head_.sides));
+  }
+
+  void put_record(std::byte* at) {
+    const auto sides = static_cast<Index>(sides_.size());
+    const RecordPen<T> pen =
+        put_drafted_ends(updates_.data(), updates_.data() + updates_.size(), 0, pen_at<T>(at, sides));
+    Side<T>* const side = put_head(at, pen, sides);
+    put_drafts(side, reinterpret_cast<DarkSets*>(side + sides), 0);
+  }
+
+  // Of a target's corner, and the side of it back to v.
+  std::uint32_t back_at(Index corner, bool own) const {
+    return of_fans_.sector(corner) << Update::kSectorShift | (of_fans_.is_seam(corner, own) ? Update::kSeam : 0);
+  }
+
+  // Any vertex that is no ring's.
+  void draft_alone(Index v) {
+    const Fans& fans = of_fans_.alone(v).fans();
+    head_.bends = fans.bends_light() ? 1 : 0;
+    sides_.resize(fans.side_count());
+    angles_.resize(fans.side_count());
+    for (DraftSide<T>& d : sides_) d = {kNoIndex, {}, {}};
+    for (const Index h : mesh_.corners(v)) {
+      if (mesh_.is_face_usable(Mesh::face_of(h))) add_face(h);
+    }
+  }
+
+  void add_face(Index h) {
+    const Index next = Mesh::next(h), previous = Mesh::previous(h);
+    const Index own = of_fans_.number(h, true), other = of_fans_.number(h, false);
+    const auto set = [&](Index side, Index end, Index along, Index there, bool there_own) {
+      if (sides_[side].end != kNoIndex) return;
+      sides_[side].end = end;
+      const T length = static_cast<T>(mesh_.length(along));
+      set_draft(side, length, of_fans_.optic(h, along == h), of_fans_.optic(there, there_own));
+    };
+    set(own, vertices_[next], h, next, false);
+    set(other, vertices_[previous], previous, previous, true);
+    const T l = sides_[own].side.length, k = sides_[other].side.length, across = static_cast<T>(mesh_.length(next));
+    if (!(l > 0) || !(k > 0)) return;
+    const bool mirrored = of_fans_.is_mirrored(h);
+    const bool p_mirrored = of_fans_.is_mirrored(next), q_mirrored = of_fans_.is_mirrored(previous);
+    if (!of_fans_[previous].is_split) {
+      add_update(own, other,
+                 back_at(previous, true) | (mirrored ? Update::kHere : 0) | (p_mirrored ? 0 : Update::kThere) |
+                     (q_mirrored ? 0 : Update::kSameTurn),
+                 l, need_of(k, across, l));
+    }
+    if (!of_fans_[next].is_split) {
+      add_update(other, own,
+                 back_at(next, false) | (mirrored ? 0 : Update::kHere) | (q_mirrored ? Update::kThere : 0) |
+                     (p_mirrored ? Update::kSameTurn : 0),
+                 k, need_of(l, across, k));
+    }
+  }
+
+  // The target is less than half a turn away: if it seems to lie on the other hand, the angles began anew.
+  void add_update(Index support, Index target, std::uint32_t bits, T length, Need<T> need) {
+    if (support >= kMostSupports) return;
+    const float turn = angles_[target] - angles_[support];
+    const bool right = (bits & Update::kHere) != 0;
+    bits |= (right ? turn > kTurnRounding : turn < -kTurnRounding) ? Update::kAcross : 0;
+    updates_.push_back(update_of(support, target, bits, length, need));
+  }
+
+  void set_draft(Index side, T length, const Optic& here, const Optic& there) {
+    DraftSide<T>& d = sides_[side];
+    LensNumbers lenses;
+    set_side(length, here, there, of_fans_.bends_light(d.end), d.side, d.dark, lenses);
+    angles_[side] = static_cast<float>(here.angle);
+    if (lenses.any()) keep_lenses(side, lenses);
+  }
+  void keep_lenses(Index side, const LensNumbers& lenses) {
+    if (lenses_.size() <= side) lenses_.resize(side + std::size_t{1});
+    lenses_[side] = lenses;
+    head_.has_lenses = 1;
+  }
+
+  // Behind those that have been drafted, and `written` others.
+  void add_unrolled(Index v, Index written) {
+    const auto before = written + static_cast<Index>(sides_.size());
+    numbers_.clear();
+    for (Index i = unroller_.first_side(v); i != kNoIndex; i = unroller_.side(i).next) numbers_.push_back(i);
+    std::reverse(numbers_.begin(), numbers_.end());
+    for (const Index i : numbers_) {
+      const UnrolledSide<T>& u = unroller_.side(i);
+      if (u.lenses != kNoIndex) keep_lenses(written + static_cast<Index>(sides_.size()), unroller_.lenses(u));
+      sides_.push_back({u.end, u.dark, u.side});
+      angles_.push_back(u.angle);
+    }
+    const auto number = [&](SideName name) {
+      if (!name.is_unrolled()) return name.number();
+      const auto at = std::lower_bound(numbers_.begin(), numbers_.end(), name.number());
+      return before + static_cast<Index>(at - numbers_.begin());
+    };
+    for (Index i = unroller_.first_update(v); i != kNoIndex; i = unroller_.update(i).next) {
+      const UnrolledUpdate<T>& u = unroller_.update(i);
+      add_update(number(u.support), number(u.target), u.update.bits, u.length, u.need);
+    }
+  }
+
+  // Along the edges of faces that name a vertex twice: they have no direction.
+  void add_conduits(Index v) {
+    for (const Index h : mesh_.corners(v)) {
+      if (mesh_.is_face_usable(Mesh::face_of(h))) continue;
+      for (const Index g : {h, Mesh::previous(h)}) {
+        const Index end = mesh_.from(g) == v ? mesh_.to(g) : mesh_.from(g);
+        if (end == v) continue;
+        Side<T> side{};
+        side.length = static_cast<T>(mesh_.length(g));
+        side.c = side.end_c = 0;
+        side.end_bends = of_fans_.bends_light(end) ? 1 : 0;
+        sides_.push_back({end, {}, side});
+      }
+    }
   }
 
   const Mesh& mesh_;
-  Fans fans_;
-  std::span<const double> lengths_;  // by halfedge
-  Optics optics_;
-  Unroller unroller_;
+  std::span<const Index> offsets_, corners_;
+  const Index* vertices_;  // of the faces: the beginning of each halfedge
+  Sides<T> of_fans_;
+  Unroller<T> unroller_;
   Poll poll_;
   Records<T> out_;
-  double sum_of_lengths_ = 0;
-  std::vector<bool> split_;  // by corner: obtuse, and unrolled into acute ones
-  std::vector<UnrolledTriangle> triangles_;
-  struct Share {
-    std::size_t triangle = 0;
-    bool is_right = true;
-  };
-  std::vector<std::size_t> begin_;
-  std::vector<Share> by_vertex_;
+  std::vector<bool> may_have_lenses_;  // [vertex_count]; empty: none has
   // Of the vertex at hand.
-  Index at_ = 0;
-  std::vector<DraftSide> sides_;
-  std::vector<DraftUpdate> updates_;
   RecordHead<T> head_;
-  std::vector<Side<T>> full_sides_;
-  std::vector<DarkSets> dark_;
-  std::vector<LensNumbers> lens_numbers_;
+  UninitializedArray<DraftSide<T>> sides_;
+  UninitializedArray<DraftUpdate<T>> updates_, merged_;
+  UninitializedArray<float> angles_;  // of sides
+  std::vector<LensNumbers> lenses_;   // of the first sides; the others have none
+  std::vector<Index> numbers_;        // of its unrolled sides
 };
 
 }  // namespace

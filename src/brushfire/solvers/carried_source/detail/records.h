@@ -34,12 +34,15 @@ struct alignas(8 * sizeof(T)) Side {
   std::uint8_t end_bends = 0;          // Fans::bends_light() of the end
 };
 
-// What few sides need.
+// SightSets, too.
 struct DarkSets {
   SectorSet here[2], end[2];
 };
+// What few sides need.
 struct LensNumbers {
-  Index here[2], end[2];  // kNoIndex: the sets say it
+  Index here[2] = {kNoIndex, kNoIndex}, end[2] = {kNoIndex, kNoIndex};  // kNoIndex: the sets say it
+
+  bool any() const { return (here[0] & here[1] & end[0] & end[1]) != kNoIndex; }
 };
 
 // Over the edge to the end of the side `support`, to the end of the side whose update it is.
@@ -63,7 +66,7 @@ struct Update {
 template <class T>
 struct RecordHead {
   Index sides = 0;
-  std::uint8_t has_dark = 0, has_lenses = 0;
+  std::uint8_t has_lenses = 0;
   std::uint8_t bends = 0;  // Fans::bends_light()
   T reach = 0;             // the longest side that anything is offered over
 };
@@ -90,7 +93,7 @@ class Record {
   }
   BRUSHFIRE_INLINE const DarkSets* dark() const { return reinterpret_cast<const DarkSets*>(sides() + head().sides); }
   BRUSHFIRE_INLINE const LensNumbers* lenses() const {
-    return reinterpret_cast<const LensNumbers*>(dark() + (head().has_dark ? head().sides : 0));
+    return reinterpret_cast<const LensNumbers*>(dark() + head().sides);
   }
 
  private:

@@ -29,6 +29,13 @@ Lens lens(double turn, bool reflected, Hand hand) {
   return {c, s, -sign * s, sign * c, true};
 }
 
+// The edge of a halfedge by the same number for all its faces.
+Index edge_of(const Mesh& mesh, Index h) {
+  Index lowest = h;
+  for (Index g = mesh.opposite(h); g != h; g = mesh.opposite(g)) lowest = std::min(lowest, g);
+  return lowest;
+}
+
 }  // namespace
 
 SightSets sight_of(std::span<const Sector> sectors, double angle) {
@@ -47,7 +54,7 @@ SightSets sight_of(std::span<const Sector> sectors, double angle) {
 
 std::vector<FanEnd> ends_of_fans(const Mesh& mesh, const Fans& fans, Index v) {
   std::vector<FanEnd> ends;
-  const std::span<const Sector> sectors = fans.sectors(v);
+  const std::span<const Sector> sectors = fans.sectors();
   // The first and the last angle of each fan.
   const auto is_open = [&](Index fan, double& last) {
     bool open = false;
@@ -61,8 +68,8 @@ std::vector<FanEnd> ends_of_fans(const Mesh& mesh, const Fans& fans, Index v) {
     const FanCorner& c = fans.corner(h);
     double last = 0;
     if (!is_open(c.fan, last)) continue;
-    if (c.low == 0) ends.push_back({c.fan, 0, true, fans.edge(c.mirrored ? Mesh::previous(h) : h)});
-    if (c.high == last) ends.push_back({c.fan, last, false, fans.edge(c.mirrored ? h : Mesh::previous(h))});
+    if (c.low == 0) ends.push_back({c.fan, 0, true, edge_of(mesh, c.mirrored ? Mesh::previous(h) : h)});
+    if (c.high == last) ends.push_back({c.fan, last, false, edge_of(mesh, c.mirrored ? h : Mesh::previous(h))});
   }
   return ends;
 }

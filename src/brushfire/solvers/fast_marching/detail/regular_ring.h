@@ -7,6 +7,7 @@
 #include <brushfire/solvers/fast_marching/detail/angle.h>
 #include <brushfire/solvers/fast_marching/detail/ring_blocks.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <span>

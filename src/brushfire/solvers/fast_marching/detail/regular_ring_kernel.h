@@ -58,6 +58,25 @@ class RegularRing {
     return !any(used & ~(one & apart));
   }
 
+  // Counter-clockwise, from the first corner on: each lane's second side is the next one's first. False where that does
+  // not come by all of them. For what follows, but not for write().
+  BRUSHFIRE_INLINE bool put_in_order() {
+    alignas(32) Index second[kLanes], corner[kLanes], end[kLanes], ordered[kLanes] = {};
+    store(second, second_);
+    store(corner, corners_);
+    std::copy_n(at_, kLanes, end);
+    Index at = 0;
+    for (Index i = 0; i < count_; ++i) {
+      ordered[i] = corner[at], at_[i] = end[at];
+      at = second[at];
+      if (at == 0 && i + 1 < count_) return false;
+    }
+    corners_ = load<Numbers8>(ordered);
+    const Numbers8 next = lane_numbers<Numbers8>() + 1;
+    second_ = select(next == count_, Numbers8(0), next);
+    return true;
+  }
+
   // Of length 0 in lanes that are not used.
   BRUSHFIRE_INLINE void measure_sides(const RingMesh& mesh, Index v) {
     using Wide = Lanes<double, kLanes>;
@@ -90,6 +109,16 @@ class RegularRing {
     store(block.dot, select(in_use, dot_, V(std::numeric_limits<T>::quiet_NaN())));
     store(block.cross, cross_);
     store_bytes(links.links, second_ | back_ << 4);
+  }
+
+  // By lane. Void in lanes that are not used.
+  struct Measures {
+    Index count;
+    Numbers8 corners;
+    V length, next_length, dot, cross;
+  };
+  BRUSHFIRE_INLINE Measures measures() const {
+    return {count_, corners_, length_, permuted(length_, Permutation<sizeof(T), kLanes>(second_)), dot_, cross_};
   }
 
   // Adds up as number i of the rings.
