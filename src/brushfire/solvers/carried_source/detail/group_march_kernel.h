@@ -100,7 +100,8 @@ BRUSHFIRE_INLINE void offer_along(GroupState& s, const GroupTurn& at, Index k) {
 // Lists are made without branches: which sides lead ahead and which ends are closed cannot be foreseen.
 BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v) {
   GroupVertex& own = s.fronts[v].own;
-  own.fresh = 0;
+  const std::uint32_t news = (own.fresh & GroupVertex::kLanes) | own.owed;
+  own.fresh = own.owed = 0;
   ++own.turns, ++s.turns;
   const Record<float> record = records[v];
   const RecordHead<float>& head = record.head();
@@ -112,15 +113,22 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
                      record.sides(),
                      head.has_dark ? record.dark() : nullptr,
                      head.has_lenses ? record.lenses() : nullptr};
+  // Nothing is new in the others, what they offer was offered before; or nobody asks for it.
+  const std::uint32_t live = news & bits(at.front.value <= Values(s.beyond));
   const Update* const updates = record.updates();
   const Values r = at.front.value - at.front.sigma, reach(head.reach), now = at.front.value - Values(s.slack);
   const Values later = select(reach < r, Values(1.0f) / (r - reach), Values(kAnywhere<float>));
   Index ahead = 0, offers = 0, alongs = 0;
   for (Index k = 0; k < head.sides; ++k) {
     const SideEnd<float>& e = at.ends[k];
+    GroupFront& end = s.fronts[e.end];
     s.ahead[ahead] = k;
-    ahead += any(now + Values(e.need) - Values(e.bulge) * later < load<Values>(s.fronts[e.end].value)) ? 1u : 0u;
-    s.closed[k] = s.fronts[e.end].own.fresh == 0 ? 1 : 0;
+    const auto later_there = now + Values(e.need) - Values(e.bulge) * later < load<Values>(end.value);
+    ahead += (bits(later_there) & live) != 0 ? 1u : 0u;
+    s.closed[k] = end.own.fresh == 0 ? 1 : 0;
+    // It will come to them in its own turn; in its first one to all lanes.
+    const bool comes_again = end.own.fresh - 1 < GroupVertex::kLanes;
+    end.own.owed |= comes_again ? live : 0;
   }
   for (Index i = 0; i < ahead; ++i) {
     const Index k = s.ahead[i], before = offers, end = at.ends[k].end;
@@ -159,7 +167,9 @@ BRUSHFIRE_INLINE void sort_in(GroupState& s) {
     if ((own.fresh & GroupVertex::kLanes) == 0) continue;
     s.touched.push_if(!own.reached, v);
     own.reached = true;
-    if (!any(load<Values>(s.fronts[v].value) <= Values(s.beyond))) continue;
+    // A vertex that stays fresh because it has no turn at all is not offered over: what lies behind is too far as well.
+    own.fresh &= bits(load<Values>(s.fronts[v].value) <= Values(s.beyond)) | GroupVertex::kNew;
+    if ((own.fresh & GroupVertex::kLanes) == 0) continue;
     s.exhausted |= own.turns >= s.most_turns;
     const float key = key_of(s, s.fronts[v]);
     const BucketQueue::Bucket bucket = group_bucket(key * s.per_unit);
