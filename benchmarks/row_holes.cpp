@@ -3,11 +3,11 @@
 //
 //   row_holes [--limit VERTICES] MESH|FOLDER...
 //
-// One line per mesh: values of its matrix (all rows up to 20000 vertices; of larger meshes groups from all over, as many
-// values), holes (a vertex that edges reach from the source has no distance), ghosts (the other way round), vertices
-// farther than along edges from some sources, and relative errors of eight rows, mean / largest in percent, in groups
-// and alone. The exit code says whether there was a hole, a ghost or something longer. Meshes of more than VERTICES
-// (200000) are left out, and so are files of a folder that cannot be read.
+// One line per mesh: values of its matrix (all rows up to 20000 vertices; of larger meshes groups from all over, as
+// many values), holes (a vertex that edges reach from the source has no distance), ghosts (the other way round),
+// vertices farther than along edges from some sources, and relative errors of eight rows, mean / largest in percent, in
+// groups and alone. The exit code says whether there was a hole, a ghost or something longer. Meshes of more than
+// VERTICES (200000) are left out, and so are files of a folder that cannot be read.
 #include <brushfire/core/error.h>
 #include <brushfire/io/read_mesh.h>
 #include <brushfire/queries/detail/rows.h>
@@ -104,7 +104,8 @@ void row_of(const std::string& name, const Mesh& mesh, Total& total) {
     for (Index u = 0; u < mesh.vertex_count(); ++u) {
       longer += static_cast<double>(row[u]) > edges[u] * (1 + 1e-4) ? 1 : 0;
       if (!(truth[u] > 0) || !std::isfinite(truth[u]) || !std::isfinite(row[u])) continue;
-      const double error[2] = {std::abs(static_cast<double>(row[u]) / truth[u] - 1), std::abs(single[u] / truth[u] - 1)};
+      const double error[2] = {std::abs(static_cast<double>(row[u]) / truth[u] - 1),
+                               std::abs(single[u] / truth[u] - 1)};
       for (int k = 0; k < 2; ++k) sum[k] += error[k], largest[k] = std::max(largest[k], error[k]);
       ++count;
     }
@@ -122,8 +123,9 @@ void row_of(const std::string& name, const Mesh& mesh, Total& total) {
 
 int run(int count, char** arguments) {
   const auto [limit, files] = MeshArguments(count, arguments, 200'000);
-  std::printf("| mesh | vertices | values | holes | ghosts | longer | error in groups | alone |\n"
-              "|---|--:|--:|--:|--:|--:|---|---|\n");
+  std::printf(
+      "| mesh | vertices | values | holes | ghosts | longer | error in groups | alone |\n"
+      "|---|--:|--:|--:|--:|--:|---|---|\n");
   Total total;
   for (const std::filesystem::path& file : files) {
     try {

@@ -114,7 +114,7 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
                      head.has_dark ? record.dark() : nullptr,
                      head.has_lenses ? record.lenses() : nullptr};
   // Nothing is new in the others, what they offer was offered before; or nobody asks for it.
-  const std::uint32_t live = news & bits(at.front.value <= Values(s.beyond));
+  const std::uint32_t live = news & bits(at.front.value <= Values(s.rim));
   const Update* const updates = record.updates();
   const Values r = at.front.value - at.front.sigma, reach(head.reach), now = at.front.value - Values(s.slack);
   const Values later = select(reach < r, Values(1.0f) / (r - reach), Values(kAnywhere<float>));
@@ -167,8 +167,9 @@ BRUSHFIRE_INLINE void sort_in(GroupState& s) {
     if ((own.fresh & GroupVertex::kLanes) == 0) continue;
     s.touched.push_if(!own.reached, v);
     own.reached = true;
-    // A vertex that stays fresh because it has no turn at all is not offered over: what lies behind is too far as well.
-    own.fresh &= bits(load<Values>(s.fronts[v].value) <= Values(s.beyond)) | GroupVertex::kNew;
+    const Values value = load<Values>(s.fronts[v].value);
+    if (!any(value <= Values(s.beyond))) continue;
+    own.fresh &= bits(value <= Values(s.rim)) | GroupVertex::kNew;
     if ((own.fresh & GroupVertex::kLanes) == 0) continue;
     s.exhausted |= own.turns >= s.most_turns;
     const float key = key_of(s, s.fronts[v]);

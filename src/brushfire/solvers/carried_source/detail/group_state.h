@@ -59,7 +59,8 @@ struct GroupState {
   float settled = 0;                           // values below no longer change
   int lanes = 0;                               // that began
   float later = 0;                             // what a lane without a value adds to a key
-  float beyond = kUnreached;                   // lanes whose value is greater have no turn
+  float beyond = kUnreached;                   // a vertex all of whose values are greater has no turn
+  float rim = kUnreached;                      // lanes whose value is greater offer nothing
   bool exhausted = false;                      // a vertex used up its turns
   std::uint64_t turns = 0, updates = 0;
 };

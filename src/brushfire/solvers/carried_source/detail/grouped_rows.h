@@ -41,10 +41,10 @@ class GroupedRows {
   Records<float> records_;
   // A vertex of domain.mesh() and where it is in the records: a vertex on a wall is in several places.
   using Placed = std::pair<Index, Index>;
-  std::vector<Index> place_;      // [vertices of domain.mesh()] the first one
-  std::vector<Placed> copies_;    // the others
+  std::vector<Index> place_;       // [vertices of domain.mesh()] the first one
+  std::vector<Placed> copies_;     // the others
   std::vector<Placed> by_vertex_;  // all, ascending
-  std::vector<Index> rank_;       // [records] in by_vertex_
+  std::vector<Index> rank_;        // [records] in by_vertex_
   std::vector<Group> groups_;
 };
 

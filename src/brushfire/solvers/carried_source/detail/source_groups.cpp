@@ -19,6 +19,7 @@ constexpr double kWidest = 8;
 // What is smaller and lies apart in a piece is an island that a cut left over: it stays where it is as long as it can.
 constexpr Index kComponent = 4 * kGroup;
 constexpr int kTries = 8;
+constexpr float kLonger = 1.15f;
 // A little more than 1. On grids whole regions are nearer to one end by the same.
 constexpr float kBefore = 1 + 1.0f / 64;
 
@@ -154,6 +155,12 @@ Index SourceGrouping::cut(Range range) {
   return middle;
 }
 
+// Of buckets: a vertex or so for each of them along the way, however long edges are here.
+float SourceGrouping::width_of(Range range, float length) const {
+  if (!(length < kNowhere)) return mean_edge_;
+  return length / std::sqrt(static_cast<float>(range.second - range.first));
+}
+
 // Distances from what is far from the pole, and of how many vertices they are.
 Index SourceGrouping::reach_other_end(Range range) {
   ++pieces_;
@@ -162,19 +169,33 @@ Index SourceGrouping::reach_other_end(Range range) {
   for (int tries = 0; tries < kTries; ++tries) {
     const Index other = farthest_reached(range);
     const float length = from_[other];
-    // Some buckets for every vertex along the way, however long edges are here.
-    const auto vertices = static_cast<float>(range.second - range.first);
-    reach(other, length < kNowhere ? length / std::sqrt(vertices) : mean_edge_, to_);
+    reach(other, width_of(range, length), to_);
     const auto is_reached = [this](Index v) { return to_[v] < kNowhere; };
-    reached = static_cast<Index>(
-        std::count_if(order_.begin() + range.first, order_.begin() + range.second, is_reached));
-    if (reached >= kComponent || 2 * reached >= range.second - range.first) break;
+    reached =
+        static_cast<Index>(std::count_if(order_.begin() + range.first, order_.begin() + range.second, is_reached));
+    if (reached >= kComponent || 2 * reached >= range.second - range.first) {
+      stretch(range, length);
+      break;
+    }
     // An island: the next one.
     for (Index i = range.first; i < range.second; ++i) {
       if (to_[order_[i]] < kNowhere) from_[order_[i]] = to_[order_[i]] = kNowhere;
     }
   }
   return reached;
+}
+
+// Where the piece is longer from its other end on than it is from the pole, the pole moves there.
+void SourceGrouping::stretch(Range range, float length) {
+  Index pole = kNoIndex;
+  float most = kLonger * length;
+  for (Index i = range.first; i < range.second; ++i) {
+    const Index v = order_[i];
+    if (to_[v] < kNowhere && to_[v] > most) pole = v, most = to_[v];
+  }
+  if (pole == kNoIndex) return;
+  forget(range, from_);
+  reach(pole, width_of(range, most), from_);
 }
 
 // From the pole; the first vertex where the pole reaches none.

@@ -46,6 +46,8 @@ class SourceGrouping {
   bool any_asked(Range range, const std::vector<bool>& asked) const;
   Index cut(Range range);
   Index reach_other_end(Range range);
+  void stretch(Range range, float length);
+  float width_of(Range range, float length) const;
   Index farthest_reached(Range range) const;
   void forget(Range range, std::vector<float>& distance) const;
   void reach(Index start, float width, std::vector<float>& distance);
