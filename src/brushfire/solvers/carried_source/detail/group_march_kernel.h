@@ -100,7 +100,8 @@ BRUSHFIRE_INLINE void offer_along(GroupState& s, const GroupTurn& at, Index k) {
 // Lists are made without branches: which sides lead ahead and which ends are closed cannot be foreseen.
 BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v) {
   GroupVertex& own = s.fronts[v].own;
-  const std::uint32_t news = (own.fresh & GroupVertex::kLanes) | own.owed;
+  // Nothing is new in the other lanes: what they offer was offered before.
+  const std::uint32_t live = own.fresh >= GroupVertex::kNew ? GroupVertex::kLanes : own.fresh | own.owed;
   own.fresh = own.owed = 0;
   ++own.turns, ++s.turns;
   const Record<float> record = records[v];
@@ -113,8 +114,6 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
                      record.sides(),
                      head.has_dark ? record.dark() : nullptr,
                      head.has_lenses ? record.lenses() : nullptr};
-  // Nothing is new in the others, what they offer was offered before; or nobody asks for it.
-  const std::uint32_t live = news & bits(at.front.value <= Values(s.rim));
   const Update* const updates = record.updates();
   const Values r = at.front.value - at.front.sigma, reach(head.reach), now = at.front.value - Values(s.slack);
   const Values later = select(reach < r, Values(1.0f) / (r - reach), Values(kAnywhere<float>));
@@ -127,7 +126,7 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
     ahead += (bits(later_there) & live) != 0 ? 1u : 0u;
     s.closed[k] = end.own.fresh == 0 ? 1 : 0;
     // It will come to them in its own turn; in its first one to all lanes.
-    const bool comes_again = end.own.fresh - 1 < GroupVertex::kLanes;
+    const bool comes_again = end.own.fresh - 1 < GroupVertex::kLanes;  // neither 0 nor new
     end.own.owed |= comes_again ? live : 0;
   }
   for (Index i = 0; i < ahead; ++i) {
@@ -170,7 +169,7 @@ BRUSHFIRE_INLINE void sort_in(GroupState& s) {
     const Values value = load<Values>(s.fronts[v].value);
     if (!any(value <= Values(s.beyond))) continue;
     own.fresh &= bits(value <= Values(s.rim)) | GroupVertex::kNew;
-    if ((own.fresh & GroupVertex::kLanes) == 0) continue;
+    if (!own.waits_for_turn()) continue;
     s.exhausted |= own.turns >= s.most_turns;
     const float key = key_of(s, s.fronts[v]);
     const BucketQueue::Bucket bucket = group_bucket(key * s.per_unit);
@@ -215,7 +214,7 @@ inline void work_group(GroupState& s, const Records<float>& records) {
         const Index sides = std::min(kUsualSides, record.head().sides);
         for (Index k = 0; k < sides; ++k) prefetch_front(s, record.ends()[k].end);
       }
-      if ((s.fronts[s.pass[i]].own.fresh & GroupVertex::kLanes) != 0) turn(s, records, s.pass[i]);
+      if (s.fronts[s.pass[i]].own.waits_for_turn()) turn(s, records, s.pass[i]);
     }
   }
 }

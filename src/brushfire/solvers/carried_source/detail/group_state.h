@@ -27,6 +27,8 @@ struct GroupVertex {
   std::uint32_t owed = 0;
   BucketQueue::Bucket waits_in = kNowhere;
   Around<float> around;  // of the vertex; stays
+
+  bool waits_for_turn() const { return ((fresh & kLanes) | owed) != 0; }
 };
 
 // The fronts of all sources at a vertex, in five cache lines. Where a lane has no value, +inf, the rest of it means
@@ -60,7 +62,7 @@ struct GroupState {
   int lanes = 0;                               // that began
   float later = 0;                             // what a lane without a value adds to a key
   float beyond = kUnreached;                   // a vertex all of whose values are greater has no turn
-  float rim = kUnreached;                      // lanes whose value is greater offer nothing
+  float rim = kUnreached;                      // lanes whose value is greater are no reason for a turn
   bool exhausted = false;                      // a vertex used up its turns
   std::uint64_t turns = 0, updates = 0;
 };
