@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A program of benchmarks/ on the shared meshes and on libcgal-demo's:
-# on_meshes.sh tolerance_table | curve_samples [--limit VERTICES]; what it prints is left in build/benchmark/PROGRAM.md.
+# on_meshes.sh tolerance_table | curve_samples | row_holes [--limit VERTICES]; what it prints is left in build/benchmark/PROGRAM.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=$1

@@ -87,6 +87,7 @@ void GroupMarch::begin_at(int lane, Index vertex) {
 bool GroupMarch::run(float spread, float last, Beyond beyond) {
   GroupState& s = state_;
   s.beyond = beyond == Beyond::Ignored ? last : GroupState::kUnreached;
+  s.rim = s.beyond + settling_;
   s.later = kLater * spread / static_cast<float>(s.lanes);
   do {
     const float front = static_cast<float>(s.queue.cursor()) / s.per_unit - (1 + kLater) * spread - settling_;

@@ -99,7 +99,9 @@ BRUSHFIRE_INLINE void offer_along(GroupState& s, const GroupTurn& at, Index k) {
 // Lists are made without branches: which sides lead ahead and which ends are closed cannot be foreseen.
 BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v) {
   GroupVertex& own = s.fronts[v].own;
-  own.fresh = 0;
+  // Nothing is new in the other lanes: what they offer was offered before.
+  const std::uint32_t live = own.fresh >= GroupVertex::kNew ? GroupVertex::kLanes : own.fresh | own.owed;
+  own.fresh = own.owed = 0;
   ++own.turns, ++s.turns;
   const Record<float> record = records[v];
   const RecordHead<float>& head = record.head();
@@ -117,9 +119,14 @@ BRUSHFIRE_INLINE void turn(GroupState& s, const Records<float>& records, Index v
   Index ahead = 0, offers = 0, alongs = 0;
   for (Index k = 0; k < head.sides; ++k) {
     const SideEnd<float>& e = at.ends[k];
+    GroupFront& end = s.fronts[e.end];
     s.ahead[ahead] = k;
-    ahead += any(now + Values(e.need) - Values(e.bulge) * later < load<Values>(s.fronts[e.end].value)) ? 1u : 0u;
-    s.closed[k] = s.fronts[e.end].own.fresh == 0 ? 1 : 0;
+    const auto later_there = now + Values(e.need) - Values(e.bulge) * later < load<Values>(end.value);
+    ahead += (bits(later_there) & live) != 0 ? 1u : 0u;
+    s.closed[k] = end.own.fresh == 0 ? 1 : 0;
+    // It will come to them in its own turn; in its first one to all lanes.
+    const bool comes_again = end.own.fresh - 1 < GroupVertex::kLanes;  // neither 0 nor new
+    end.own.owed |= comes_again ? live : 0;
   }
   for (Index i = 0; i < ahead; ++i) {
     const Index k = s.ahead[i], before = offers, end = at.ends[k].end;
@@ -158,7 +165,10 @@ BRUSHFIRE_INLINE void sort_in(GroupState& s) {
     if ((own.fresh & GroupVertex::kLanes) == 0) continue;
     s.touched.push_if(!own.reached, v);
     own.reached = true;
-    if (!any(load<Values>(s.fronts[v].value) <= Values(s.beyond))) continue;
+    const Values value = load<Values>(s.fronts[v].value);
+    if (!any(value <= Values(s.beyond))) continue;
+    own.fresh &= bits(value <= Values(s.rim)) | GroupVertex::kNew;
+    if (!own.waits_for_turn()) continue;
     s.exhausted |= own.turns >= s.most_turns;
     const float key = key_of(s, s.fronts[v]);
     const BucketQueue::Bucket bucket = group_bucket(key * s.per_unit);
@@ -203,7 +213,7 @@ inline void work_group(GroupState& s, const Records<float>& records) {
         const Index sides = std::min(kUsualSides, record.head().sides);
         for (Index k = 0; k < sides; ++k) prefetch_front(s, record.ends()[k].end);
       }
-      if ((s.fronts[s.pass[i]].own.fresh & GroupVertex::kLanes) != 0) turn(s, records, s.pass[i]);
+      if (s.fronts[s.pass[i]].own.waits_for_turn()) turn(s, records, s.pass[i]);
     }
   }
 }

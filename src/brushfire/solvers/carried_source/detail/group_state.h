@@ -23,8 +23,12 @@ struct GroupVertex {
   std::uint32_t fresh = kNew;
   std::uint16_t turns = 0;
   bool reached = false, listed = false;  // stands in touched, in fallen
+  // The lanes in which a neighbour had a turn since, and left the offers over the edge between them to this vertex.
+  std::uint32_t owed = 0;
   BucketQueue::Bucket waits_in = kNowhere;
   Around<float> around;  // of the vertex; stays
+
+  bool waits_for_turn() const { return ((fresh & kLanes) | owed) != 0; }
 };
 
 // The fronts of all sources at a vertex, in five cache lines. Where a lane has no value, +inf, the rest of it means
@@ -58,6 +62,7 @@ struct GroupState {
   int lanes = 0;                               // that began
   float later = 0;                             // what a lane without a value adds to a key
   float beyond = kUnreached;                   // a vertex all of whose values are greater has no turn
+  float rim = kUnreached;                      // lanes whose value is greater are no reason for a turn
   bool exhausted = false;                      // a vertex used up its turns
   std::uint64_t turns = 0, updates = 0;
 };

@@ -1,6 +1,7 @@
 // Rows of distance matrices with carried sources: sixteen neighbouring vertices at a time.
 #pragma once
 
+#include <brushfire/core/detail/marks.h>
 #include <brushfire/core/detail/targets.h>
 #include <brushfire/mesh/domain.h>
 #include <brushfire/solvers/carried_source/detail/group_march.h>
@@ -38,9 +39,12 @@ class GroupedRows {
   double unit_ = 1;
   detail::LocalMesh local_;  // of domain.open(), where faces over the same vertices are one
   Records<float> records_;
-  std::vector<Index> place_;                     // [vertices of domain.mesh()] in the records
-  std::vector<Index> vertex_;                    // [records] of domain.mesh()
-  std::vector<std::pair<Index, Index>> copies_;  // further copies of vertices on walls: the vertex, its place
+  // A vertex of domain.mesh() and where it is in the records: a vertex on a wall is in several places.
+  using Placed = std::pair<Index, Index>;
+  std::vector<Index> place_;       // [vertices of domain.mesh()] the first one
+  std::vector<Placed> copies_;     // the others
+  std::vector<Placed> by_vertex_;  // all, ascending
+  std::vector<Index> rank_;        // [records] in by_vertex_
   std::vector<Group> groups_;
 };
 
@@ -73,14 +77,21 @@ class GroupRunner {
   template <class Finish>
   std::vector<int> run_parts(const GroupedRows::Group& group, double max_distance, Beyond beyond, const Finish& finish);
   bool run_lanes(const GroupedRows::Group& group, int begin, int end, double max_distance, Beyond beyond);
-  void transpose();
+  template <class PlaceOf>
+  void transpose(std::size_t count, const PlaceOf& place_of);
   void list_reached();
+  std::size_t keep(std::span<const float> values, float last);
+  std::span<const float> of_lane(int lane, std::size_t count) const {
+    return std::span(values_).subspan(static_cast<std::size_t>(lane) * count, count);
+  }
 
   const GroupedRows& rows_;
   GroupMarch march_;
-  std::vector<float> values_;                     // [kGroupLanes][vertices of domain.mesh()], in units of the open mesh
-  std::vector<std::pair<Index, Index>> reached_;  // the vertex and its place, ascending
-  std::vector<Index> columns_;                    // of a lane
+  std::vector<float> values_;  // [kGroupLanes][count], in units of the open mesh
+  detail::Marks marks_;        // of ranks
+  std::vector<GroupedRows::Placed> reached_;
+  std::vector<Index> columns_;  // of a lane within the radius
+  std::vector<float> kept_;     // the same
 };
 
 }  // namespace brushfire::carried_source

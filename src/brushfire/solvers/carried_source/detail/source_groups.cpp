@@ -4,6 +4,7 @@
 #include <brushfire/core/cancel.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -15,32 +16,58 @@ constexpr float kNowhere = 1e30f;
 // In edges as they are there. Sources farther from each other disagree about the order around them for too long: a
 // group of scattered ones takes 20 to 30 turns a vertex instead of 1.1.
 constexpr double kWidest = 8;
-// What is smaller and lies apart in a piece is an island that a cut left over: it stays with its neighbours as long as
-// it can.
+// What is smaller and lies apart in a piece is an island that a cut left over: it stays where it is as long as it can.
 constexpr Index kComponent = 4 * kGroup;
-
-// body(vertex, length) for each edge at v, those of two faces twice.
-template <class Body>
-void for_neighbours(const Mesh& mesh, Index v, const Body& body) {
-  for (const Index h : mesh.corners(v)) {
-    const Index back = Mesh::previous(h);
-    body(mesh.to(h), static_cast<float>(mesh.length(h)));
-    body(mesh.from(back), static_cast<float>(mesh.length(back)));
-  }
-}
+constexpr int kTries = 8;
+constexpr float kLonger = 1.15f;
+// A little more than 1. On grids whole regions are nearer to one end by the same.
+constexpr float kBefore = 1 + 1.0f / 64;
 
 }  // namespace
 
 SourceGrouping::SourceGrouping(const Mesh& mesh, std::vector<bool> excluded)
-    : mesh_(mesh), piece_(mesh.vertex_count(), 0), from_(mesh.vertex_count()), to_(mesh.vertex_count(), kNowhere) {
+    : mesh_(mesh),
+      piece_(mesh.vertex_count(), kNoIndex),
+      from_(mesh.vertex_count(), kNowhere),
+      to_(mesh.vertex_count(), kNowhere) {
+  list_neighbours();
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (!mesh.corners(v).empty() && (excluded.empty() || !excluded[v])) order_.push_back(v);
+    if (mesh.corners(v).empty() || (!excluded.empty() && excluded[v])) continue;
+    order_.push_back(v);
+    piece_[v] = pieces_;
   }
+}
+
+std::span<const SourceGrouping::Neighbour> SourceGrouping::neighbours(Index v) const {
+  return std::span(neighbours_).subspan(start_[v], start_[v + 1] - start_[v]);
+}
+
+void SourceGrouping::list_neighbours() {
+  start_.reserve(mesh_.vertex_count() + std::size_t{1});
+  neighbours_.reserve(mesh_.halfedge_count() + std::size_t{mesh_.halfedge_count() / 16});
+  double sum = 0;
+  const auto add = [&](Index w, Index h) {
+    const double length = mesh_.length(h);
+    neighbours_.push_back({w, static_cast<float>(length)});
+    sum += length;
+  };
+  for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+    start_.push_back(neighbours_.size());
+    for (const Index h : mesh_.corners(v)) {
+      add(mesh_.to(h), h);
+      // The other edge of this corner, unless it leaves v in the next face.
+      const Index back = Mesh::previous(h), next = mesh_.opposite(back);
+      if (next == back || mesh_.from(next) != v) add(mesh_.from(back), back);
+    }
+  }
+  start_.push_back(neighbours_.size());
+  if (!neighbours_.empty()) mean_edge_ = static_cast<float>(sum / static_cast<double>(neighbours_.size()));
 }
 
 std::vector<SourceGroup> SourceGrouping::of(const std::vector<bool>& asked) {
   std::vector<SourceGroup> groups;
-  std::vector<Range> open{{0, static_cast<Index>(order_.size())}};
+  std::vector<Range> open = components();
+  std::reverse(open.begin(), open.end());
   while (!open.empty()) {
     const Range range = open.back();
     open.pop_back();
@@ -57,6 +84,41 @@ std::vector<SourceGroup> SourceGrouping::of(const std::vector<bool>& asked) {
   return groups;
 }
 
+// Each with its distances from a pole at one of its ends.
+std::vector<SourceGrouping::Range> SourceGrouping::components() {
+  std::vector<Index> number(mesh_.vertex_count(), kNoIndex), count;
+  for (const Index first : order_) {
+    if (number[first] != kNoIndex) continue;
+    const auto own = static_cast<Index>(count.size());
+    count.push_back(0);
+    right_.assign(1, first);
+    number[first] = own;
+    while (!right_.empty()) {
+      const Index v = right_.back();
+      right_.pop_back();
+      ++count[own];
+      for (const auto& [w, length] : neighbours(v)) {
+        if (piece_[w] == kNoIndex || number[w] != kNoIndex) continue;
+        number[w] = own;
+        right_.push_back(w);
+      }
+    }
+  }
+  std::vector<Range> ranges;
+  Index begin = 0;
+  for (const Index c : count) ranges.emplace_back(begin, begin), begin += c;
+  const std::vector<Index> ascending = order_;
+  for (const Index v : ascending) order_[ranges[number[v]].second++] = v;
+  for (const Range& range : ranges) {
+    if (range.second - range.first <= kGroup) continue;
+    reach(order_[range.first], mean_edge_, from_);
+    const Index pole = farthest_reached(range);
+    forget(range, from_);
+    reach(pole, mean_edge_, from_);
+  }
+  return ranges;
+}
+
 bool SourceGrouping::any_asked(Range range, const std::vector<bool>& asked) const {
   return std::any_of(order_.begin() + range.first, order_.begin() + range.second, [&](Index v) { return asked[v]; });
 }
@@ -64,53 +126,115 @@ bool SourceGrouping::any_asked(Range range, const std::vector<bool>& asked) cons
 // At a multiple of the size of a group, so that only the last one is not full.
 Index SourceGrouping::cut(Range range) {
   const auto [begin, end] = range;
-  ++pieces_;
-  for (Index i = begin; i < end; ++i) piece_[order_[i]] = pieces_;
-  const Index a = farthest(order_[begin], range, from_);
-  // Components come apart as a whole.
-  const auto first = order_.begin() + begin, last = order_.begin() + end;
-  const auto hangs_together = [&](Index v) { return from_[v] < kNowhere; };
-  const auto together = static_cast<Index>(std::count_if(first, last, hangs_together));
-  if (together >= kComponent && end - begin - together >= kComponent) {
-    std::stable_partition(first, last, hangs_together);
-    return begin + together;
-  }
-  const Index b = farthest(a, range, from_);
-  farthest(b, range, to_);
-  const Index middle = begin + std::max<Index>(1, (end - begin) / kGroup / 2) * kGroup;
+  const Index size = end - begin, reached = reach_other_end(range);
+  // What rounding left apart from the rest, and is no island, becomes a piece of its own.
+  const bool apart = reached >= kComponent && size - reached >= kComponent;
+  const Index middle = begin + (apart ? size - reached : std::max<Index>(1, size / kGroup / 2) * kGroup);
+  // Nearer to the pole by this; of two that are as near the one that lies before.
+  const auto side_of = [this](Index v) {
+    if (!(std::max(from_[v], to_[v]) < kNowhere)) return kNowhere;
+    return from_[v] * kBefore - to_[v];
+  };
   sides_.clear();
-  for (Index i = begin; i < end; ++i) sides_.emplace_back(from_[order_[i]] - to_[order_[i]], order_[i]);
-  const auto pivot = sides_.begin() + (middle - begin);
-  std::nth_element(sides_.begin(), pivot, sides_.end());
-  const std::pair<float, Index> first_beyond = *pivot;
-  std::stable_partition(first, last, [&](Index v) { return std::pair(from_[v] - to_[v], v) < first_beyond; });
-  for (Index i = begin; i < end; ++i) to_[order_[i]] = kNowhere;
+  for (Index i = begin; i < end && !apart; ++i) sides_.emplace_back(side_of(order_[i]), order_[i]);
+  if (!apart) std::nth_element(sides_.begin(), sides_.begin() + (middle - begin), sides_.end());
+  const std::pair<float, Index> first_beyond = apart ? std::pair(kNowhere, Index{0}) : sides_[middle - begin];
+  right_.clear();
+  Index left = begin;
+  for (Index i = begin; i < end; ++i) {
+    const Index v = order_[i];
+    if (apart ? to_[v] == kNowhere : std::pair(side_of(v), v) < first_beyond) {
+      order_[left++] = v;
+    } else {
+      right_.push_back(v);
+      from_[v] = to_[v];
+    }
+    to_[v] = kNowhere;
+  }
+  std::copy(right_.begin(), right_.end(), order_.begin() + middle);
   return middle;
 }
 
-// Along edges within the piece; vertices that are not reached are the farthest.
-Index SourceGrouping::farthest(Index start, Range range, std::vector<float>& distance) {
-  for (Index i = range.first; i < range.second; ++i) distance[order_[i]] = kNowhere;
-  heap_.assign(1, {0.0f, start});
-  distance[start] = 0;
-  Index last = start, reached = 0;
-  while (!heap_.empty()) {
-    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
-    const auto [d, v] = heap_.back();
-    heap_.pop_back();
-    if (d > distance[v]) continue;
-    last = v, ++reached;
-    for_neighbours(mesh_, v, [&](Index w, float length) {
-      // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): numbers of vertices are below its size
-      if (piece_[w] != pieces_ || !(d + length < distance[w])) return;
-      distance[w] = d + length;
-      heap_.emplace_back(d + length, w);
-      std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
-    });
+// Of buckets: a vertex or so for each of them along the way, however long edges are here.
+float SourceGrouping::width_of(Range range, float length) const {
+  if (!(length < kNowhere)) return mean_edge_;
+  return length / std::sqrt(static_cast<float>(range.second - range.first));
+}
+
+// Distances from what is far from the pole, and of how many vertices they are.
+Index SourceGrouping::reach_other_end(Range range) {
+  ++pieces_;
+  for (Index i = range.first; i < range.second; ++i) piece_[order_[i]] = pieces_;
+  Index reached = 0;
+  for (int tries = 0; tries < kTries; ++tries) {
+    const Index other = farthest_reached(range);
+    const float length = from_[other];
+    reach(other, width_of(range, length), to_);
+    const auto is_reached = [this](Index v) { return to_[v] < kNowhere; };
+    reached =
+        static_cast<Index>(std::count_if(order_.begin() + range.first, order_.begin() + range.second, is_reached));
+    if (reached >= kComponent || 2 * reached >= range.second - range.first) {
+      stretch(range, length);
+      break;
+    }
+    // An island: the next one.
+    for (Index i = range.first; i < range.second; ++i) {
+      if (to_[order_[i]] < kNowhere) from_[order_[i]] = to_[order_[i]] = kNowhere;
+    }
   }
-  if (reached == range.second - range.first) return last;
-  const auto is_away = [&](Index v) { return distance[v] == kNowhere; };
-  return *std::find_if(order_.begin() + range.first, order_.begin() + range.second, is_away);
+  return reached;
+}
+
+// Where the piece is longer from its other end on than it is from the pole, the pole moves there.
+void SourceGrouping::stretch(Range range, float length) {
+  Index pole = kNoIndex;
+  float most = kLonger * length;
+  for (Index i = range.first; i < range.second; ++i) {
+    const Index v = order_[i];
+    if (to_[v] < kNowhere && to_[v] > most) pole = v, most = to_[v];
+  }
+  if (pole == kNoIndex) return;
+  forget(range, from_);
+  reach(pole, width_of(range, most), from_);
+}
+
+// From the pole; the first vertex where the pole reaches none.
+Index SourceGrouping::farthest_reached(Range range) const {
+  Index farthest = order_[range.first];
+  float most = -1;
+  for (Index i = range.first; i < range.second; ++i) {
+    const float d = from_[order_[i]];
+    if (d < kNowhere && d > most) farthest = order_[i], most = d;
+  }
+  return farthest;
+}
+
+void SourceGrouping::forget(Range range, std::vector<float>& distance) const {
+  for (Index i = range.first; i < range.second; ++i) distance[order_[i]] = kNowhere;
+}
+
+// Distances along edges within the piece that `start` is in; buckets are `width` wide. Which of them a vertex waits in
+// decides how often it is looked at, and not what comes out: the least sum.
+void SourceGrouping::reach(Index start, float width, std::vector<float>& distance) {
+  const float inverse = 1 / width, per_unit = std::isfinite(inverse) ? inverse : 0.0f;
+  const auto bucket_of = [=](float d) { return static_cast<BucketQueue::Bucket>(d * per_unit); };
+  const Index piece = piece_[start];
+  distance[start] = 0;
+  queue_.reset();
+  queue_.push(start, 0);
+  do {
+    for (std::size_t i = 0; i < queue_.current().size(); ++i) {
+      const Index v = queue_.current()[i];
+      const float d = distance[v];
+      if (bucket_of(d) < queue_.cursor()) continue;  // it had its turn
+      for (const auto& [w, length] : neighbours(v)) {
+        if (piece_[w] != piece || !(d + length < distance[w])) continue;
+        distance[w] = d + length;
+        queue_.push(w, bucket_of(d + length));
+      }
+    }
+    queue_.clear_current();
+  } while (queue_.advance());
 }
 
 void SourceGrouping::take_apart(Range range, const std::vector<bool>& asked, std::vector<SourceGroup>& groups) {
@@ -127,7 +251,7 @@ void SourceGrouping::take_apart(Range range, const std::vector<bool>& asked, std
 // How far a vertex may be for a group.
 double SourceGrouping::close_by(Index vertex) const {
   double sum = 0, count = 0;
-  for_neighbours(mesh_, vertex, [&](Index, float length) { sum += length, ++count; });
+  for (const auto& [w, length] : neighbours(vertex)) sum += length, ++count;
   return kWidest * sum / count;
 }
 
@@ -146,14 +270,13 @@ std::vector<Index> SourceGrouping::cluster(std::vector<Index>& left, double& spr
     heap_.pop_back();
     if (d > to_[v]) continue;
     if (v != first && std::binary_search(left.begin(), left.end(), v)) --missing, farthest_found = d;
-    for_neighbours(mesh_, v, [&](Index w, float length) {
-      // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): numbers of vertices are below its size
-      if (d + length > limit || !(d + length < to_[w])) return;
+    for (const auto& [w, length] : neighbours(v)) {
+      if (d + length > limit || !(d + length < to_[w])) continue;
       if (to_[w] == kNowhere) seen.push_back(w);
       to_[w] = d + length;
       heap_.emplace_back(d + length, w);
       std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
-    });
+    }
   }
   // What was popped is not farther than the last of them.
   std::vector<Index> close;
