@@ -52,7 +52,10 @@ struct RingUpdate {
 template <class T>
 void sort_updates(UninitializedArray<DraftUpdate<T>>& updates) {
   constexpr std::size_t kFew = 64;
-  if (updates.size() > kFew) return detail::sort(updates.begin(), updates.end(), comes_before<T>);
+  if (updates.size() > kFew) {
+    return detail::sort(updates.begin(), updates.end(),
+                        [](const auto& a, const auto& b) { return comes_before(a, b); });
+  }
   for (std::size_t i = 1; i < updates.size(); ++i) {
     const DraftUpdate<T> u = updates[i];
     std::size_t at = i;

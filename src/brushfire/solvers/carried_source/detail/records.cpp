@@ -43,7 +43,7 @@ class RecordBuilder {
     find_places();
     std::byte* const base = out_.data.data() + (out_.base() - out_.data.data());
     // A march reads records in no order that a TLB could hold.
-    PagesAhead pages(base, out_.offset.back());
+    PagesAhead pages(base, static_cast<std::size_t>(out_.offset.back()));
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       poll_();
       pages.reach(base + out_.offset[v + 1]);
