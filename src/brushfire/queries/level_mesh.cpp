@@ -33,7 +33,7 @@ LevelMesh::LevelMesh(const WindowField& field, std::span<const double> levels, d
       place_(mesh_.face_count(), kNoIndex),
       known_(mesh_.vertex_count(), kNoIndex) {
   for (const double level : levels) levels_.push_back(level / mesh_.unit());
-  sort(levels_.begin(), levels_.end());
+  detail::sort(levels_.begin(), levels_.end());
   above_ = levels_.empty() ? 1 : levels_.back() + std::max(1.0, std::abs(levels_.back()));
   for (Index face = 0; face < mesh_.face_count(); ++face) {
     stop_if_cancelled();

@@ -5,6 +5,7 @@
 #include <brushfire/mesh/mesh.h>
 #include <brushfire/solvers/carried_source/detail/group_state.h>
 
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -56,7 +57,7 @@ class SourceGrouping {
   std::vector<Index> cluster(std::vector<Index>& left, double& spread);
 
   const Mesh& mesh_;
-  std::vector<std::uint64_t> start_;   // [vertex_count + 1] into neighbours_
+  std::vector<std::size_t> start_;     // [vertex_count + 1] into neighbours_
   std::vector<Neighbour> neighbours_;  // each edge from either end
   float mean_edge_ = 0;
   std::vector<Index> order_;  // the vertices, piece after piece; within a piece they ascend
