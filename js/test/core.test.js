@@ -38,7 +38,7 @@ function scriptsOf(name, found = new Set()) {
 }
 
 // What they may not grow beyond. The aims, 450 and 250 kB, are not reached: docs/decisions/web.md.
-const MOST = { whole: 657e3, core: 336e3, wide: 77e3 };
+const MOST = { whole: 671e3, core: 349e3, wide: 77e3 };
 
 test('the package has not grown', (t) => {
   const whole = packed(['brushfire.wasm', ...scriptsOf('index.js'), 'worker.js']);
