@@ -283,8 +283,8 @@ Outcome Examination::windows(const Task& task) {
       const bool is_beside = curves_ && value.length < shortest_edge(case_.mesh);
       const Real beside = is_beside ? (1 + task.tolerance) * 32 * lever_rounding(case_.mesh) : 0;
       // Nor is any in wide numbers where lengths differ by 1e20: "Rounding" of docs/tolerance.md.
-      const Real turned = 32 * 0x1p-103L * ratio_of(case_.mesh) * value.length;
-      hold_bound(value, blind ? kInfinity : task.tolerance, offsets, beside + turned, vertex_text(v), out);
+      const Real wide = wide_rounding(case_.mesh, value.length);
+      hold_bound(value, blind ? kInfinity : task.tolerance, offsets, beside + wide, vertex_text(v), out);
     } else {
       hold_side(value, task.kind == Task::Kind::Lower, vertex_text(v), out);
     }

@@ -111,6 +111,11 @@ Real ratio_of(const Mesh& mesh) {
   return ratio;
 }
 
+Real wide_rounding(const Mesh& mesh, Real length) {
+  const double longest = *std::max_element(mesh.lengths().begin(), mesh.lengths().end());
+  return 32 * 0x1p-103L * (Real{mesh.unit()} * longest + ratio_of(mesh) * length);
+}
+
 Real shortest_edge(const Mesh& mesh) {
   double shortest = kInfinity;
   for (const double l : mesh.lengths()) {

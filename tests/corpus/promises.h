@@ -55,6 +55,9 @@ oracle::Real lever_rounding(const Mesh& mesh);
 // Of the longest and the shortest edge of a face, the largest.
 oracle::Real ratio_of(const Mesh& mesh);
 
+// What is not sure of wider numbers at a vertex of that distance: "Rounding" in docs/tolerance.md.
+oracle::Real wide_rounding(const Mesh& mesh, oracle::Real length);
+
 oracle::Real shortest_edge(const Mesh& mesh);
 
 }  // namespace brushfire::corpus

@@ -79,5 +79,28 @@ TEST(Dirty, VerticesSeenByNothingYetAreNotReadAfterAnEarlyStop) {
   EXPECT_EQ(field.reached + field.beyond_radius + field.unreachable, mesh.vertex_count());
 }
 
+// Vertex 5 lies on the long edge of a face without area, and the source just above it, on a boundary. Its light over
+// that edge is all that goes to vertex 1, and the source's own light reads the same there, to rounding of places on the
+// edge.
+TEST(Dirty, AVertexOnAnEdgeIsNotBeatenByLightThatPassesItWithATolerance) {
+  const std::vector<Vec3> positions{{0, 0, 0}, {4, 4, 0},   {0, 1, 0}, {2, 1, 0},
+                                    {0, 1, 0}, {1.5, 1, 0}, {0, 1, 0}, {0, 2, 0}};
+  const std::vector<Face> faces{{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}, {4, 5, 7}, {4, 7, 6}};
+  const Mesh mesh(positions, faces);
+  for (const double share : {2.8743601058448129e-05, 1e-4, 1e-3, 1e-2}) {
+    const Source source{{4, {0, 1 - share, share}}};
+    // Over the edge 0-3 vertex 1 lies at (5.6, 0.8).
+    const double wanted = share * std::hypot(1.5, 1) + std::hypot(4.1, 0.2);
+    for (const double tolerance : {0.1, 1e-2, 1e-3, 1e-5, 1e-8}) {
+      DistanceOptions options;
+      options.method = Method::Windows;
+      options.tolerance = tolerance;
+      const DistanceField field = distance(mesh, {&source, 1}, options);
+      EXPECT_LE(std::abs(field.distance[1] - wanted), field.error_bound[1]) << share << ", " << tolerance;
+      EXPECT_LE(field.error_bound[1], tolerance * wanted) << share << ", " << tolerance;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace brushfire

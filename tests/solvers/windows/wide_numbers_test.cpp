@@ -173,5 +173,25 @@ TEST(Trails, AFaceIsFoundAgainSoonerOrLater) {
   EXPECT_TRUE(found);
 }
 
+// Light that comes round faces without area to a vertex reads less than the straight way, by the rounding of their
+// frames.
+TEST(WideNumbers, KeepTheToleranceAtAVertexThatASourceIsBeside) {
+  const std::vector<Vec3> positions{{1.25, 0, -3},      {0, 0, -4}, {3.75, 0, -1},
+                                    {0.9375, 0, -3.25}, {0, -4, 0}, {0, 0, -4}};
+  const std::vector<Face> faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {5, 2, 1}, {5, 3, 2}, {5, 4, 3}, {5, 1, 4}};
+  const Mesh mesh(positions, faces);
+  constexpr double kPlace = 2 * windows::kEpsilon * 5.6;  // what three weights say of a place in such a face
+  for (const double share : {2.0133697375606322e-11, 1e-10, 1e-9, 1e-8, 1e-6}) {
+    const Source source{{3, {1 - share, share, 0}}};
+    for (const double tolerance : {1e-2, 1e-3, 1e-5}) {
+      DistanceOptions options;
+      options.method = Method::Windows;
+      options.tolerance = tolerance;
+      const DistanceField field = distance(mesh, std::span(&source, 1), options);
+      EXPECT_LE(field.error_bound[0], tolerance * field.distance[0] + kPlace) << share << ", " << tolerance;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace brushfire

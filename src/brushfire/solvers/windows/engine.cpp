@@ -2,9 +2,11 @@
 #include <brushfire/solvers/windows/engine.h>
 
 #include <brushfire/core/error.h>
+#include <brushfire/mesh/surface_point.h>
 #include <brushfire/solvers/detail/sheets.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace brushfire::windows {
@@ -19,6 +21,18 @@ constexpr Index kLarge = 1 << 13;  // faces
 // And runs with a tolerance to this share of the tolerance.
 constexpr double kOfTolerance = 1.0 / 64;
 
+// From a source that is no vertex to the nearest corner of its face: the least distance that a tolerance is kept to.
+double nearest_corner(const Mesh& mesh, std::span<const detail::LocatedSource> sources) {
+  double nearest = kInfinity;
+  for (const detail::LocatedSource& s : sources) {
+    if (s.curve || s.at.on == PointLocation::On::Vertex) continue;
+    for (const double d : corner_distances(mesh, s.at)) {
+      if (d > 0) nearest = std::min(nearest, d);
+    }
+  }
+  return nearest;
+}
+
 // One part: what crosses from part to part forgets its trail (Trails), and threads would not make up for the numbers.
 constexpr unsigned kOnePart = 31;
 
@@ -29,15 +43,28 @@ class Windows final : public detail::Engine {
 
   void set_up(const DistanceOptions& options) override { engine_for(options).set_up(options); }
   void solve(const detail::Problem& problem, DistanceField& field) override {
-    engine_for(*problem.options).solve(problem, field);
+    const bool beside = is_beside_vertex(problem);
+    (beside ? in_wider_numbers() : engine_for(*problem.options)).solve(problem, field);
   }
   bool lists_touched() const override { return true; }
 
  private:
+  static double tolerance_of(const DistanceOptions& options) {
+    return options.method == Method::Exact ? 0 : options.tolerance;
+  }
   detail::Engine& engine_for(const DistanceOptions& options) {
-    const double tolerance = options.method == Method::Exact ? 0 : options.tolerance;
+    const double tolerance = tolerance_of(options);
     const double allowed = mesh_.face_count() < kLarge ? kDoubtAllowed : kDoubtAllowedInLarge;
     if (narrow_->doubt() <= std::max(allowed, kOfTolerance * tolerance)) return *narrow_;
+    return in_wider_numbers();
+  }
+  // Whether a vertex is so near to a source that rounding is more than the tolerance leaves for it.
+  bool is_beside_vertex(const detail::Problem& problem) const {
+    const double tolerance = tolerance_of(*problem.options);
+    return tolerance > 0 &&
+           narrow_->absolute_rounding() > kOfTolerance * tolerance * nearest_corner(mesh_, problem.sources);
+  }
+  detail::Engine& in_wider_numbers() {
     if (!wide_) wide_ = in_double_doubles::make_engine(mesh_, kOnePart, merging_);
     return *wide_;
   }

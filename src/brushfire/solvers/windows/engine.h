@@ -27,6 +27,8 @@ class NumberedEngine : public detail::Engine {
  public:
   // What rounding may do to the distance between neighbours on this mesh, as a share of it.
   virtual double doubt() const = 0;
+  // And as a length, in mesh.unit().
+  virtual double absolute_rounding() const = 0;
   // Whether some edge has three faces or more.
   virtual bool has_spines() const = 0;
 };

@@ -49,6 +49,7 @@ class WindowEngine final : public NumberedEngine {
   bool has_spines() const override { return run_.structure.has_spines; }
   bool lists_touched() const override { return true; }
   double doubt() const override { return run_.rounding.doubt; }
+  double absolute_rounding() const override { return run_.rounding.absolute; }
 
   void solve(const detail::Problem& problem, DistanceField& field) override {
     field_ = &field;

@@ -16,15 +16,16 @@ namespace {
 
 // L5. Windows with their source on the edge are not trimmed (all their light passes through that one point, where
 // others may tie with them): they go on whole unless another path to the source itself is shorter, by more than
-// rounding: parallel light of the segment that begins there is as short, and goes one way only. Returns the others.
-std::span<Window> set_apart(std::span<Window> windows, std::vector<Window>& on_edge) {
+// rounding: parallel light of the segment that begins there is as short, and goes one way only; and light that passes a
+// vertex reads what the vertex does, to the rounding of places on the edge. Returns the others.
+std::span<Window> set_apart(std::span<Window> windows, const Rounding& rounding, std::vector<Window>& on_edge) {
   const auto others = std::stable_partition(windows.begin(), windows.end(), is_on_edge);
   for (auto w = windows.begin(); w != others; ++w) {
     const Real x = w->source.x;
+    const Real least = w->sigma - tie(w->sigma) - rounding.of(to_double(w->sigma));
     const bool beaten = std::any_of(windows.begin(), windows.end(), [&](const Window& o) {
       return o.b0 <= x && x <= o.b1 &&
-             value_at(o, x) - w->source.y <
-                 w->sigma - tie(w->sigma) - (o.kind == WindowKind::Linear ? moved(o) : Real{0});
+             value_at(o, x) - w->source.y < least - (o.kind == WindowKind::Linear ? moved(o) : Real{0});
     });
     if (!beaten) on_edge.push_back(*w);
   }
@@ -99,7 +100,7 @@ void propagate_windows(PartState& part, Index h) {
   const Frame frame = frame_of(f, k);
   std::span<Window> windows = bench.taken;
   if (windows.size() > 1 && std::any_of(windows.begin(), windows.end(), is_on_edge)) {
-    windows = set_apart(windows, bench.on_edge);
+    windows = set_apart(windows, part.run->rounding, bench.on_edge);
   }
   const bool merges = part.run->merges() && !f.thin;  // a merged window begins a new trail: see Trails
   if (windows.size() > 1) windows = merges ? merged(part, windows) : bench.envelope(windows);
