@@ -79,7 +79,7 @@ BRUSHFIRE_WIDE std::int64_t useless(const Real* __restrict b0, const Real* __res
 
 void ListTrimmer::operator()(WindowList& list, const EdgeBounds& edge, Real radius, BlockPool& blocks) {
   list.age = 0;
-  drop_dominated(list, edge, radius);
+  drop_useless(list, edge, radius);
   if (!list.ordered) return replace_by_envelope(list, blocks);
   const WindowColumns w = list.columns();
   sweep(w, list.size);
@@ -92,7 +92,7 @@ void ListTrimmer::operator()(WindowList& list, const EdgeBounds& edge, Real radi
 }
 
 // Leaves the values at the ends in d0_ and d1_.
-void ListTrimmer::drop_dominated(WindowList& list, const EdgeBounds& edge, Real radius) {
+void ListTrimmer::drop_useless(WindowList& list, const EdgeBounds& edge, Real radius) {
   const WindowColumns w = list.columns();
   if (d0_.size() < list.size) {
     for (std::vector<Real>* column : {&d0_, &d1_, &tie_point_, &tie_value_a_, &tie_value_b_, &plain_}) {

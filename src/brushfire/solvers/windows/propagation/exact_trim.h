@@ -17,9 +17,10 @@ class ListTrimmer {
  public:
   // Nothing beyond `radius` is wanted. The list may move to another block of the pool.
   void operator()(WindowList& list, const EdgeBounds& edge, Real radius, BlockPool& blocks);
+  // Only what other paths to the ends of the edge make superfluous, and what is not wanted.
+  void drop_useless(WindowList& list, const EdgeBounds& edge, Real radius);
 
  private:
-  void drop_dominated(WindowList& list, const EdgeBounds& edge, Real radius);
   void sweep(const WindowColumns& w, Index count);
   void settle(const WindowColumns& w, Index a, Index b);
   void replace_by_envelope(WindowList& list, BlockPool& blocks);

@@ -94,8 +94,11 @@ void propagate_list(PartState& part, Index h) {
   if (lists.empty(f.waiting, h)) return;
   WindowList list = lists.take(f.waiting, h, bench.blocks);
   const RunState& run = *part.run;
-  if (list.age >= kTrimEvery || !list.ordered || run.radius < kInfinity || run.problem->options->keep_windows) {
-    bench.trim(list, part.vertices.bounds(f, h % 3), run.radius, bench.blocks);
+  const EdgeBounds edge = part.vertices.bounds(f, h % 3);
+  if (list.age >= kTrimEvery || !list.ordered || run.problem->options->keep_windows) {
+    bench.trim(list, edge, run.radius, bench.blocks);
+  } else if (run.radius < kInfinity) {
+    bench.trim.drop_useless(list, edge, run.radius);
   }
   if (list.size > 0) pass_face(part, h, list);
   bench.blocks.release(list.block);
