@@ -87,6 +87,20 @@ def without_overloads(analyze):
 ModuleAnalyzer.analyze = without_overloads(ModuleAnalyzer.analyze)
 
 
+# `:param a, b: ...` says the same of several. Sphinx would take all but the last for a type, so an invisible
+# separator stands in place of the commas until it has looked.
+def join_names(app, domain, objtype, content):
+    for name in content.findall(nodes.field_name):
+        name[:] = [nodes.Text(name.astext().replace(", ", "\u2063"))]
+
+
+def part_names(app, doctree):
+    for text in [text for text in doctree.findall(nodes.Text) if "\u2063" in text]:
+        text.parent.replace(text, nodes.Text(text.replace("\u2063", ", ")))
+
+
 def setup(app):
+    app.connect("object-description-transform", join_names)
+    app.connect("doctree-read", part_names)
     app.add_directive("drawing", Drawing)
     app.add_directive("viewer", Viewer)

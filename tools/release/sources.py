@@ -8,10 +8,11 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from common import DIST, ROOT, commit_date, run, say, version
+from common import DIST, ROOT, VIEWER, commit_date, run, say, version
 
 
 def source_tarball() -> Path:
@@ -25,7 +26,14 @@ def source_tarball() -> Path:
 
 
 def sdist() -> Path:
-    run(sys.executable, "-m", "build", "--sdist", "--no-isolation", "--outdir", DIST)
+    """From a folder that has what git knows and the viewer, no more: the walk over this one would follow the links of the
+    machines in build/ to all of this machine's files."""
+    with tempfile.TemporaryDirectory() as name:
+        for file in [*run("git", "ls-files").splitlines(), *([VIEWER.relative_to(ROOT)] if VIEWER.exists() else [])]:
+            copy = Path(name) / file
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / file, copy)
+        run(sys.executable, "-m", "build", "--sdist", "--no-isolation", "--outdir", DIST, name)
     return DIST / f"brushfire-{version()}.tar.gz"
 
 

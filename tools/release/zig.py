@@ -68,6 +68,7 @@ def toolchain(target: Target) -> Path:
             script.chmod(0o755)
     file = folder / "toolchain.cmake"
     found = SCRATCH / target.name / "prefix"
+    static = " -DXML_STATIC -DLZMA_API_STATIC" if target.system == "Windows" else ""  # their headers speak of DLLs otherwise
     file.write_text(f"""set(CMAKE_SYSTEM_NAME {target.system})
 set(CMAKE_SYSTEM_PROCESSOR {target.processor})
 set(CMAKE_C_COMPILER {folder}/zig-cc)
@@ -90,7 +91,7 @@ set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 # Boost 1.74 derives from a template that the standard has dropped, and libc++ with it.
-set(CMAKE_CXX_FLAGS_INIT -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION)
+set(CMAKE_CXX_FLAGS_INIT "-D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION{static}")
 """)
     return file
 

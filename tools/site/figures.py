@@ -45,6 +45,12 @@ def plan(low: tuple[float, float], high: tuple[float, float]) -> Drawing:
     return drawing
 
 
+def whole(path: bf.Path) -> np.ndarray:
+    """Its points in the plane; those of a closed one end where they begin."""
+    points = path.positions[:, :2]
+    return np.concatenate([points, points[:1]]) if path.closed else points
+
+
 def saddle_vertex() -> tuple[Drawing, str]:
     low, high = (1.2, 0.0), (1.4, 1.2)
     mesh, _ = floor(low, high)
@@ -53,7 +59,7 @@ def saddle_vertex() -> tuple[Drawing, str]:
     place = bf.at([*source, 0])
     drawing.area([(1.2, 1.2), (1.2 + 0.8, 2.0), (3, 2), (3, 0), (1.4, 0), (1.4, 1.2)], "coolfill")
     for line in mesh.curved_isolines(place, every=0.2, chord_error=1e-3):
-        points = line.line.positions[:, :2]
+        points = whole(line.line)
         behind = np.abs(line.level - np.hypot(*(points - source).T)) > 1e-6
         # A node where a line goes from light to shadow belongs to both pieces.
         cuts = np.flatnonzero(np.diff(behind)) + 1
@@ -78,7 +84,7 @@ def cut_locus() -> tuple[Drawing, str]:
     place = bf.at([*source, 0])
     drawing = plan(low, high)
     for line in mesh.curved_isolines(place, every=0.2, chord_error=1e-3):
-        drawing.line(line.line.positions[:, :2], "thin", width=1)
+        drawing.line(whole(line.line), "thin", width=1)
     # Where the way around one side is as long as that around the other.
     middle = V[mesh.faces].mean(axis=1)
     over = mesh.walled(faces=np.flatnonzero((middle[:, 1] < low[1]) & (abs(middle[:, 0] - 1.3) < 0.1))).distance(

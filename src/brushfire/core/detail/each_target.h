@@ -34,7 +34,11 @@
 #endif
 
 #if defined(BRUSHFIRE_HAS_AVX2_TARGET) && defined(BRUSHFIRE_KERNEL_IS_WIDE)
-#if defined(__clang__)
+#if defined(__clang__) && __clang_major__ >= 18 && __clang_major__ <= 20
+// These count registers of 512 bits as a feature of its own, which builds for a named processor may have taken away.
+#pragma clang attribute push(__attribute__((target("avx2,bmi,popcnt,avx512f,avx512dq,avx512bw,avx512vl,evex512"))), \
+                             apply_to = function)
+#elif defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx2,bmi,popcnt,avx512f,avx512dq,avx512bw,avx512vl"))), \
                              apply_to = function)
 #else

@@ -23,22 +23,22 @@ namespace brushfire {
 // Which one of the targets to take: all of them give the same bits.
 enum class Variant : std::uint8_t { Best, Avx2, Portable };  // Avx2: no more than that
 
-inline bool has_avx2() {
 #ifdef BRUSHFIRE_HAS_AVX2_TARGET
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("popcnt");
-#else
-  return false;
-#endif
-}
+struct Instructions {
+  bool avx2 = false;    // with BMI and POPCNT
+  bool avx512 = false;  // F, DQ, BW and VL, and AVX2
+};
 
-inline bool has_avx512() {
-#ifdef BRUSHFIRE_HAS_AVX2_TARGET
-  return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+// This processor's, and those that its system lets programs use. None before the program's initialisation has come to
+// it.
+extern const Instructions kInstructions;
+
+inline bool has_avx2() { return kInstructions.avx2; }
+inline bool has_avx512() { return kInstructions.avx512; }
 #else
-  return false;
+constexpr bool has_avx2() { return false; }
+constexpr bool has_avx512() { return false; }
 #endif
-}
 
 }  // namespace brushfire
 
