@@ -86,6 +86,7 @@ def by_wine(target: Target, minor: str, wheel: Path) -> str | None:
         say("(Windows is tried by wine: wine64)")
         return None
     python = pythons.from_maven(minor, "windows")
+    pythons.forwarding_dll(python, minor)
     place = {"WINEPREFIX": str(SCRATCH / "wine"), "WINEDEBUG": "-all", "PYTHONHOME": f"Z:{python}",
              "PYTHONPATH": f"Z:{site(target, minor, wheel)};Z:{python}\\lib", "PYTHONUTF8": "1"}  # fmt: skip
     done = subprocess.run([wine, python / "python.exe", "-"], input=FIELDS, env=os.environ | place, capture_output=True,
