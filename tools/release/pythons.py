@@ -34,19 +34,21 @@ def from_maven(minor: str, system: str) -> Path:
 
 
 def forwarding_dll(python: Path, minor: str) -> None:
-    """python3.dll, which modules of the stable ABI ask for and Maven's 3.12 lacks: each name of its import library is looked
-    up in the version's own DLL."""
+    """python3.dll, which modules of the stable ABI ask for and Maven's 3.12 lacks: each name of its import library is
+    looked up in the version's own DLL."""
     made = python / "python3.dll"
     if made.exists():
         return
     archive = (python / "libs/python3.lib").read_bytes()
-    symbols = archive[68 : 68 + int(archive[56:66])]  # the archive's first member: how many, their places, their names
-    count = int.from_bytes(symbols[:4], "big")
-    names = {name.decode() for name in symbols[4 + 4 * count :].split(b"\0")[:count]}
-    lines = [f"  {name[6:]} = python{minor.replace('.', '')}.{name[6:]}\n" for name in sorted(names) if name.startswith("__imp_")]
+    member = archive[68 : 68 + int(archive[56:66])]  # the first: how many symbols, their places, their names
+    count = int.from_bytes(member[:4], "big")
+    symbols = {name.decode() for name in member[4 + 4 * count :].split(b"\0")[:count]}
+    names = sorted(name.removeprefix("__imp_") for name in symbols if name.startswith("__imp_"))
+    lines = [f"  {name} = python{minor.replace('.', '')}.{name}\n" for name in names]
     (python / "python3.def").write_text("LIBRARY python3\nEXPORTS\n" + "".join(lines))
     (python / "empty.c").write_text("int empty;\n")
-    run(zig(), "cc", "-target", TARGETS["windows-x86_64"].triple, "-shared", "-o", made, python / "empty.c", python / "python3.def")
+    run(zig(), "cc", "-target", TARGETS["windows-x86_64"].triple, "-shared", "-o", made, python / "empty.c",
+        python / "python3.def")  # fmt: skip
 
 
 def options(target: Target, minor: str) -> list[str]:
