@@ -99,7 +99,12 @@ def part_names(app, doctree):
         text.parent.replace(text, nodes.Text(text.replace("\u2063", ", ")))
 
 
+def hide_private(app, what, name, object, options, signature, returns):
+    return signature and re.sub(r", _\w+(=\w+)?", "", signature), returns
+
+
 def setup(app):
+    app.connect("autodoc-process-signature", hide_private)
     app.connect("object-description-transform", join_names)
     app.connect("doctree-read", part_names)
     app.add_directive("drawing", Drawing)
