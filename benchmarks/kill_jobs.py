@@ -89,7 +89,7 @@ def by_dask(folder: Path, mesh_file: str, kills: int, seed: int) -> bool:
         def kill() -> None:
             while killer.left > 0 and not ended.wait(killer.random.uniform(0.2, 1.0)):
                 # One that is at work: a nanny gives a worker up that dies while it starts.
-                known = client.scheduler_info(n_workers=-1)["workers"]
+                known = client.scheduler_info(n_workers=-1).get("workers", {})
                 pids = [w.process.pid for w in cluster.workers.values() if w.worker_address in known and w.process]
                 if pids:
                     os.kill(killer.random.choice(pids), signal.SIGKILL)

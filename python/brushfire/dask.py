@@ -98,7 +98,7 @@ def _scattered(client: Client, part: _Part) -> Any:
     for _ in range(_TRIES - 1):
         try:
             return client.scatter(part, broadcast=True, hash=False)
-        except (OSError, TimeoutError):
+        except (OSError, TimeoutError, KeyError):  # KeyError: of a worker that the scheduler no longer knows
             time.sleep(_PAUSE)
     return client.scatter(part, broadcast=True, hash=False)
 

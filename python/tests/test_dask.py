@@ -68,6 +68,22 @@ def test_a_store_by_three_workers_of_which_one_is_killed_has_the_bytes_of_one_pr
     assert files_of(together) == files_of(alone)
 
 
+def test_a_worker_that_dies_while_the_mesh_is_sent_costs_a_second_try(client, tmp_path, monkeypatch):
+    import brushfire.dask
+
+    scatter, gone = client.scatter, [KeyError("tcp://127.0.0.1:1")]  # as the scheduler reports it
+
+    def scatter_once_in_vain(*arguments, **options):
+        if gone:
+            raise gone.pop()
+        return scatter(*arguments, **options)
+
+    monkeypatch.setattr(client, "scatter", scatter_once_in_vain)
+    mesh = sphere(12, 8)
+    brushfire.dask.distance_matrix(mesh, store=tmp_path / "d.npy", client=client, blocks=4)
+    assert not gone and np.array_equal(np.load(tmp_path / "d.npy"), mesh.distance_matrix())
+
+
 def test_what_another_process_has_begun_is_gone_on_with_and_another_matrix_refused(client, tmp_path):
     import brushfire.dask
 

@@ -86,7 +86,9 @@ TEST_F(MatrixJobVerb, MergedShardsAreTheMatrix) {
   all = shards;
   all.insert(all.end(), {"--nearest", "4", "-o", path("near.npy"), "--json"});
   EXPECT_NE(run(all, "merge").out.find("\"shards\": 3"), std::string::npos);
-  EXPECT_EQ(run({"--nearest", "4", "-o", path("direct.npy")}).code, 0);
+  const Ended direct = run({"--nearest", "4", "-o", path("direct.npy")});
+  EXPECT_EQ(direct.code, 0);
+  EXPECT_NE(direct.err.find("20 x 4, 80 entries"), std::string::npos) << direct.err;
   EXPECT_EQ(content("near.npy"), content("direct.npy"));
   EXPECT_EQ(content("near.index.npy"), content("direct.index.npy"));
 

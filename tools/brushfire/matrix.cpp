@@ -112,7 +112,7 @@ void check(const Arguments& a) {
 // What a run has written.
 struct Written {
   std::string output;  // of a shard its own file
-  std::uint64_t rows = 0, entries = 0, found = 0;
+  std::uint64_t rows = 0, columns = 0, entries = 0, found = 0;
   bool complete = true;
 };
 
@@ -128,6 +128,7 @@ Written write_sparse(const Arguments& a, const Domain& domain, Places rows, Valu
   Written w{.output = a.output};
   std::size_t found = 0;
   w.rows = rows ? rows->size() : domain.mesh().vertex_count();
+  w.columns = domain.mesh().vertex_count();
   MatrixOptions told = options;
   Progress report;
   told.distance.progress = [&](double share) {
@@ -152,7 +153,8 @@ Written write_dense(const Arguments& a, const Domain& domain, Places rows, Place
   MatrixJob job(a.output, domain, rows, columns, type, told, layout_of(a, unit));
   Written w{.output = job.output().string(), .rows = job.rows(), .found = job.found()};
   const std::uint64_t nearest = file_options(a.file_options).nearest;
-  w.entries = w.rows * (nearest > 0 ? nearest : job.columns());
+  w.columns = nearest > 0 ? nearest : job.columns();
+  w.entries = w.rows * w.columns;
   if (job.is_complete()) {
     talk.say(w.output + ": is complete already");
     return w;
@@ -217,7 +219,7 @@ std::uint64_t write_matrix(const Arguments& arguments, const Talk& talk) {
     finder.add_to(record);
     write_stdout(record.add("output", written.output).json());
   } else if (!talk.json) {
-    talk.say(written.output + ": " + std::to_string(written.rows) + " x " + std::to_string(column_count) + ", " +
+    talk.say(written.output + ": " + std::to_string(written.rows) + " x " + std::to_string(written.columns) + ", " +
              counted(written.entries, "entry", "entries") + ", in " + duration(solve_s) +
              (written.complete ? "" : "; rows of other shards are still missing"));
   }

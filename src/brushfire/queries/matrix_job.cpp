@@ -134,6 +134,7 @@ struct MatrixJob::State {
     head.all_vertices = (row_places ? 0u : 1u) | (columns ? 0u : 2u);
     head.entries = stored.rows;
     head.words = in_words(all, type, options.distance);
+    if (file.nearest > 0) head.words += ", the nearest " + std::to_string(file.nearest);
     if (file.unit != 1) head.words += ", in units of " + detail::readable_number(file.unit);
     head.layout = detail::layout_of(output, stored, file);
     stored.row_vertices = vertices_of(domain.mesh(), row_places);
