@@ -43,13 +43,15 @@ print("fields:", told.hexdigest()[:16])
 
 
 def site(target: Target, minor: str, wheel: Path) -> Path:
-    """The wheel and numpy, as pip on that machine would choose them."""
+    """The wheel and numpy, as pip on that machine would choose them; for wine, whose C library lacks what numpy 2.4 asks of
+    it (crealf), an older one."""
     folder = SCRATCH / target.name / f"site-{minor}"
     shutil.rmtree(folder, ignore_errors=True)
     platforms = [word for tag in target.wheel.split(".") for word in ("--platform", tag)]
     newer = ["--platform", "manylinux_2_28_aarch64"] if target.wheel.startswith("manylinux") else []  # numpy's
+    older = ["numpy<2"] if target.system == "Windows" else []
     run(sys.executable, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--only-binary", ":all:", "--target", folder,
-        "--implementation", "cp", "--python-version", minor, *platforms, *newer, wheel)  # fmt: skip
+        "--implementation", "cp", "--python-version", minor, *platforms, *newer, *older, wheel)  # fmt: skip
     return folder
 
 

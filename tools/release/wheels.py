@@ -141,7 +141,7 @@ def note(wheel: Path, told: str | None) -> None:
     others = [line for line in file.read_text().splitlines() if not line.startswith(wheel.name)] if file.exists() else []
     lines = sorted([*others, f"{wheel.name}: built, {' '.join(told.split()) if told else 'not run'}"])
     file.write_text("\n".join(lines) + "\n")
-    if len(set(re.findall(r"fields: \w+", "".join(lines)))) > 1:
+    if len(set(re.findall(r"fields: \w+", "\n".join(lines)))) > 1:
         raise SystemExit("wheels compute other bits on other machines:\n" + "\n".join(lines))
 
 
