@@ -13,6 +13,8 @@ set(later
   14carried_source Dijkstra PlanarFront # methods that are there for comparison,
   "(Marcher|MarchState|Rings|RingBuilder|LaneWriter|CornerUnfolder)IdE" # and marching in doubles
   "(march_part|build_rings|fill_regular_rings|unfold_corners)IdE" "(5march|receive_messages)I[^v]*EL[^v]*EdE" march_label_setting
+  "(5march|receive_messages)I[^v]*ELb1EfE" # marching with labels of the nearest source: a call across for all of a solve
+  5rtree NearestPoint from_lengths 13check_lengthsEv renumbered with_slits read_field read_csv "^__rem_pio2_large$"
   WalledRun brushfire3cut CutMesh Barriers # walls
   distances_within [mM]atri voronoi farthest signed_distance Shore Arrivals compare_fields certif log_map
   curved_isolines "Level(Triangle|Mesh)" corners_tell shorten straightest subdivi weld
@@ -24,8 +26,8 @@ set(later
   "^(prologInit|epilogProcessor|contentProcessor|addBinding|lookup|defineAttribute|appendAttributeValue|poolGrow|dtd[A-Z])"
   "^(inflate|deflate|_tr_|build_(bl_)?tree|longest_match|compress_block|gz|crc32|adler32|send_|scan_tree|fill_window|init_block)"
   # The calls from JavaScript for all of these.
-  "^(matrix|certify|log_map|voronoi|farthest|signed|compare|trace|cut|within|gradients|curves_write|mesh_write|mesh_weld)_?"
-  "^(mesh_subdivided|path_shortened|field_read)")
+  "^(matrix|certify|log_map|voronoi|farthest|signed|compare|trace|cut|within|gradients|curves_write|mesh_write|mesh_weld|mesh_nearest|path_along)_?"
+  "^(mesh_subdivided|mesh_from_lengths|path_shortened|field_read)")
 list(JOIN later "|" later)
 # What a first picture calls of these: it lets go of empty hands, and asks of what kind a file is.
 set(first_of_them "^_GLOBAL__|^__wasm" # what runs at the start

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { test } from 'node:test';
 
-import { load as loadCore, restURL as coreWideURL } from '../lib/core.js';
+import { load as loadCore, restURL as coreRestURL } from '../lib/core.js';
 import { load, restURL } from '../lib/index.js';
 import { bf, difference, inFolder, meshes, native, random, readNpy, withoutNative } from './support.js';
 
@@ -24,7 +24,7 @@ test('wide numbers are the native ones, however their module is given', { skip: 
   writeFileSync(inFolder('needles.ply'), mesh.write('ply'));
   const bytes = readFileSync(restURL);
   const libraries = [bf, await load({ rest: bytes }), await load({ rest: new WebAssembly.Module(bytes) }), await load({ rest: restURL.href }),
-    await loadCore(), await loadCore({ rest: coreWideURL })];
+    await loadCore(), await loadCore({ rest: coreRestURL })];
   for (const method of ['windows', 'exact']) {
     native('distance', inFolder('needles.ply'), '--source', '1', '--method', method, '-o', inFolder('needles.npy'));
     const expected = readNpy(inFolder('needles.npy'));
@@ -53,16 +53,28 @@ test('a first picture does not need it', async () => {
     for (const [name, make, source] of meshes) {
       const made = make();
       const mesh = library.mesh(made.vertices, made.faces);
-      for (const method of ['windows', 'exact', 'novotni-klein']) assert.ok(mesh.distance(source, { method }).reached > 0, `${name}, ${method}`);
+      const inFace = { face: 2, weights: [0.2, 0.3, 0.5] };
+      for (const method of ['windows', 'exact', 'novotni-klein']) {
+        for (const from of [source, [inFace]]) assert.ok(mesh.distance(from, { method }).reached > 0, `${name}, ${method}`);
+        assert.ok(mesh.distance(source, { method, maxDistance: 0.5 }).reached > 0, `${name}, ${method}`);
+      }
+      assert.throws(() => mesh.distance(source, { maxDistance: -1 }), { code: 'invalid_argument' });
+      assert.throws(() => library.mesh(made.vertices, [0, 1, 1e6]), { message: /names vertex 1000000/ });
+      assert.ok(mesh.report.components > 0);
       const field = mesh.field(source);
       assert.equal(field.at([0]).distance[0], field.distance[0]);
+      assert.ok(field.at([inFace]).distance[0] >= 0);
       if (mesh.isolines) {
         assert.ok(mesh.isolines(field.distance, { count: 5 }).length > 0, name);
         assert.ok(mesh.path([0, 3]).length > 0, name);
-        const ply = made.write('ply');
-        const read = library.read(ply, 'mesh.ply');
-        assert.deepEqual(read.faces, made.faces);
-        read.free();
+        assert.ok(field.path(mesh.vertexCount - 1).length > 0, name);
+        for (const format of ['ply', 'obj', 'off', 'stl']) {
+          const bytes = made.write(format);
+          const read = library.read(bytes, `mesh.${format}`);
+          assert.equal(read.faceCount, made.faceCount, `${name}, ${format}`);
+          read.free();
+          assert.throws(() => library.read(bytes.subarray(0, 20), `mesh.${format}`), (e) => e.name === 'BrushfireError' && e.code !== 'internal');
+        }
       }
       for (const o of [field, mesh, made]) o.free();
     }
