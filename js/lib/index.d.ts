@@ -408,8 +408,8 @@ export interface LoadOptions {
   /** Where bundlers do not find brushfire.wasm by themselves. */
   wasm?: WasmSource;
   /**
-   * The same for brushfire.rest.wasm: methods that are there for comparison, marching in doubles, meshes whose lengths differ
-   * very much, walls, matrices, cells, checks, writers, rare readers. Pages fetch it once the first module is there; a call
+   * The same for brushfire.rest.wasm: what a first picture does not need, as methods that are there for comparison,
+   * marching in doubles, walls, matrices, cells, checks, writers, rare readers. Pages fetch it once the first module is there; a call
    * that needs it before waits for a synchronous request, unless it is given as a compiled module.
    */
   rest?: WasmSource;
