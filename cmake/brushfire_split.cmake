@@ -19,15 +19,17 @@ set(later
   distances_within [mM]atri voronoi farthest signed_distance Shore Arrivals compare_fields certif log_map
   curved_isolines "Level(Triangle|Mesh)" corners_tell shorten straightest subdivi weld
   # Writers, and readers of what is not PLY, OBJ, OFF or STL.
-  "[0-9]write_(ply|obj|off|stl|vt|csv|json|npy|svg|dxf|gl|gmsh|medit|gifti|freesurfer|mesh|field|lines|shortest|point|corners|float_point)" Drawing dxf svg TemporaryFile nlohmann [gG]ltf [jJ]son [xX]ml [gG]ifti "[vV]t[kpu]" [gG]msh [mM]edit [fF]reesurfer
+  "[0-9]write_(ply|obj|off|stl|vt|csv|json|npy|svg|dxf|gl|gmsh|medit|gifti|freesurfer)"
+  "[0-9]write_(mesh|field|lines|shortest|point|corners|float_point)" Drawing dxf svg TemporaryFile
+  nlohmann [gG]ltf [jJ]son [xX]ml [gG]ifti "[vV]t[kpu]" [gG]msh [mM]edit [fF]reesurfer
   # expat and zlib, whose names are those of C.
   "^XML" "^(big2|little2|normal|utf8|ascii|latin1|unknown)_"
   "^(do|store|process|parse|report|get|set|copy|call|external|internal|entityValue|prolog|epilog|content)[A-Z]"
   "^(prologInit|epilogProcessor|contentProcessor|addBinding|lookup|defineAttribute|appendAttributeValue|poolGrow|dtd[A-Z])"
   "^(inflate|deflate|_tr_|build_(bl_)?tree|longest_match|compress_block|gz|crc32|adler32|send_|scan_tree|fill_window|init_block)"
   # The calls from JavaScript for all of these.
-  "^(matrix|certify|log_map|voronoi|farthest|signed|compare|trace|cut|within|gradients|curves_write|mesh_write|mesh_weld|mesh_nearest|path_along)_?"
-  "^(mesh_subdivided|mesh_from_lengths|path_shortened|field_read)")
+  "^(matrix|certify|log_map|voronoi|farthest|signed|compare|trace|cut|within|gradients|curves_write|path_along)_?"
+  "^(mesh_write|mesh_weld|mesh_nearest|mesh_subdivided|mesh_from_lengths|path_shortened|field_read)")
 list(JOIN later "|" later)
 # What a first picture calls of these: it lets go of empty hands, and asks of what kind a file is.
 set(first_of_them "^_GLOBAL__|^__wasm" # what runs at the start
