@@ -7,7 +7,7 @@ import { viteSingleFile } from 'vite-plugin-singlefile';
 
 const parts = fileURLToPath(new URL('./src/parts.single.js', import.meta.url));
 
-const files = { 'virtual:wasm': 'brushfire.wasm', 'virtual:wide': 'brushfire.wide.wasm' };
+const files = { 'virtual:wasm': 'brushfire.wasm', 'virtual:rest': 'brushfire.rest.wasm' };
 const inPackage = (name) => fileURLToPath(new URL(`../js/lib/${name}`, import.meta.url));
 
 // The package names its modules by URL, which would have to be fetched: here the page holds them, once, and hands them over.

@@ -30,4 +30,4 @@ export const Field: { prototype: Field };
 export const Cut: { prototype: Cut };
 export const Library: { prototype: Library };
 export const wasmURL: URL;
-export const wideURL: URL;
+export const restURL: URL;

@@ -6,8 +6,8 @@ export { BrushfireError } from './errors.js';
 export { CoreField as Field, CoreLibrary as Library, CoreMesh as Mesh, Cut };
 
 export const wasmURL = new URL('./core.wasm', import.meta.url);
-export const wideURL = new URL('./core.wide.wasm', import.meta.url);
+export const restURL = new URL('./core.rest.wasm', import.meta.url);
 
 export async function load(options = {}) {
-  return new CoreLibrary(await instantiate(options.wasm ?? wasmURL, options.wide ?? wideURL), CoreMesh);
+  return new CoreLibrary(await instantiate(options.wasm ?? wasmURL, options.rest ?? restURL), CoreMesh);
 }

@@ -408,10 +408,11 @@ export interface LoadOptions {
   /** Where bundlers do not find brushfire.wasm by themselves. */
   wasm?: WasmSource;
   /**
-   * The same for brushfire.wide.wasm: `windows` and `exact` on meshes whose lengths differ so much that doubles do not do. It
-   * is fetched in the midst of the first call that needs it; a page that must not wait then gives it as a compiled module.
+   * The same for brushfire.rest.wasm: what a first picture does not need, as methods that are there for comparison,
+   * marching in doubles, walls, matrices, cells, checks, writers, rare readers. Pages fetch it once the first module is there; a call
+   * that needs it before waits for a synchronous request, unless it is given as a compiled module.
    */
-  wide?: WasmSource;
+  rest?: WasmSource;
 }
 /** The module with all calls. */
 export function load(options?: LoadOptions): Promise<Library>;
@@ -462,5 +463,5 @@ export const Library: { prototype: Library };
 export const Pool: { prototype: Pool };
 /** Where the WebAssembly is. */
 export const wasmURL: URL;
-/** And what few meshes need of it. */
-export const wideURL: URL;
+/** And the rest of it, which a first picture does not need. */
+export const restURL: URL;

@@ -8,12 +8,12 @@ export { BrushfireError } from './errors.js';
 export { Cut, Field, Library, Mesh, Pool };
 
 export const wasmURL = new URL('./brushfire.wasm', import.meta.url);
-export const wideURL = new URL('./brushfire.wide.wasm', import.meta.url);
+export const restURL = new URL('./brushfire.rest.wasm', import.meta.url);
 
 export async function load(options = {}) {
-  return new Library(await instantiate(options.wasm ?? wasmURL, options.wide ?? wideURL));
+  return new Library(await instantiate(options.wasm ?? wasmURL, options.rest ?? restURL));
 }
 
 export async function createPool(options = {}) {
-  return Pool.start(options, wasmURL, wideURL);
+  return Pool.start(options, wasmURL, restURL);
 }

@@ -1,5 +1,5 @@
 // Compiles and instantiates the WebAssembly, from wherever the caller has it.
-import { compile, compileNow } from '#platform';
+import { compile, compileNow, isAhead } from '#platform';
 import { invalid } from './errors.js';
 import { Module } from './module.js';
 
@@ -19,5 +19,11 @@ function compiledNow(wasm) {
   return compileNow(new URL(wasm, globalThis.location?.href ?? import.meta.url));
 }
 
-// `wide`: the second module, with what few meshes need; nothing is fetched before one does.
-export const instantiate = async (wasm, wide) => Module.instantiate(await compiled(wasm), () => compiledNow(wide));
+// `rest`: the second module, with what an ordinary first picture does not need. Where it has a way to come it sets out once
+// the first is there; a call that needs it earlier waits for it.
+export async function instantiate(wasm, rest) {
+  let arrived = null;
+  const module = await Module.instantiate(await compiled(wasm), () => arrived ?? compiledNow(rest));
+  if (isAhead) compiled(rest).then((second) => { arrived = second; }, () => {}); // the call that needs it says what is wrong
+  return module;
+}

@@ -127,7 +127,7 @@ export class Module {
     try {
       new WebAssembly.Instance(this.#second(), { primary: this.#exports });
     } catch (error) {
-      throw new BrushfireError('internal', `lengths of this mesh differ so much that it needs wide numbers, whose module could not be loaded: ${error.message}; load() and createPool() take it as 'wide'`);
+      throw new BrushfireError('internal', `this call needs the second module, which could not be loaded: ${error.message}; load() and createPool() take it as 'rest'`);
     }
     return table.get(place);
   }

@@ -8,6 +8,9 @@ export async function compile(url) {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
+// Whether what is needed later is fetched ahead.
+export const isAhead = true;
+
 // While a call waits for it: pages, other than workers, are given texts only.
 export function compileNow(url) {
   const request = new XMLHttpRequest();

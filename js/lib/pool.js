@@ -39,7 +39,7 @@ class Lane {
       failed(error);
       this.#fail(error);
     });
-    this.#worker.post({ start: this.#pool.wasm, wide: this.#pool.wide }, []);
+    this.#worker.post({ start: this.#pool.wasm, rest: this.#pool.rest }, []);
     this.#worker.hold(false);
   }
 
@@ -141,11 +141,11 @@ export class Pool {
   #ids = 1;
   #closed = false;
 
-  static async start(options, wasmURL, wideURL) {
+  static async start(options, wasmURL, restURL) {
     const pool = new Pool();
     pool.wasm = await compiled(options.wasm ?? wasmURL);
-    const wide = options.wide ?? wideURL;
-    pool.wide = wide instanceof URL ? wide.href : wide; // URLs are not sent to workers, texts are
+    const rest = options.rest ?? restURL;
+    pool.rest = rest instanceof URL ? rest.href : rest; // URLs are not sent to workers, texts are
     pool.makeWorker = options.makeWorker;
     const count = Math.max(1, options.workers ?? Math.min(4, processors()));
     for (let k = 0; k < count; ++k) pool.#lanes.push(new Lane(pool));

@@ -67,7 +67,7 @@ function answer(message) {
 port.hear(async (message) => {
   if (message.start) {
     try {
-      library = await load({ wasm: message.start, wide: message.wide });
+      library = await load({ wasm: message.start, rest: message.rest });
       port.post({ started: true });
     } catch (e) {
       port.post({ started: false, error: { code: 'internal', message: e.message } });

@@ -49,8 +49,8 @@ const bundlers = {
     const { build } = await import('esbuild');
     const folder = join(project, 'esbuild');
     const entry = join(project, 'named.js');
-    writeFileSync(entry, main("run({ full: { wasm: new URL(full, location.href) }, core: { wasm: new URL(core, location.href) }, pool: { makeWorker: () => new Worker('worker.js', { type: 'module' }) } })",
-      "import full from 'brushfire/brushfire.wasm';\nimport core from 'brushfire/core.wasm';"));
+    writeFileSync(entry, main("run({ full: { wasm: new URL(full, location.href), rest: new URL(fullRest, location.href) }, core: { wasm: new URL(core, location.href), rest: new URL(coreRest, location.href) }, pool: { makeWorker: () => new Worker('worker.js', { type: 'module' }) } })",
+      "import full from 'brushfire/brushfire.wasm';\nimport core from 'brushfire/core.wasm';\nimport fullRest from 'brushfire/brushfire.rest.wasm';\nimport coreRest from 'brushfire/core.rest.wasm';"));
     const common = { bundle: true, format: 'esm', loader: { '.wasm': 'file' }, outdir: folder, logLevel: 'error' };
     await build({ ...common, entryPoints: { main: entry, worker: join(project, 'node_modules/brushfire/lib/worker.js') } });
     writeFileSync(join(folder, 'index.html'), '<!doctype html><script type="module" src="./main.js"></script>');
@@ -92,8 +92,9 @@ test('a page that is isolated cancels through shared memory', { skip: skip || wi
   const entry = join(project, 'isolated.js');
   writeFileSync(entry, `import { createPool } from 'brushfire';
     import wasm from 'brushfire/brushfire.wasm';
+    import rest from 'brushfire/brushfire.rest.wasm';
     window.run = async () => {
-      const pool = await createPool({ workers: 1, wasm: new URL(wasm, location.href), makeWorker: () => new Worker('worker.js', { type: 'module' }) });
+      const pool = await createPool({ workers: 1, wasm: new URL(wasm, location.href), rest: new URL(rest, location.href), makeWorker: () => new Worker('worker.js', { type: 'module' }) });
       const mesh = await pool.shape('folded-sphere', 7);
       const stop = new AbortController();
       setTimeout(() => stop.abort(), 100);

@@ -1,7 +1,7 @@
 // In the page that is one file: the worker and the module are in it.
 import Worker from 'brushfire/worker?worker&inline';
 import wasm from 'virtual:wasm';
-import wide from 'virtual:wide';
+import rest from 'virtual:rest';
 
 async function unpacked(text) {
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -9,5 +9,5 @@ async function unpacked(text) {
 }
 
 export async function poolParts() {
-  return { wasm: await unpacked(wasm), wide: await unpacked(wide), makeWorker: () => new Worker() };
+  return { wasm: await unpacked(wasm), rest: await unpacked(rest), makeWorker: () => new Worker() };
 }

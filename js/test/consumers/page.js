@@ -13,6 +13,8 @@ export async function run(options = {}) {
     full: sum(mesh.distance(0).distance),
     core: sum(core.mesh(mesh.vertices, mesh.faces).distance(0).distance),
     pool: sum((await other.distance(0)).distance),
+    behind: sum(mesh.distance(0, { method: 'dijkstra' }).distance), // in the second module
+    poolBehind: sum((await other.distance(0, { method: 'dijkstra' })).distance),
     path: (await other.path([0, 100])).length,
   };
   pool.close();

@@ -1,10 +1,10 @@
-// The second module, with the windows of wide numbers; and numbers as text, by the digits of the engine.
+// The second module, with what a first picture does not need; and numbers as text, by the digits of the engine.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { test } from 'node:test';
 
-import { load as loadCore, wideURL as coreWideURL } from '../lib/core.js';
-import { load, wideURL } from '../lib/index.js';
+import { load as loadCore, restURL as coreRestURL } from '../lib/core.js';
+import { load, restURL } from '../lib/index.js';
 import { bf, difference, inFolder, meshes, native, random, readNpy, withoutNative } from './support.js';
 
 // A hub so far above its rim that doubles do not do.
@@ -22,9 +22,9 @@ const nothing = new Uint8Array(3); // in place of a module
 test('wide numbers are the native ones, however their module is given', { skip: withoutNative }, async () => {
   const mesh = needles(bf);
   writeFileSync(inFolder('needles.ply'), mesh.write('ply'));
-  const bytes = readFileSync(wideURL);
-  const libraries = [bf, await load({ wide: bytes }), await load({ wide: new WebAssembly.Module(bytes) }), await load({ wide: wideURL.href }),
-    await loadCore(), await loadCore({ wide: coreWideURL })];
+  const bytes = readFileSync(restURL);
+  const libraries = [bf, await load({ rest: bytes }), await load({ rest: new WebAssembly.Module(bytes) }), await load({ rest: restURL.href }),
+    await loadCore(), await loadCore({ rest: coreRestURL })];
   for (const method of ['windows', 'exact']) {
     native('distance', inFolder('needles.ply'), '--source', '1', '--method', method, '-o', inFolder('needles.npy'));
     const expected = readNpy(inFolder('needles.npy'));
@@ -34,11 +34,11 @@ test('wide numbers are the native ones, however their module is given', { skip: 
 });
 
 test('where their module is not to be had, calls that need it say so, and others go on', async () => {
-  const without = await load({ wide: nothing });
+  const without = await load({ rest: nothing });
   const hub = needles(without);
   const before = without.memory().used;
   for (let k = 0; k < 1000; ++k) {
-    assert.throws(() => hub.distance(1, { method: 'exact' }), { code: 'internal', message: /wide numbers.*load\(\) and createPool\(\) take it as 'wide'/ });
+    assert.throws(() => hub.distance(1, { method: 'exact' }), { code: 'internal', message: /second module.*load\(\) and createPool\(\) take it as 'rest'/ });
   }
   const other = without.shape('torus', 24, 12);
   const mine = bf.shape('torus', 24, 12);
@@ -48,14 +48,34 @@ test('where their module is not to be had, calls that need it say so, and others
   assert.ok(without.memory().used < before + 1e5, `${without.memory().used - before} bytes are lost`);
 });
 
-test('nothing else needs it', async () => {
-  for (const library of [await load({ wide: nothing }), await loadCore({ wide: nothing })]) {
+test('a first picture does not need it', async () => {
+  for (const library of [await load({ rest: nothing }), await loadCore({ rest: nothing })]) {
     for (const [name, make, source] of meshes) {
       const made = make();
       const mesh = library.mesh(made.vertices, made.faces);
-      for (const method of library.methods) assert.ok(mesh.distance(source, { method }).reached > 0, `${name}, ${method}`);
+      const inFace = { face: 2, weights: [0.2, 0.3, 0.5] };
+      for (const method of ['windows', 'exact', 'novotni-klein']) {
+        for (const from of [source, [inFace]]) assert.ok(mesh.distance(from, { method }).reached > 0, `${name}, ${method}`);
+        assert.ok(mesh.distance(source, { method, maxDistance: 0.5 }).reached > 0, `${name}, ${method}`);
+      }
+      assert.throws(() => mesh.distance(source, { maxDistance: -1 }), { code: 'invalid_argument' });
+      assert.throws(() => library.mesh(made.vertices, [0, 1, 1e6]), { message: /names vertex 1000000/ });
+      assert.ok(mesh.report.components > 0);
       const field = mesh.field(source);
       assert.equal(field.at([0]).distance[0], field.distance[0]);
+      assert.ok(field.at([inFace]).distance[0] >= 0);
+      if (mesh.isolines) {
+        assert.ok(mesh.isolines(field.distance, { count: 5 }).length > 0, name);
+        assert.ok(mesh.path([0, 3]).length > 0, name);
+        assert.ok(field.path(mesh.vertexCount - 1).length > 0, name);
+        for (const format of ['ply', 'obj', 'off', 'stl']) {
+          const bytes = made.write(format);
+          const read = library.read(bytes, `mesh.${format}`);
+          assert.equal(read.faceCount, made.faceCount, `${name}, ${format}`);
+          read.free();
+          assert.throws(() => library.read(bytes.subarray(0, 20), `mesh.${format}`), (e) => e.name === 'BrushfireError' && e.code !== 'internal');
+        }
+      }
       for (const o of [field, mesh, made]) o.free();
     }
   }
