@@ -7,57 +7,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "solvers/windows/children.h"
+#include "solvers/windows/random_lists.h"
 
 namespace brushfire::windows {
 namespace {
 
-constexpr int kLists = 4000;
 constexpr double kClose = 1e-11;  // relative; windows of grazing rays lose that much
-
-struct Random : std::mt19937 {
-  using std::mt19937::mt19937;
-  double uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(*this); }
-
-  Frame frame() {
-    const double length = uniform(0.5, 2);
-    const Vec2 apex{uniform(-0.5, 1.5) * length, uniform(0.1, 1.5) * length};
-    return {length, length_of(apex.x, apex.y), length_of(length - apex.x, apex.y), apex};
-  }
-  Window window(double length) {
-    Window w;
-    w.sigma = uniform(0, 1) < 0.5 ? 0 : uniform(0, 3);
-    w.source = {uniform(-2, 3) * length, -uniform(0.05, 6) * length};
-    w.b0 = uniform(0, 1) < 0.3 ? 0 : uniform(0, 0.9) * length;
-    w.b1 = uniform(0, 1) < 0.3 ? length : uniform(w.b0, length);
-    w.d0 = value_at(w, w.b0);
-    w.d1 = value_at(w, w.b1);
-    w.pseudo_source = static_cast<Index>((*this)() % 1000);
-    return w;
-  }
-  // Sorted by where they begin.
-  std::vector<Window> windows(double length) {
-    std::vector<Window> result((*this)() % 20 + 1);
-    for (Window& w : result) w = window(length);
-    std::sort(result.begin(), result.end(), [](const Window& a, const Window& b) { return a.b0 < b.b0; });
-    return result;
-  }
-};
-
-WindowList list_of(const std::vector<Window>& windows, BlockPool& pool) {
-  WindowList list;
-  list.block = pool.allocate(static_cast<Index>(windows.size()));
-  for (const Window& w : windows) list.block.columns().set(list.size++, w);
-  return list;
-}
-
-std::vector<Window> windows_of(const WindowColumns& columns, Index count) {
-  std::vector<Window> result;
-  for (Index i = 0; i < count; ++i) result.push_back(columns.window(i));
-  return result;
-}
 
 // The least value at x among the windows that light it.
 double least_at(const std::vector<Window>& windows, double x) {
@@ -69,7 +26,7 @@ double least_at(const std::vector<Window>& windows, double x) {
 }
 
 // A list that has crossed a face: light from afar, nearly disjoint, neighbours overlap a little.
-std::vector<Window> crossed_envelope(Random& random, double& length) {
+std::vector<Window> crossed_envelope(RandomLists& random, double& length) {
   const Frame frame = random.frame();
   Envelope envelope;
   std::vector<Window> far = random.windows(frame.length), result;
@@ -90,7 +47,7 @@ std::vector<Window> crossed_envelope(Random& random, double& length) {
 }
 
 TEST(ExactLists, CrossingAFaceEqualsPropagatingEachWindow) {
-  Random random(1);
+  RandomLists random(1);
   BlockPool pool;
   Sight sight;
   Routes routes;
@@ -127,7 +84,7 @@ TEST(ExactLists, CrossingAFaceEqualsPropagatingEachWindow) {
 }
 
 TEST(ExactLists, WhatIsNotSentToOneSideIsReachedAsSoonAlongTheBestWindow) {
-  Random random(2);
+  RandomLists random(2);
   BlockPool pool;
   Sight sight;
   Routes routes;
@@ -171,7 +128,7 @@ TEST(ExactLists, WhatIsNotSentToOneSideIsReachedAsSoonAlongTheBestWindow) {
 }
 
 TEST(ExactLists, TrimmingChangesNoLeastValue) {
-  Random random(3);
+  RandomLists random(3);
   BlockPool pool;
   ListTrimmer trim;
   std::size_t before = 0, after = 0;
@@ -199,7 +156,7 @@ TEST(ExactLists, TrimmingChangesNoLeastValue) {
 }
 
 TEST(ExactLists, ListsNearlyInOrderAreLeftNearlyDisjoint) {
-  Random random(4);
+  RandomLists random(4);
   BlockPool pool;
   ListTrimmer trim;
   double overlap_before = 0, overlap_after = 0;
@@ -223,7 +180,7 @@ TEST(ExactLists, ListsNearlyInOrderAreLeftNearlyDisjoint) {
 }
 
 TEST(ExactLists, OnlyWindowsThatAnEndOfTheEdgeBeatsEverywhereAreDropped) {
-  Random random(5);
+  RandomLists random(5);
   BlockPool pool;
   ListTrimmer trim;
   for (int run = 0; run < kLists; ++run) {
@@ -266,7 +223,7 @@ TEST(ExactLists, SourcesOnTheEdgeKeepTheirWholeInterval) {
 }
 
 TEST(ExactLists, WhatWaitsIsTakenByHalfedgeInTheOrderOfItsOrigins) {
-  Random random(6);
+  RandomLists random(6);
   ExactLists lists;
   BlockPool blocks;
   Index face = kNoIndex;
@@ -309,6 +266,29 @@ TEST(ExactLists, APoolForgetsBlocksOfAnotherPoolsToo) {
   const WindowBlock first = one.allocate(3), second = other.allocate(3);
   EXPECT_EQ(first.data, block.data) << "its memory stays";
   EXPECT_NE(second.data, first.data);
+}
+
+// Of more than 64 windows there are no sets of bits.
+TEST(ExactLists, LongListsCrossAFaceAsShortOnesDo) {
+  RandomLists random(9);
+  BlockPool pool;
+  Sight sight;
+  Routes routes;
+  for (const Index count : {Index{63}, Index{64}, Index{65}, Index{300}}) {
+    const Frame frame = random.frame();
+    std::vector<Window> windows(count);
+    for (Window& w : windows) w = random.window(frame.length);
+    const WindowList list = list_of(windows, pool);
+    const WindowColumns w = list.columns();
+    look_at_apex(w, count, frame, sight);
+    EXPECT_EQ(sight.least, least_of(sight.value.data(), count));
+    find_routes(w, count, frame, sight, kNoIndex, routes);
+    for (Index i = 0; i < count; ++i) {
+      EXPECT_EQ(i < routes.left_end && routes.goes_left[i] > 0, sight.left[i] > 0) << count << ", window " << i;
+      EXPECT_EQ(i >= routes.right_begin && routes.goes_right[i] > 0, sight.right[i] > 0) << count << ", window " << i;
+    }
+    pool.release(list.block);
+  }
 }
 
 }  // namespace

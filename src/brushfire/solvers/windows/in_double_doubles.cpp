@@ -1,9 +1,8 @@
-// This room once more, with windows made of DoubleDouble: see algebra/real.h.
+// This room once more, with windows made of DoubleDouble: see algebra/real.h. Without what takes whole lists at a time.
 #define BRUSHFIRE_WIDE_NUMBERS
 
 // Floor by floor: what is below comes first.
 #include "algebra/envelope.cpp"
-#include "algebra/exact_cross.cpp"
 #include "algebra/face_shape.cpp"
 #include "algebra/merge.cpp"
 #include "algebra/rays.cpp"
@@ -13,7 +12,6 @@
 
 #include "propagation/arrivals.cpp"
 #include "propagation/circled_faces.cpp"
-#include "propagation/exact_trim.cpp"
 #include "propagation/links.cpp"
 #include "propagation/own_vertices.cpp"
 #include "propagation/part.cpp"
@@ -23,7 +21,6 @@
 #include "propagation/structure.cpp"
 #include "propagation/targets.cpp"
 #include "propagation/wheels.cpp"
-#include "propagation/window_lists.cpp"
 
 #include "paths/keep_plain.cpp"
 #include "paths/kept_fronts.cpp"

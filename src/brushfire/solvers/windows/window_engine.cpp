@@ -28,8 +28,6 @@ namespace {
 
 // Exact runs are quicker with narrower buckets.
 constexpr double kExactBucket = 0.2;
-// In buckets: exact runs not farther than this take windows one by one, lists of them would stay short.
-constexpr double kShort = 8;
 
 // What working on a part takes in a round, more or less.
 constexpr std::chrono::microseconds kStealAfter{20};
@@ -93,7 +91,7 @@ class WindowEngine final : public NumberedEngine {
     if (run_.several) run_.provenance.resize(run_.values.size());
     if (run_.keeps_rays()) run_.rays.resize(run_.values.size());
     run_.budget = budget_of(*problem.options, run_.rounding, merging_ == Merging::Always ? 0 : least_share(outlook()));
-    run_.in_lists = !kWide && !run_.merges() && run_.radius > kShort * run_.structure.bucket_width;
+    run_.in_lists = !kWide && !run_.merges();
     run_.bucket_width = run_.in_lists ? kExactBucket * run_.structure.bucket_width : run_.structure.bucket_width;
     run_.targets.place(problem.targets, run_.structure);
     circled_.mark(problem.sources, run_.structure);

@@ -3,6 +3,7 @@
 
 #include <brushfire/solvers/windows/algebra/window.h>
 
+#include <cstdint>
 #include <cstring>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
@@ -54,13 +55,26 @@ struct WindowColumns {
   }
   WindowColumns from(Index i) const { return {b0 + i, b1 + i, x + i, y + i, sigma + i, pseudo_source + i, mixed}; }
 };
+
+// Loops over columns go on to the end of four windows; from a place within a column that is up to three numbers beyond
+// its end. As many may be read behind every column, and as many written to others than columns.
+inline constexpr Index kRoomBehind = 4;
+
+// Of the four windows from `first` on, those that there are, as bits.
+inline std::uint32_t windows_from(Index first, Index count) {
+  return count - first >= 4 ? 15u : (1u << (count - first)) - 1;
+}
+
+// `to` needs room for three more.
 inline void copy_windows(const WindowColumns& from, const WindowColumns& to, Index count) {
-  std::memcpy(to.b0, from.b0, count * sizeof(Real));
-  std::memcpy(to.b1, from.b1, count * sizeof(Real));
-  std::memcpy(to.x, from.x, count * sizeof(Real));
-  std::memcpy(to.y, from.y, count * sizeof(Real));
-  std::memcpy(to.sigma, from.sigma, count * sizeof(Real));
-  std::memcpy(to.pseudo_source, from.pseudo_source, count * sizeof(Index));
+  for (Index i = 0; i < count; i += 4) {
+    std::memcpy(to.b0 + i, from.b0 + i, 4 * sizeof(Real));
+    std::memcpy(to.b1 + i, from.b1 + i, 4 * sizeof(Real));
+    std::memcpy(to.x + i, from.x + i, 4 * sizeof(Real));
+    std::memcpy(to.y + i, from.y + i, 4 * sizeof(Real));
+    std::memcpy(to.sigma + i, from.sigma + i, 4 * sizeof(Real));
+    std::memcpy(to.pseudo_source + i, from.pseudo_source + i, 4 * sizeof(Index));
+  }
 }
 
 }  // namespace brushfire::windows::BRUSHFIRE_NUMBERS

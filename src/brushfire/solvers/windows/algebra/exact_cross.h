@@ -4,6 +4,7 @@
 #include <brushfire/solvers/windows/algebra/columns.h>
 #include <brushfire/solvers/windows/algebra/frame.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
@@ -15,12 +16,15 @@ struct Sight {
   std::vector<Real> left, right;
   // The length of the straight path to the apex; infinite where the apex is clearly not seen.
   std::vector<Real> value;
+  Index least = kNoIndex;  // the place of the least value; kNoIndex: all are infinite
+  // Those that pass the apex on the left, on the right; bit i: window i. Of lists that are longer it means nothing.
+  std::uint64_t passes_left = 0, passes_right = 0;
 };
 
-// Fills `sight` for the whole list.
+// Fills `sight` for the whole list, which has windows.
 void look_at_apex(const WindowColumns& windows, Index count, const Frame& frame, Sight& sight);
 
-// The place of the least number; `count` > 0.
+// The place of the least number; kNoIndex: all are infinite. `count` > 0.
 Index least_of(const Real* numbers, Index count);
 
 // Which windows go on to the left: those in [0, left_end) with goes_left > 0; to the right: those in

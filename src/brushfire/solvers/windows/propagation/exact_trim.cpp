@@ -3,7 +3,7 @@
 
 #include <brushfire/solvers/windows/algebra/exact_cross.h>
 #include <brushfire/solvers/windows/algebra/tie_point.h>
-#include <brushfire/solvers/windows/algebra/wide.h>
+#include <brushfire/solvers/windows/propagation/trimming.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,65 +14,9 @@ namespace {
 
 Real value_of(const WindowColumns& w, Index i, Real at) { return w.value(i, at); }
 
-// The usual case for a whole list at once: window i reaches into the next one, j = i + 1, and is the lower one where
-// their overlap begins, the next one where it ends, so that both end at the tie point. tie_point_in_closed_form() says
-// how that is found. plain: 1 where all that holds.
-BRUSHFIRE_WIDE void tie_points(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict x,
-                               const Real* __restrict y, const Real* __restrict sigma, const Real* __restrict d0,
-                               const Real* __restrict d1, std::ptrdiff_t pairs, Real* __restrict tie_point,
-                               Real* __restrict value_i, Real* __restrict value_j, Real* __restrict plain) {
-  for (std::ptrdiff_t i = 0; i < pairs; ++i) {
-    const std::ptrdiff_t j = i + 1;
-    const Real p = b0[j], q = b1[i];
-    const Real ax = x[i] - p, bx = x[j] - p, ay = y[i], by = y[j], bqx = x[j] - q;
-    const Real ip = sigma[i] + sqrt(ax * ax + ay * ay), jq = sigma[j] + sqrt(bqx * bqx + by * by);
-    const Real within = tie(ip > d1[i] ? ip : d1[i]);
-    const Real d = sigma[j] - sigma[i];
-    const Real slope = 2 * (bx - ax);
-    const Real rest = (ax - bx) * (ax + bx) + (ay - by) * (ay + by) - d * d;
-    const Real qa = slope * slope - 4 * d * d, qb = slope * rest + 4 * d * d * bx;
-    const Real qc = rest * rest - 4 * d * d * (bx * bx + by * by);
-    const Real discriminant = qb * qb - qa * qc;
-    const Real square_root = sqrt(discriminant > 0 ? discriminant : 0.0);
-    const Real sum = qb > 0 ? -(qb + square_root) : square_root - qb;
-    const Real x1 = sum / qa, x2 = qc / sum, x0 = -rest / slope, length = q - p;
-    const bool fits1 = (x1 >= 0) & (x1 <= length) & ((slope * x1 + rest) * d >= 0);
-    const Real z = p + (d == 0 ? x0 : (fits1 ? x1 : x2));
-    const Real azx = z - x[i], bzx = z - x[j];
-    const Real iz = sigma[i] + sqrt(azx * azx + ay * ay), jz = sigma[j] + sqrt(bzx * bzx + by * by);
-    const Real off = iz > jz ? iz - jz : jz - iz;
-    tie_point[i] = z;
-    value_i[i] = iz;
-    value_j[i] = jz;
-    plain[i] = (b0[i] <= p) & (q <= b1[j]) & (d0[j] - ip > within) & (d1[i] - jq > within) & (z >= p) & (z <= q) &
-                       (off <= within)
-                   ? 1.0
-                   : 0.0;
-  }
-}
-
 // Windows with their source on the edge (is_on_edge()) are neither cut nor do they cut others.
 bool on_edge(const WindowColumns& w, Index i) {
   return !w.is_linear(i) && -w.y[i] <= kOnEdge * (w.b1[i] - w.b0[i]) && w.x[i] > w.b0[i] && w.x[i] < w.b1[i];
-}
-BRUSHFIRE_WIDE std::int64_t nearly_on_edge(const Real* __restrict b0, const Real* __restrict b1,
-                                           const Real* __restrict y, std::ptrdiff_t count) {
-  std::int64_t found = 0;
-  for (std::ptrdiff_t i = 0; i < count; ++i) found += -y[i] <= kOnEdge * (b1[i] - b0[i]) ? 1 : 0;
-  return found;
-}
-
-// How many of the windows another path makes superfluous (is_dominated()) or lie beyond the radius.
-BRUSHFIRE_WIDE std::int64_t useless(const Real* __restrict b0, const Real* __restrict b1, const Real* __restrict d0,
-                                    const Real* __restrict d1, std::ptrdiff_t count, EdgeBounds edge, Real radius) {
-  std::int64_t found = 0;
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const std::int64_t by_start = edge.start + b1[i] < d1[i] * kDominated;
-    const std::int64_t by_end = edge.end + (edge.length - b0[i]) < d0[i] * kDominated;
-    const std::int64_t beyond = 0.5 * (d0[i] + d1[i] - (b1[i] - b0[i])) > radius;
-    found += by_start | by_end | beyond;
-  }
-  return found;
 }
 
 }  // namespace
@@ -94,13 +38,13 @@ void ListTrimmer::operator()(WindowList& list, const EdgeBounds& edge, Real radi
 // Leaves the values at the ends in d0_ and d1_.
 void ListTrimmer::drop_useless(WindowList& list, const EdgeBounds& edge, Real radius) {
   const WindowColumns w = list.columns();
-  if (d0_.size() < list.size) {
+  if (d0_.size() < list.size + kRoomBehind) {
     for (std::vector<Real>* column : {&d0_, &d1_, &tie_point_, &tie_value_a_, &tie_value_b_, &plain_}) {
-      column->resize(2 * list.size);
+      column->resize(2 * list.size + kRoomBehind);
     }
   }
   end_values(w, list.size, d0_.data(), d1_.data());
-  if (useless(w.b0, w.b1, d0_.data(), d1_.data(), list.size, edge, radius) == 0) return;
+  if (!BRUSHFIRE_ON_TARGET(Variant::Best, any_useless(w, d0_.data(), d1_.data(), list.size, edge, radius))) return;
   Index count = 0;
   for (Index i = 0; i < list.size; ++i) {
     const Real b0 = w.b0[i], b1 = w.b1[i], d0 = d0_[i], d1 = d1_[i];
@@ -119,14 +63,15 @@ void ListTrimmer::sweep(const WindowColumns& w, Index count) {
     return !(w.b1[i] - w.b0[i] > kSliver * (w.is_linear(i) ? w.b1[i] : d0_[i] - w.sigma[i]));
   };
   if (count > 1) {
-    tie_points(w.b0, w.b1, w.x, w.y, w.sigma, d0_.data(), d1_.data(), static_cast<std::ptrdiff_t>(count) - 1,
-               tie_point_.data(), tie_value_a_.data(), tie_value_b_.data(), plain_.data());
+    BRUSHFIRE_ON_TARGET(Variant::Best,
+                        tie_points(w, d0_.data(), d1_.data(), count - 1,
+                                   {tie_point_.data(), tie_value_a_.data(), tie_value_b_.data(), plain_.data()}));
   }
   // (What is said of linear windows there is not meant.)
   for (Index i = 0; w.mixed && i + 1 < count; ++i) {
     if (w.is_linear(i) || w.is_linear(i + 1)) plain_[i] = 0;
   }
-  const bool all_may_be_cut = nearly_on_edge(w.b0, w.b1, w.y, count) == 0;
+  const bool all_may_be_cut = !BRUSHFIRE_ON_TARGET(Variant::Best, any_nearly_on_edge(w, count));
   kept_.clear();
   for (Index i = 0; i < count; ++i) {
     // Plain, if the one before is still there and what it lost on its left does not reach into this one.

@@ -17,7 +17,7 @@ class ListTrimmer {
  public:
   // Nothing beyond `radius` is wanted. The list may move to another block of the pool.
   void operator()(WindowList& list, const EdgeBounds& edge, Real radius, BlockPool& blocks);
-  // Only what other paths to the ends of the edge make superfluous, and what is not wanted.
+  // Only what paths to the ends of the edge make superfluous, if any are given, and what is not wanted.
   void drop_useless(WindowList& list, const EdgeBounds& edge, Real radius);
 
  private:

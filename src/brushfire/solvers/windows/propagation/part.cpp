@@ -52,11 +52,13 @@ void Part::work(std::int64_t last, Workbench& bench) {
       continue;
     }
     prefetching.next_lists();
-    if (goes_in_lists(part, event.index)) {
-      propagate_list(part, event.index);
-    } else {
-      propagate_windows(part, event.index);
+    if constexpr (!kWide) {
+      if (goes_in_lists(part, event.index)) {
+        propagate_list(part, event.index);
+        continue;
+      }
     }
+    propagate_windows(part, event.index);
   }
   collect_fallen();
 }

@@ -22,9 +22,7 @@ inline void offer_apex(PartState& part, Index apex, Real value, const WindowColu
   Sight& sight = part.bench->sight;
   Real* const value = sight.value.data();
   const auto sees = [&](Index i) { return sight.left[i] > 0 && sight.right[i] > 0; };
-  while (true) {
-    const Index i = least_of(value, count);
-    if (value[i] == kInfinity) break;
+  for (Index i = sight.least; i != kNoIndex; i = least_of(value, count)) {
     if (sees(i)) {
       offer_apex(part, apex, value[i], w, i, h);
       return i;
@@ -97,8 +95,10 @@ void propagate_list(PartState& part, Index h) {
   const EdgeBounds edge = part.vertices.bounds(f, h % 3);
   if (list.age >= kTrimEvery || !list.ordered || run.problem->options->keep_windows) {
     bench.trim(list, edge, run.radius, bench.blocks);
-  } else if (run.radius < kInfinity) {
-    bench.trim.drop_useless(list, edge, run.radius);
+  } else if (std::min(edge.start, edge.end) + edge.length > run.radius) {
+    // Elsewhere what is beyond the radius is dominated. That goes when the list is trimmed, as without a radius: so
+    // both give the same bits.
+    bench.trim.drop_useless(list, {edge.length}, run.radius);
   }
   if (list.size > 0) pass_face(part, h, list);
   bench.blocks.release(list.block);

@@ -6,29 +6,22 @@
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
-WindowBlock BlockPool::allocate(Index windows) {
-  WindowBlock block;
-  block.size_class = static_cast<unsigned>(std::bit_width((std::max(windows, Index{1}) - 1) >> 2));
-  std::vector<std::byte*>& free = free_[block.size_class];
-  if (!free.empty()) {
-    block.data = free.back();
-    free.pop_back();
-    return block;
-  }
-  const std::size_t n = block.capacity(), size = n * (5 * sizeof(Real) + sizeof(Index));
+std::byte* BlockPool::cut(std::size_t size) {
   if (size > left_) {
-    chunks_.emplace_back(std::max(size, kChunk));
-    if (size > kChunk) {  // a chunk of its own; the current one stays in use
-      block.data = chunks_.back().data();
-      return block;
-    }
-    unused_ = chunks_.back().data();
+    chunks_.emplace_back(std::max(size, kChunk) + kLine);
+    if (size > kChunk) return first_line(chunks_.back());  // a chunk of its own; the current one stays in use
+    unused_ = first_line(chunks_.back());
     left_ = kChunk;
   }
-  block.data = unused_;
+  std::byte* const block = unused_;
   unused_ += size;
   left_ -= size;
   return block;
+}
+
+std::byte* BlockPool::first_line(std::vector<std::byte>& chunk) {
+  const auto at = reinterpret_cast<std::uintptr_t>(chunk.data());
+  return chunk.data() + ((at + kLine - 1) / kLine * kLine - at);
 }
 
 void BlockPool::clear() {
@@ -36,18 +29,8 @@ void BlockPool::clear() {
   for (std::vector<std::byte*>& free : free_) free.clear();
   if (chunks_.empty()) return;
   chunks_.resize(1);
-  unused_ = chunks_.front().data();
-  left_ = chunks_.front().size();
-}
-
-Index ExactLists::allocate_link() {
-  if (free_link_ == kNoIndex) {
-    links_.emplace_back();
-    return static_cast<Index>(links_.size() - 1);
-  }
-  const Index link = free_link_;
-  free_link_ = links_[link].next;
-  return link;
+  unused_ = first_line(chunks_.front());
+  left_ = chunks_.front().size() - kLine;
 }
 
 void ExactLists::put(Index& first, Index h, Origin origin, const WindowList& list) {
@@ -102,7 +85,7 @@ WindowList ExactLists::take(Index& first, Index h, BlockPool& blocks) {
   *link = end;
   WindowList result = links_[head].list;
   if (last != head) {
-    result = {blocks.allocate(total), 0, 0, true};
+    result = {blocks.allocate(total + kRoomBehind - 1), 0, 0, true};
     const WindowColumns all = result.block.columns();
     for (Index p = head; p != end; p = links_[p].next) {
       const WindowList& part = links_[p].list;
@@ -120,9 +103,14 @@ WindowList ExactLists::take(Index& first, Index h, BlockPool& blocks) {
 }
 
 void ExactLists::prefetch_windows(Index first) const {
-  constexpr std::size_t kLine = 64, kMost = 16;  // lines
+  constexpr std::size_t kMost = 16;  // lines
   if (first == kNoIndex) return;
   const WindowList& list = links_[first].list;
+  if (list.block.size_class <= 1) {
+    const std::byte* const end = list.block.data + list.block.bytes();
+    for (const std::byte* line = list.block.data; line != end; line += kLine) prefetch(line);
+    return;
+  }
   const std::size_t column = list.block.capacity() * sizeof(Real), used = list.size * sizeof(Real);
   std::size_t lines = 0;
   for (std::size_t c = 0; c < 5; ++c) {

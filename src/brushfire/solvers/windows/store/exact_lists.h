@@ -4,19 +4,27 @@
 #include <brushfire/solvers/windows/algebra/columns.h>
 #include <brushfire/solvers/windows/store/prefetch.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace brushfire::windows::BRUSHFIRE_NUMBERS {
 
-// Memory for 4 << size_class windows.
+inline constexpr std::size_t kLine = 64;  // of a cache, in bytes
+
+// Memory for 4 << size_class windows, in whole lines, and kRoomBehind their last numbers.
 struct WindowBlock {
   std::byte* data = nullptr;
   unsigned size_class = 0;
 
   Index capacity() const { return Index{4} << size_class; }
+  std::size_t bytes() const {
+    const std::size_t used = capacity() * (5 * sizeof(Real) + sizeof(Index)) + kRoomBehind * sizeof(Index);
+    return (used + kLine - 1) / kLine * kLine;
+  }
   WindowColumns columns() const {
     const std::size_t n = capacity();
     Real* const d = reinterpret_cast<Real*>(data);
@@ -27,12 +35,26 @@ struct WindowBlock {
 // Blocks cut from chunks; freed ones are used again, so that a run in steady state allocates nothing.
 class BlockPool {
  public:
-  WindowBlock allocate(Index windows);
+  WindowBlock allocate(Index windows) {
+    WindowBlock block;
+    block.size_class = static_cast<unsigned>(std::bit_width((std::max(windows, Index{1}) - 1) >> 2));
+    std::vector<std::byte*>& free = free_[block.size_class];
+    if (free.empty()) {
+      block.data = cut(block.bytes());
+    } else {
+      block.data = free.back();
+      free.pop_back();
+    }
+    return block;
+  }
   void release(const WindowBlock& block) { free_[block.size_class].push_back(block.data); }
   void clear();  // forgets all blocks, keeps the memory of the first chunk
 
  private:
   static constexpr std::size_t kChunk = std::size_t{1} << 18;  // bytes
+  std::byte* cut(std::size_t bytes);
+  static std::byte* first_line(std::vector<std::byte>& chunk);
+
   std::vector<std::vector<std::byte>> chunks_;
   std::byte* unused_ = nullptr;
   std::size_t left_ = 0;
@@ -97,7 +119,15 @@ class ExactLists {
     while (first != kNoIndex && links_[first].halfedge != h) first = links_[first].next;
     return first;
   }
-  Index allocate_link();
+  Index allocate_link() {
+    const Index link = free_link_;
+    if (link == kNoIndex) {
+      links_.emplace_back();
+      return static_cast<Index>(links_.size() - 1);
+    }
+    free_link_ = links_[link].next;
+    return link;
+  }
 
   std::vector<Link> links_;
   Index free_link_ = kNoIndex;  // freed ones, linked by next
