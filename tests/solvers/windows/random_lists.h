@@ -1,4 +1,4 @@
-// RandomLists windows over random triangles, and lists of them.
+// Random windows over random triangles, and lists of them.
 #pragma once
 
 #include <brushfire/solvers/windows/algebra/frame.h>
