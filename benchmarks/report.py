@@ -164,7 +164,7 @@ def when(rows):
         return "at a time that was not noted"
     span = f"on {days[0]}" if len(days) == 1 else f"from {days[0]} to {days[-1]}"
     counts = sorted({r["rounds"] for row in rows for r in row["results"].values() if "rounds" in r})
-    rounds = f"{counts[0]} to {counts[-1]}"
+    rounds = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
     busy = f"{min(loads):.1f} to {max(loads):.1f} programs ran or waited at a time, these included"
     return f"{span}, on {os.cpu_count()} processors of a machine on which\n  {busy} (load averages), {rounds} rounds"
 
