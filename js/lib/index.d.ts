@@ -20,7 +20,14 @@ export class BrushfireError extends Error {
   readonly code: ErrorCode;
 }
 
-export type Method = 'windows' | 'exact' | 'novotni-klein' | 'novotni-klein-2002' | 'kimmel-sethian' | 'carried-source' | 'dijkstra';
+export type Method =
+  | 'windows'
+  | 'exact'
+  | 'novotni-klein'
+  | 'novotni-klein-2002'
+  | 'kimmel-sethian'
+  | 'carried-source'
+  | 'dijkstra';
 
 type TypedArray =
   | Float64Array | Float32Array | Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array;

@@ -167,7 +167,7 @@ def signed_distance(
 
     Left is seen along the curve, the faces lying counter-clockwise: the inside of a closed curve that runs
     counter-clockwise is negative, and curves that nest with opposite senses bound what lies between them. On which
-    side a vertex is, its shortest path says, by where it arrives (docs/curve-sources.md); where there is no side, as on
+    side a vertex is, its shortest path says, by where it arrives (:doc:`/curve-sources`); where there is no side, as on
     the curve, the distance is positive. Walls part curves: what runs along one is on both of its sides.
 
     :param curves: one or several, as :meth:`distance` takes them, without offsets.

@@ -70,8 +70,8 @@ def laplacian(mesh: Mesh, *, delaunay: bool = True) -> tuple[csc_matrix, Floats]
 class HeatSolver:
     """Distances by the heat method, for many sets of sources: two linear systems that are factored once.
 
-    What it gives approximates the distance on the smooth surface that the mesh stands for, and has no bound; docs/heat.md
-    says how near it comes, and when to prefer it. One field at a time is ``mesh.distance(..., method="heat")``.
+    What it gives approximates the distance on the smooth surface that the mesh stands for, and has no bound;
+    :doc:`/heat` says how near it comes, and when to prefer it. One field at a time is ``mesh.distance(..., method="heat")``.
 
     :param mesh: of any kind; its walls are borders of what is open.
     :param time_factor: for how long heat spreads, in units of the mean edge length squared, 1e-12 to 1e6; larger ones

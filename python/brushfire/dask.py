@@ -7,7 +7,7 @@
 
 The mesh goes once to every worker. A block that is lost with its worker is computed by another one; rows that were there
 already are kept, also those of an earlier run or of ``brushfire matrix`` with the same mesh and options. The bytes are
-those of one machine alone. docs/cluster.md
+those of one machine alone (:doc:`/cluster`).
 """
 
 from __future__ import annotations

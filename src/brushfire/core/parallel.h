@@ -1,4 +1,4 @@
-// Parallel loops: a team of threads that shares out the numbers 0, 1, 2, ... and sleeps in between.
+// Parallel loops: a team of threads that shares out the numbers from 0 on, and sleeps in between.
 #pragma once
 
 #include <brushfire/core/progress.h>
