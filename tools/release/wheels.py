@@ -25,6 +25,7 @@ from zig import TARGETS, Target, cmake
 
 HEADERS = ("boost", "fast_float", "nlohmann", "stb", "eigen3")
 # The interpreter whose headers a build takes, and what its wheels are called. 3.12's stable ABI is that of all later ones.
+FLAT_LOOKUP = -2  # the library of names that are looked for everywhere (BIND_SPECIAL_DYLIB_FLAT_LOOKUP)
 PYTHONS = {"cp311": ("3.11", "cp311-cp311"), "abi3": ("3.12", "cp312-abi3")}
 
 
@@ -120,6 +121,8 @@ def build(target: Target, abis: tuple[str, ...] = tuple(PYTHONS)) -> list[Path]:
         wheels.append(pack(target, abi, module(target, abi, sources), sources))
         if target.system == "Linux" and "gnu" in target.triple:
             audit(wheels[-1])
+        if target.system == "Darwin":
+            audit_for_macos(wheels[-1], target)
         if abi == "abi3":
             run(sys.executable, "-m", "abi3audit", "--strict", wheels[-1])
         note(wheels[-1], try_out(target, wheels[-1], PYTHONS[abi][0]))
@@ -149,3 +152,26 @@ def audit(wheel: Path) -> None:
     said = run(sys.executable, "-m", "auditwheel", "show", wheel)
     if "manylinux_2_17" not in said.replace("\n", " "):
         raise SystemExit(said)
+
+
+def audit_for_macos(wheel: Path, target: Target) -> None:
+    """What nothing here can run is looked at: for which processor and which macOS, what it is linked with, and that
+    of names that are looked up when it is loaded all are Python's, since the linker lets anything pass there."""
+    import lief  # others than the wheels for macOS do without
+
+    with zipfile.ZipFile(wheel) as archive:
+        name = next(name for name in archive.namelist() if name.endswith(".so"))
+        module = lief.MachO.parse(list(archive.read(name))).at(0)
+    libraries = [library.name for library in module.libraries][1:]  # the first is its own name
+    dynamic = [binding.symbol.name for binding in module.bindings if binding.has_symbol and binding.library_ordinal == FLAT_LOOKUP]
+    found = {
+        "processor": module.header.cpu_type.name.lower(),
+        "macOS": ".".join(map(str, module.build_version.minos[:2])),
+        "libraries": libraries,
+        "exports": [symbol.name for symbol in module.exported_symbols if symbol.name.startswith("_PyInit")],
+        "names from nowhere": sorted({name for name in dynamic if not name.startswith(("_Py", "__Py"))}),
+    }
+    wanted = {"processor": target.processor, "macOS": "11.0", "libraries": ["/usr/lib/libSystem.B.dylib"], "exports": ["_PyInit__core"],
+              "names from nowhere": []}  # fmt: skip
+    if found != wanted or not dynamic:
+        raise SystemExit(f"{wheel.name}: {found} instead of {wanted}")

@@ -53,6 +53,28 @@ def zig() -> Path:
     return next(folder.glob("lib/python*/site-packages/ziglang/zig"))
 
 
+# zig's own linker for macOS reads no file of names that Python will have, and ends with a segmentation fault where a module
+# is linked as a bundle with undefined names (ziglang/zig, issue 25451). Python loads a dynamic library just as well.
+LINK_FOR_MACOS = """#!/bin/sh
+for argument do
+  shift
+  case $argument in
+    -bundle) argument=-dynamiclib ;;
+    -Wl,@*.sym) argument=-Wl,-undefined,dynamic_lookup ;;
+  esac
+  set -- "$@" "$argument"
+done
+exec "$@"
+"""
+
+
+def write_script(script: Path, text: str) -> None:
+    """Only if it has changed: a compiler cache goes by its date."""
+    if not script.exists() or script.read_text() != text:
+        script.write_text(text)
+        script.chmod(0o755)
+
+
 def toolchain(target: Target) -> Path:
     """CMake's toolchain file, beside the commands that it names. Headers that compile anywhere come from this machine."""
     folder = SCRATCH / target.name / "zig"
@@ -61,13 +83,14 @@ def toolchain(target: Target) -> Path:
         "cc": f"cc -target {target.triple}", "c++": f"c++ -target {target.triple}", "ar": "ar", "ranlib": "ranlib",
         "rc": "rc", "dlltool": "dlltool",
     }.items():  # fmt: skip
-        script = folder / f"zig-{name}"
-        text = f'#!/bin/sh\nexec "{zig()}" {command} "$@"\n'
-        if not script.exists() or script.read_text() != text:  # a compiler cache goes by its date
-            script.write_text(text)
-            script.chmod(0o755)
+        write_script(folder / f"zig-{name}", f'#!/bin/sh\nexec "{zig()}" {command} "$@"\n')
+    write_script(folder / "zig-link", LINK_FOR_MACOS)
     file = folder / "toolchain.cmake"
     found = SCRATCH / target.name / "prefix"
+    # What is not hidden dyld shares with modules of others, also where it is of another libc++.
+    macos = f"""set(CMAKE_CXX_LINKER_LAUNCHER {folder}/zig-link)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)"""
     static = " -DXML_STATIC -DLZMA_API_STATIC" if target.system == "Windows" else ""  # their headers speak of DLLs otherwise
     file.write_text(f"""set(CMAKE_SYSTEM_NAME {target.system})
 set(CMAKE_SYSTEM_PROCESSOR {target.processor})
@@ -90,6 +113,7 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+{macos if target.system == "Darwin" else ""}
 # Boost 1.74 derives from a template that the standard has dropped, and libc++ with it.
 set(CMAKE_CXX_FLAGS_INIT "-D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION{static}")
 """)
