@@ -104,6 +104,23 @@ TEST_F(MatrixJobVerb, MergedShardsAreTheMatrix) {
   EXPECT_FALSE(std::filesystem::exists(path("e.npy")));
 }
 
+TEST_F(MatrixJobVerb, SaysThatAFileIsReplaced) {
+  for (const std::vector<std::string>& output :
+       std::vector<std::vector<std::string>>{{"-o", path("d.npy")}, {"-o", path("d.npz"), "--radius", "2"}}) {
+    EXPECT_EQ(run(output).err.find("is there already"), std::string::npos);
+    const Ended again = run(output);
+    EXPECT_EQ(again.code, 0);
+    EXPECT_NE(again.err.find(output[1] + ": is there already; the new matrix takes its place"), std::string::npos)
+        << again.err;
+  }
+}
+
+TEST_F(MatrixJobVerb, SpeaksOfTheMatrixWhereNothingCanBeWrittenBesideIt) {
+  const Ended ended = run({"-o", path("nowhere/d.npy")});
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_EQ(ended.err.find("brushfire: " + path("nowhere/d.npy") + ": no file can be made beside it"), 0U) << ended.err;
+}
+
 TEST_F(MatrixJobVerb, RefusesOptionsThatAFileHasNoUseFor) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {"-o", path("d.npy"), "--shard", "4/3"},

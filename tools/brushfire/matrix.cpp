@@ -123,6 +123,12 @@ MatrixFileOptions layout_of(const Arguments& a, double unit) {
   return layout;
 }
 
+// Nothing in a .npy, .npz or .mtx file tells whether its matrix is the one that is asked for, as a store does.
+void warn_of_replacing(const std::string& output, const Talk& talk) {
+  if (!std::filesystem::is_regular_file(output)) return;
+  talk.say(output + ": is there already; the new matrix takes its place once it is complete");
+}
+
 Written write_sparse(const Arguments& a, const Domain& domain, Places rows, ValueType type,
                      const MatrixOptions& options, double unit, const Talk& talk) {
   Written w{.output = a.output};
@@ -134,6 +140,7 @@ Written write_sparse(const Arguments& a, const Domain& domain, Places rows, Valu
   told.distance.progress = [&](double share) {
     if (!report) {
       if (found > 0) talk.say(resuming(a.output, found, w.rows));
+      if (found == 0) warn_of_replacing(a.output, talk);
       report = job_progress(talk, w.rows, found);
     }
     if (report) report(share);
@@ -160,6 +167,7 @@ Written write_dense(const Arguments& a, const Domain& domain, Places rows, Place
     return w;
   }
   if (w.found > 0) talk.say(resuming(w.output, w.found, w.rows));
+  if (w.found == 0) warn_of_replacing(w.output, talk);
   report = job_progress(talk, w.rows, w.found);
   job.run();
   w.complete = job.is_complete();

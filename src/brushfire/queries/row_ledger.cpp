@@ -58,13 +58,25 @@ std::string states_of(const SharedFile& file, std::uint64_t from, std::size_t co
   return file.read(from, states) ? states : std::string(count, '\0');
 }
 
+// It is the first that is made, so a folder that is not there or may not be written to shows here: of the matrix's own
+// name is spoken then.
+SharedFile made_or_opened(const std::string& path) {
+  try {
+    return {path, SharedFile::Missing::Created};
+  } catch (const Error& error) {
+    const std::string matrix = path.substr(0, path.rfind(".part.rows"));
+    throw Error(error.code(), matrix + ": no file can be made beside it for the rows that are done (" + error.what() +
+                                  "). Choose a folder that can be written to");
+  }
+}
+
 }  // namespace
 
 RowLedger::RowLedger(std::string path, LedgerHead head, const std::vector<std::uint64_t>& numbers,
                      const std::function<bool()>& is_there, const std::function<void()>& begin)
     : path_(std::move(path)), head_(std::move(head)), states_(kHeadBytes + 8 * numbers.size()) {
   do {
-    file_.emplace(SharedFile(path_, SharedFile::Missing::Created));
+    file_.emplace(made_or_opened(path_));
     file_->lock(kBeginLock);
   } while (!file_->is_at(path_));  // completed and removed in the meantime
   if (!open_existing(is_there)) begin_new(numbers, begin);
