@@ -1,4 +1,5 @@
-"""Wheels of other machines, used as if on these: aarch64 by qemu in a Debian of that kind, Windows by wine.
+"""Wheels of other machines, used as if on these: aarch64 by qemu in a Debian of that kind, Windows by wine, musl in a Python of
+its own.
 
 pip chooses and unpacks for the platform that it is told of, so a wheel's tags are tried, too. Values are the same bits on
 every machine: what is computed is told by a digest, which has to be that of the wheels of this machine.
@@ -12,6 +13,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import musl
 import pythons
 from common import FIRST_STEPS, SCRATCH, run, say
 from machine import MIRROR
@@ -80,6 +82,15 @@ def by_qemu(target: Target, minor: str, wheel: Path) -> str | None:
     said = run(emulator, "-L", root, root / "usr/bin" / program, "-c", FIELDS,
                PYTHONPATH=str(site(target, minor, wheel)), PYTHONHOME=str(root / "usr"))  # fmt: skip
     return f"by qemu, in {program}: {said}"
+
+
+def by_musl(target: Target, minor: str, wheel: Path) -> str | None:
+    if os.geteuid() != 0 or not shutil.which("debootstrap"):
+        say("(musl is tried in a Python that is compiled in a Debian of its own: root, debootstrap)")
+        return None
+    minor = minor if minor == "3.11" else "3.13"  # a later version than the one that it was built for
+    loader, program = musl.python(minor)
+    return f"by musl, in python {minor}: {run(loader, program, '-c', FIELDS, PYTHONPATH=str(site(target, minor, wheel)))}"
 
 
 def by_wine(target: Target, minor: str, wheel: Path) -> str | None:

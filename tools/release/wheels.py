@@ -135,6 +135,8 @@ def try_out(target: Target, wheel: Path, minor: str) -> str | None:
         return elsewhere.by_its_own(interpreter(minor), wheel)
     if target.name == "manylinux-aarch64":
         return elsewhere.by_qemu(target, minor, wheel)
+    if target.name == f"musllinux-{platform.machine()}":
+        return elsewhere.by_musl(target, minor, wheel)
     return elsewhere.by_wine(target, minor, wheel) if target.system == "Windows" else None
 
 
