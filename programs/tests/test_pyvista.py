@@ -5,6 +5,7 @@ import pytest
 
 pyvista = pytest.importorskip("pyvista")
 
+import brushfire.pyvista  # noqa: F401  (what gives surfaces their `brushfire`)
 from octahedron import OPPOSITE, SIDE
 
 
